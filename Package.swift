@@ -1,0 +1,113 @@
+// swift-tools-version: 6.2
+import Foundation
+import PackageDescription
+
+/// Uses the unpacked sources that `scripts/setup` leaves where GitHub can't be reached, and the
+/// canonical URL everywhere else.
+func dependency(_ name: String, url: String, from version: Version) -> Package.Dependency {
+  let environment = ProcessInfo.processInfo.environment
+  let cache =
+    environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")
+  let folder =
+    environment["PHOTOGRAMMETRY_PACKAGES"] ?? cache + "/photogrammetry-cli/packages"
+  let path = "\(folder)/\(name)"
+  return FileManager.default.fileExists(atPath: path + "/Package.swift")
+    ? .package(path: path) : .package(url: url, from: version)
+}
+
+let argumentParser = Target.Dependency.product(
+  name: "ArgumentParser", package: "swift-argument-parser")
+let logging = Target.Dependency.product(name: "Logging", package: "swift-log")
+
+let strict: [SwiftSetting] = [.treatAllWarnings(as: .error)]
+
+// Debian keeps these headers outside the default search path; as system headers they don't warn.
+let strictCxx: [CXXSetting] = [
+  .headerSearchPath("."),
+  .enableWarning("all"),
+  .treatAllWarnings(as: .error),
+  .unsafeFlags([
+    "-isystem", "/usr/include/opencv4", "-isystem", "/usr/include/eigen3",
+"-O3", "-fno-math-errno",
+  ]),
+]
+
+var products: [Product] = [
+  .executable(name: "photogrammetry-cli", targets: ["photogrammetry-cli"])
+]
+var targets: [Target] = [
+  .target(name: "SceneModel", swiftSettings: strict),
+  .target(name: "Formats", dependencies: ["SceneModel"], swiftSettings: strict),
+  .target(name: "Evaluation", dependencies: ["SceneModel"], swiftSettings: strict),
+  .testTarget(name: "SceneModelTests", dependencies: ["SceneModel"], swiftSettings: strict),
+  .testTarget(
+    name: "FormatsTests", dependencies: ["Formats", "SceneModel"], swiftSettings: strict),
+  .testTarget(
+    name: "EvaluationTests", dependencies: ["Evaluation", "SceneModel"], swiftSettings: strict),
+]
+var cliDependencies: [Target.Dependency] = [
+  argumentParser, logging, "Evaluation", "Formats", "SceneModel",
+]
+
+// On macOS the command line is linked against Apple's RealityKit; our engine is for Linux.
+#if os(Linux)
+  products += [
+    .library(name: "RealityKit", targets: ["RealityKit"]),
+    .library(name: "RealityFoundation", targets: ["RealityFoundation"]),
+    .library(name: "simd", targets: ["simd"]),
+  ]
+  targets += [
+    .target(
+      name: "CKernels", cxxSettings: strictCxx,
+      linkerSettings: [
+        .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
+        .linkedLibrary("opencv_imgcodecs"), .linkedLibrary("opencv_features2d"),
+        .linkedLibrary("opencv_calib3d"), .linkedLibrary("opencv_flann"),
+        .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
+        .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"), .linkedLibrary("exif"),
+      ]),
+    .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
+    .target(
+      name: "Pipeline", dependencies: ["Kernels", "Formats", "SceneModel", logging],
+      swiftSettings: strict),
+    .target(name: "simd", swiftSettings: strict),
+    .target(
+      name: "RealityFoundation", dependencies: ["Pipeline", "SceneModel", "simd", logging],
+      swiftSettings: strict),
+    .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),
+    .target(
+      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "Formats"],
+      path: "Tests/TestSupport", swiftSettings: strict),
+    .testTarget(
+      name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
+      swiftSettings: strict),
+    .testTarget(
+      name: "PipelineTests", dependencies: ["Pipeline", "Kernels", "SceneModel", "TestSupport"],
+      swiftSettings: strict),
+    .testTarget(
+      name: "RealityFoundationTests", dependencies: ["RealityKit", "TestSupport"],
+      swiftSettings: strict),
+    .testTarget(
+      name: "CommandLineTests", dependencies: ["photogrammetry-cli", "TestSupport"],
+      swiftSettings: strict),
+  ]
+  cliDependencies += ["RealityKit", "Pipeline"]
+#endif
+
+targets.append(
+  .executableTarget(
+    name: "photogrammetry-cli", dependencies: cliDependencies, swiftSettings: strict))
+
+let package = Package(
+  name: "photogrammetry-cli",
+  platforms: [.macOS(.v15)],
+  products: products,
+  dependencies: [
+    dependency(
+      "swift-argument-parser", url: "https://github.com/apple/swift-argument-parser",
+      from: "1.3.0"),
+    dependency("swift-log", url: "https://github.com/apple/swift-log", from: "1.5.0"),
+  ],
+  targets: targets,
+  cxxLanguageStandard: .cxx17
+)

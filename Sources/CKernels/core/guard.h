@@ -1,0 +1,65 @@
+#pragma once
+
+#include <new>
+#include <stdexcept>
+#include <string>
+
+#include "ck_core.h"
+
+namespace ck {
+
+/// Thrown by `step` when the caller asks to stop.
+struct Cancelled {};
+
+/// Thrown when valid input does not determine a result.
+struct Degenerate : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Stores the message that `ck_last_error` returns on this thread.
+void set_last_error(const std::string& message);
+
+/// Reports progress; throws `Cancelled` when the caller asks to stop.
+inline void step(const ck_control* control, double fraction) {
+  if (control && control->should_continue &&
+      !control->should_continue(control->context, fraction)) {
+    throw Cancelled{};
+  }
+}
+
+inline int thread_count(const ck_control* control) {
+  return control && control->threads > 0 ? control->threads : 1;
+}
+
+inline void require(bool condition, const char* message) {
+  if (!condition) throw std::invalid_argument(message);
+}
+
+/// Runs a kernel body; no exception leaves it.
+template <typename Body>
+ck_status guarded(Body&& body) noexcept {
+  try {
+    body();
+    return ck_ok;
+  } catch (const Cancelled&) {
+    set_last_error("cancelled");
+    return ck_cancelled;
+  } catch (const std::invalid_argument& e) {
+    set_last_error(e.what());
+    return ck_invalid_argument;
+  } catch (const Degenerate& e) {
+    set_last_error(e.what());
+    return ck_degenerate;
+  } catch (const std::bad_alloc&) {
+    set_last_error("out of memory");
+    return ck_failed;
+  } catch (const std::exception& e) {
+    set_last_error(e.what());
+    return ck_failed;
+  } catch (...) {
+    set_last_error("unknown exception");
+    return ck_failed;
+  }
+}
+
+}  // namespace ck

@@ -1,0 +1,21 @@
+#include <glog/logging.h>
+#include <open3d/utility/Logging.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include "ck_core.h"
+
+void ck_silence_libraries(void) {
+  static const bool once = [] {
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
+    // Kernels fan out themselves; a second level of threads would only break determinism.
+    cv::setNumThreads(1);
+    FLAGS_minloglevel = google::GLOG_FATAL;
+    open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);
+    open3d::utility::Logger::GetInstance().SetPrintFunction([](const std::string&) {});
+    return true;
+  }();
+  (void)once;
+}

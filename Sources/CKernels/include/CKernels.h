@@ -1,0 +1,7 @@
+/// The umbrella of the C boundary: one header a kernel family.
+#ifndef CKERNELS_H
+#define CKERNELS_H
+
+#include "ck_core.h"
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef CK_CORE_H
+#define CK_CORE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How a kernel call ended.
+typedef enum {
+  ck_ok = 0,
+  ck_cancelled = 1,
+  ck_invalid_argument = 2,
+  /// The input is valid but does not determine a result.
+  ck_degenerate = 3,
+  ck_failed = 4,
+} ck_status;
+
+/// Reports progress and asks whether to go on. May be called from any thread.
+typedef struct {
+  void *context;
+  /// `fraction` runs from 0 to 1. Returns false to cancel the kernel.
+  bool (*should_continue)(void *context, double fraction);
+  /// Threads the kernel may use, at least 1. Results do not depend on it.
+  int32_t threads;
+} ck_control;
+
+/// What went wrong in the last call on this thread that did not return `ck_ok`.
+///
+/// Valid until the next kernel call on the same thread.
+const char *ck_last_error(void);
+
+/// Redirects the messages of OpenCV, glog and Open3D away from the terminal. Call once.
+void ck_silence_libraries(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,41 @@
+import Foundation
+import Synchronization
+
+extension KernelControl {
+  /// Maps `0..<count` on the control's threads; results are in index order whatever the threads do.
+  ///
+  /// Blocks the calling thread. Reports progress and throws `CancellationError` between units. The
+  /// error of the lowest failed index is thrown.
+  package func parallelMap<Result: Sendable>(
+    _ count: Int, _ body: @escaping @Sendable (Int) throws -> Result
+  ) throws -> [Result] {
+    let threads = min(threadCount, count)
+    guard threads > 1 else {
+      return try (0..<count).map { index in
+        try step(Double(index) / Double(count))
+        return try body(index)
+      }
+    }
+    let results = Mutex<[Swift.Result<Result, any Error>?]>(Array(repeating: nil, count: count))
+    let next = Atomic<Int>(0)
+    let stop = Atomic<Bool>(false)
+    DispatchQueue.concurrentPerform(iterations: threads) { _ in
+      while !stop.load(ordering: .relaxed) {
+        let index = next.add(1, ordering: .relaxed).oldValue
+        guard index < count else { return }
+        let result = Swift.Result {
+          try self.step(Double(index) / Double(count))
+          return try body(index)
+        }
+        if case .failure = result { stop.store(true, ordering: .relaxed) }
+        results.withLock { $0[index] = result }
+      }
+    }
+    return try results.withLock { slots in
+      if let failure = slots.lazy.compactMap({ $0 }).first(where: { (try? $0.get()) == nil }) {
+        _ = try failure.get()
+      }
+      return try slots.compactMap { try $0?.get() }
+    }
+  }
+}

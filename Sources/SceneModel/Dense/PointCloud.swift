@@ -1,0 +1,36 @@
+/// Oriented, coloured points as parallel arrays, in the world frame of the reconstruction.
+package struct PointCloud: Sendable {
+  package var positions: [SIMD3<Float>]
+  /// Unit normals that point to the cameras' side of the surface.
+  package var normals: [SIMD3<Float>]
+  /// RGB.
+  package var colors: [SIMD3<UInt8>]
+  /// Mean ZNCC of the patch over the photos that agree, −1…1.
+  package var consistency: [Float]
+  /// Side length of the surface element that a point stands for, in world units.
+  package var footprints: [Float]
+  /// `visiblePhotos(of: i)` are `photoIndices[photoOffsets[i]..<photoOffsets[i + 1]]`.
+  package var photoOffsets: [UInt32]
+  package var photoIndices: [UInt16]
+
+  package init(
+    positions: [SIMD3<Float>] = [], normals: [SIMD3<Float>] = [], colors: [SIMD3<UInt8>] = [],
+    consistency: [Float] = [], footprints: [Float] = [], photoOffsets: [UInt32] = [0],
+    photoIndices: [UInt16] = []
+  ) {
+    self.positions = positions
+    self.normals = normals
+    self.colors = colors
+    self.consistency = consistency
+    self.footprints = footprints
+    self.photoOffsets = photoOffsets
+    self.photoIndices = photoIndices
+  }
+
+  package var count: Int { positions.count }
+
+  /// Indices of the photos that see point `index`, ascending.
+  package func visiblePhotos(of index: Int) -> ArraySlice<UInt16> {
+    photoIndices[Int(photoOffsets[index])..<Int(photoOffsets[index + 1])]
+  }
+}

@@ -1,0 +1,14 @@
+/// A typed index into the array of all `Entity` values of a run.
+///
+/// Identifiers are dense from 0 in sorted path order, so that `array[id.index]` is the lookup and a
+/// loop over `array.indices` is deterministic.
+package struct ID<Entity>: Hashable, Comparable, Codable, Sendable {
+  package var rawValue: Int32
+
+  package init(_ index: Int) { rawValue = Int32(index) }
+
+  /// The position of the entity in its array.
+  package var index: Int { Int(rawValue) }
+
+  package static func < (lhs: Self, rhs: Self) -> Bool { lhs.rawValue < rhs.rawValue }
+}

@@ -1,0 +1,61 @@
+/// A rotation followed by a translation; name values `bFromA`, so that composition reads.
+///
+/// `x_b = rotation · x_a + translation`.
+package struct RigidTransform: Hashable, Codable, Sendable {
+  package var rotation: Quaternion
+  package var translation: SIMD3<Double>
+
+  package init(rotation: Quaternion, translation: SIMD3<Double>) {
+    self.rotation = rotation
+    self.translation = translation
+  }
+
+  package static let identity = RigidTransform(rotation: .identity, translation: .zero)
+
+  /// `aFromB` of a transform `bFromA`.
+  package var inverse: RigidTransform {
+    let r = rotation.conjugate
+    return RigidTransform(rotation: r, translation: -(r * translation))
+  }
+
+  /// The origin of frame b in frame a; for a `cameraFromWorld` the camera's centre in the world.
+  package var center: SIMD3<Double> { -(rotation.conjugate * translation) }
+
+  package static func * (bFromA: RigidTransform, point: SIMD3<Double>) -> SIMD3<Double> {
+    bFromA.rotation * point + bFromA.translation
+  }
+
+  package static func * (cFromB: RigidTransform, bFromA: RigidTransform) -> RigidTransform {
+    RigidTransform(
+      rotation: (cFromB.rotation * bFromA.rotation).normalized,
+      translation: cFromB.rotation * bFromA.translation + cFromB.translation)
+  }
+}
+
+/// A uniform scale, a rotation and a translation: `x_b = scale · rotation · x_a + translation`.
+package struct SimilarityTransform: Hashable, Codable, Sendable {
+  package var scale: Double
+  package var rotation: Quaternion
+  package var translation: SIMD3<Double>
+
+  package init(scale: Double, rotation: Quaternion, translation: SIMD3<Double>) {
+    self.scale = scale
+    self.rotation = rotation
+    self.translation = translation
+  }
+
+  package static let identity = SimilarityTransform(
+    scale: 1, rotation: .identity, translation: .zero)
+
+  package static func * (bFromA: SimilarityTransform, point: SIMD3<Double>) -> SIMD3<Double> {
+    bFromA.scale * (bFromA.rotation * point) + bFromA.translation
+  }
+
+  /// The `cameraFromB` that sees what `cameraFromA` saw, distances multiplied by `scale`.
+  package func applied(toCameraFromA cameraFromA: RigidTransform) -> RigidTransform {
+    let rotation = (cameraFromA.rotation * self.rotation.conjugate).normalized
+    return RigidTransform(
+      rotation: rotation,
+      translation: scale * cameraFromA.translation - rotation * translation)
+  }
+}

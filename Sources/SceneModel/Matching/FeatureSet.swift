@@ -1,0 +1,29 @@
+/// The keypoints of one photo as parallel arrays.
+package struct FeatureSet: Sendable {
+  /// Bytes of one descriptor (root-SIFT).
+  package static let descriptorLength = 128
+
+  /// Pixels of the upright photo at full size, origin at the top-left corner.
+  package var positions: [SIMD2<Float>]
+  /// Diameter-like SIFT scale (σ) in pixels.
+  package var scales: [Float]
+  /// Radians.
+  package var orientations: [Float]
+  /// `count × 128` bytes.
+  package var descriptors: [UInt8]
+  /// RGB under the keypoint.
+  package var colors: [SIMD3<UInt8>]
+
+  package var count: Int { positions.count }
+
+  package init(
+    positions: [SIMD2<Float>] = [], scales: [Float] = [], orientations: [Float] = [],
+    descriptors: [UInt8] = [], colors: [SIMD3<UInt8>] = []
+  ) {
+    self.positions = positions
+    self.scales = scales
+    self.orientations = orientations
+    self.descriptors = descriptors
+    self.colors = colors
+  }
+}

@@ -1,0 +1,66 @@
+/// An unordered pair of photos, `first < second`.
+package struct PhotoPair: Hashable, Comparable, Codable, Sendable {
+  package let first: ID<Photo>
+  package let second: ID<Photo>
+
+  package init(_ a: ID<Photo>, _ b: ID<Photo>) {
+    (first, second) = a < b ? (a, b) : (b, a)
+  }
+
+  package static func < (lhs: Self, rhs: Self) -> Bool {
+    (lhs.first, lhs.second) < (rhs.first, rhs.second)
+  }
+}
+
+/// A match of feature `first` in the pair's first photo with feature `second` in its second.
+package struct FeatureMatch: Hashable, Codable, Sendable {
+  package var first: Int32
+  package var second: Int32
+
+  package init(first: Int32, second: Int32) {
+    self.first = first
+    self.second = second
+  }
+}
+
+/// A pair of photos whose matches agree with one two-view geometry.
+package struct VerifiedPair: Hashable, Sendable {
+  /// What explains the matches.
+  package enum Model: String, Hashable, Codable, Sendable {
+    /// An essential matrix (calibrated) or fundamental matrix (uncalibrated) with parallax.
+    case essential, fundamental
+    /// A homography explains them as well: a planar scene or a pure rotation.
+    case homography
+  }
+
+  package var pair: PhotoPair
+  package var model: Model
+  /// `secondFromFirst`, the translation of unit length; nil where it can't be had.
+  package var secondFromFirst: RigidTransform?
+  /// Inliers, sorted by `first`.
+  package var matches: [FeatureMatch]
+  /// Median triangulation angle of the inliers in radians; 0 where unknown.
+  package var medianAngle: Double
+
+  package init(
+    pair: PhotoPair, model: Model, secondFromFirst: RigidTransform?, matches: [FeatureMatch],
+    medianAngle: Double
+  ) {
+    self.pair = pair
+    self.model = model
+    self.secondFromFirst = secondFromFirst
+    self.matches = matches
+    self.medianAngle = medianAngle
+  }
+}
+
+/// The photos and the verified pairs between them, sorted by pair.
+package struct ViewGraph: Sendable {
+  package var photoCount: Int
+  package var pairs: [VerifiedPair]
+
+  package init(photoCount: Int, pairs: [VerifiedPair]) {
+    self.photoCount = photoCount
+    self.pairs = pairs
+  }
+}

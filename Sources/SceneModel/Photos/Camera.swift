@@ -1,0 +1,91 @@
+/// A physical camera: body, lens and zoom that several photos share.
+///
+/// A pinhole with OpenCV's distortion; zeros are a plain pinhole. Focal lengths and principal point
+/// are in pixels of the upright photo, whose origin is the corner of the top-left pixel.
+package struct Camera: Hashable, Codable, Sendable {
+  /// Where the focal length comes from.
+  package enum Calibration: String, Hashable, Codable, Sendable { case assumed, exif, refined }
+
+  package var width: Int
+  package var height: Int
+  package var focalLength: SIMD2<Double>
+  package var principalPoint: SIMD2<Double>
+  /// k1, k2, p1, p2 of OpenCV.
+  package var distortion: SIMD4<Double>
+  package var calibration: Calibration
+
+  package init(
+    width: Int, height: Int, focalLength: SIMD2<Double>, principalPoint: SIMD2<Double>? = nil,
+    distortion: SIMD4<Double> = .zero, calibration: Calibration = .assumed
+  ) {
+    self.width = width
+    self.height = height
+    self.focalLength = focalLength
+    self.principalPoint = principalPoint ?? [Double(width) / 2, Double(height) / 2]
+    self.distortion = distortion
+    self.calibration = calibration
+  }
+
+  /// The pixel of a point in the camera frame (x right, y down, z forward, z > 0).
+  package func project(_ point: SIMD3<Double>) -> SIMD2<Double> {
+    distort(SIMD2(point.x, point.y) / point.z) * focalLength + principalPoint
+  }
+
+  /// The point at depth 1 of the viewing ray of a pixel; inverts the distortion by Newton's method.
+  package func unproject(_ pixel: SIMD2<Double>) -> SIMD2<Double> {
+    let distorted = (pixel - principalPoint) / focalLength
+    guard distortion != .zero else { return distorted }
+    var p = distorted
+    for _ in 0..<20 {
+      let (value, jacobian) = distortWithJacobian(p)
+      let residual = value - distorted
+      let determinant = jacobian.0 * jacobian.3 - jacobian.1 * jacobian.2
+      guard abs(determinant) > 1e-9 else { break }
+      let step = SIMD2(
+        jacobian.3 * residual.x - jacobian.1 * residual.y,
+        jacobian.0 * residual.y - jacobian.2 * residual.x) / determinant
+      p -= step
+      if step.squaredLength < 1e-24 { break }
+    }
+    return p
+  }
+
+  /// Applies the lens distortion to normalised image coordinates.
+  package func distort(_ p: SIMD2<Double>) -> SIMD2<Double> {
+    let (k1, k2, p1, p2) = (distortion.x, distortion.y, distortion.z, distortion.w)
+    let r2 = p.squaredLength
+    let radial = 1 + r2 * (k1 + r2 * k2)
+    return [
+      p.x * radial + 2 * p1 * p.x * p.y + p2 * (r2 + 2 * p.x * p.x),
+      p.y * radial + p1 * (r2 + 2 * p.y * p.y) + 2 * p2 * p.x * p.y,
+    ]
+  }
+
+  private func distortWithJacobian(
+    _ p: SIMD2<Double>
+  ) -> (SIMD2<Double>, (Double, Double, Double, Double)) {
+    let (k1, k2, p1, p2) = (distortion.x, distortion.y, distortion.z, distortion.w)
+    let r2 = p.squaredLength
+    let radial = 1 + r2 * (k1 + r2 * k2)
+    let slope = 2 * (k1 + 2 * k2 * r2)
+    let cross = slope * p.x * p.y + 2 * p1 * p.x + 2 * p2 * p.y
+    return (
+      distort(p),
+      (
+        radial + slope * p.x * p.x + 2 * p1 * p.y + 6 * p2 * p.x, cross, cross,
+        radial + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x
+      )
+    )
+  }
+
+  /// The same camera for the photo resized to `width` × `height`.
+  package func resized(width newWidth: Int, height newHeight: Int) -> Camera {
+    let factor = SIMD2(Double(newWidth) / Double(width), Double(newHeight) / Double(height))
+    var camera = self
+    camera.width = newWidth
+    camera.height = newHeight
+    camera.focalLength *= factor
+    camera.principalPoint *= factor
+    return camera
+  }
+}

@@ -1,0 +1,91 @@
+/// A point's keypoint in one photo.
+package struct Observation: Hashable, Codable, Sendable {
+  package var photo: ID<Photo>
+  /// Index into the photo's `FeatureSet`.
+  package var feature: Int32
+  /// The keypoint in pixels of the upright photo, origin at the top-left corner.
+  package var pixel: SIMD2<Double>
+
+  package init(photo: ID<Photo>, feature: Int32, pixel: SIMD2<Double>) {
+    self.photo = photo
+    self.feature = feature
+    self.pixel = pixel
+  }
+}
+
+/// A triangulated point and the observations that it rests on.
+package struct ScenePoint: Hashable, Codable, Sendable {
+  package var position: SIMD3<Double>
+  package var color: SIMD3<UInt8>
+  /// Mean reprojection error in pixels.
+  package var error: Double
+  /// Sorted by photo; at most one observation a photo.
+  package var track: [Observation]
+
+  package init(
+    position: SIMD3<Double>, color: SIMD3<UInt8> = .zero, error: Double = 0,
+    track: [Observation] = []
+  ) {
+    self.position = position
+    self.color = color
+    self.error = error
+    self.track = track
+  }
+}
+
+/// Where the scale and the up direction of the world come from.
+package struct WorldFrame: Hashable, Codable, Sendable {
+  package enum Scale: String, Hashable, Codable, Sendable { case gps, knownDistance, arbitrary }
+  package enum Up: String, Hashable, Codable, Sendable { case gps, supportPlane, cameras, unknown }
+
+  package var scale: Scale
+  package var up: Up
+
+  package init(scale: Scale = .arbitrary, up: Up = .unknown) {
+    self.scale = scale
+    self.up = up
+  }
+}
+
+/// What alignment found: cameras, poses and sparse points in one right-handed world.
+package struct Reconstruction: Sendable {
+  package var cameras: [Camera]
+  package var photos: [Photo]
+  /// `cameraFromWorld` by photo id; nil where the photo is not registered.
+  package var poses: [RigidTransform?]
+  package var points: [ScenePoint]
+  package var worldFrame: WorldFrame
+  /// Photos that passed validation and could not be registered, and why.
+  package var unregistered: [RefusedPhoto]
+
+  package init(
+    cameras: [Camera], photos: [Photo], poses: [RigidTransform?], points: [ScenePoint],
+    worldFrame: WorldFrame = WorldFrame(), unregistered: [RefusedPhoto] = []
+  ) {
+    self.cameras = cameras
+    self.photos = photos
+    self.poses = poses
+    self.points = points
+    self.worldFrame = worldFrame
+    self.unregistered = unregistered
+  }
+
+  /// The registered photos in ascending order.
+  package var registered: [ID<Photo>] { photos.map(\.id).filter { poses[$0.index] != nil } }
+
+  package func camera(of photo: ID<Photo>) -> Camera { cameras[photos[photo.index].camera.index] }
+
+  /// The mean over all observations of the reprojection error in pixels; 0 without observations.
+  package var meanReprojectionError: Double {
+    var (sum, count) = (0.0, 0)
+    for point in points {
+      for observation in point.track {
+        guard let pose = poses[observation.photo.index] else { continue }
+        let projected = camera(of: observation.photo).project(pose * point.position)
+        sum += (projected - observation.pixel).length
+        count += 1
+      }
+    }
+    return count > 0 ? sum / Double(count) : 0
+  }
+}

@@ -1,0 +1,38 @@
+/// Three vertex indices, counter-clockwise seen from outside; 12 bytes.
+package struct Triangle: Hashable, Sendable {
+  package var a: UInt32
+  package var b: UInt32
+  package var c: UInt32
+
+  package init(_ a: UInt32, _ b: UInt32, _ c: UInt32) {
+    (self.a, self.b, self.c) = (a, b, c)
+  }
+}
+
+/// A triangle mesh in the world frame.
+package struct Mesh: Sendable {
+  package var positions: [SIMD3<Float>]
+  /// Unit vertex normals, as many as positions, or empty.
+  package var normals: [SIMD3<Float>]
+  /// RGB a vertex, as many as positions, or empty.
+  package var colors: [SIMD3<UInt8>]
+  package var triangles: [Triangle]
+
+  package init(
+    positions: [SIMD3<Float>] = [], normals: [SIMD3<Float>] = [], colors: [SIMD3<UInt8>] = [],
+    triangles: [Triangle] = []
+  ) {
+    self.positions = positions
+    self.normals = normals
+    self.colors = colors
+    self.triangles = triangles
+  }
+
+  /// The smallest axis-aligned box around all positions; nil for an empty mesh.
+  package var bounds: (min: SIMD3<Float>, max: SIMD3<Float>)? {
+    guard let first = positions.first else { return nil }
+    return positions.reduce((first, first)) {
+      (pointwiseMin($0.0, $1), pointwiseMax($0.1, $1))
+    }
+  }
+}

@@ -1,0 +1,43 @@
+/// The maps of a material.
+package enum TextureMap: String, Hashable, CaseIterable, Comparable, Codable, Sendable {
+  case diffuseColor, normal, roughness, displacement, ambientOcclusion
+
+  package static func < (lhs: Self, rhs: Self) -> Bool {
+    allCases.firstIndex(of: lhs)! < allCases.firstIndex(of: rhs)!
+  }
+}
+
+/// One texture atlas and the triangles that use it.
+package struct TextureAtlas: Sendable {
+  /// The triangles of the mesh that this atlas covers; atlases follow each other without gaps.
+  package var triangles: Range<Int>
+  /// Square images of one side length, top row first. Normal maps are tangent-space RGB
+  /// (0.5, 0.5, 1 is flat, OpenGL's y up); occlusion, roughness and displacement are gray.
+  package var maps: [TextureMap: RasterImage]
+
+  package init(triangles: Range<Int>, maps: [TextureMap: RasterImage]) {
+    self.triangles = triangles
+    self.maps = maps
+  }
+}
+
+/// A mesh with texture coordinates and its atlases.
+package struct TexturedMesh: Sendable {
+  /// Has vertex normals.
+  package var mesh: Mesh
+  /// (0, 0) is the bottom-left corner of the texture.
+  package var textureCoordinates: [SIMD2<Float>]
+  /// For every triangle of the mesh its three indices into `textureCoordinates`.
+  package var textureTriangles: [Triangle]
+  package var atlases: [TextureAtlas]
+
+  package init(
+    mesh: Mesh, textureCoordinates: [SIMD2<Float>], textureTriangles: [Triangle],
+    atlases: [TextureAtlas]
+  ) {
+    self.mesh = mesh
+    self.textureCoordinates = textureCoordinates
+    self.textureTriangles = textureTriangles
+    self.atlases = atlases
+  }
+}
