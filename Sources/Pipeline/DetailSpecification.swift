@@ -1,0 +1,62 @@
+import SceneModel
+
+/// The detail levels of a model, coarse to fine.
+package enum DetailLevel: String, CaseIterable, Codable, Sendable {
+  case preview, reduced, medium, full, raw
+}
+
+/// How texture images are stored.
+package enum TextureFormat: Hashable, Codable, Sendable {
+  case png
+  /// `quality` runs from 0 to 1, best.
+  case jpeg(quality: Float)
+}
+
+/// What a model may have at most: the budgets of a detail level, or of a custom one.
+package struct DetailSpecification: Hashable, Codable, Sendable {
+  /// Upper bound of the number of triangles.
+  package var maximumTriangles: Int
+  /// Upper bound of an atlas's side in texels.
+  package var textureSide: Int
+  package var maximumAtlases: Int
+  package var maps: Set<TextureMap>
+  package var textureFormat: TextureFormat
+  /// Pixels of a view in the dense stage: resolution follows the product.
+  package var viewPixels: Int
+
+  package init(
+    maximumTriangles: Int, textureSide: Int, maximumAtlases: Int = 1, maps: Set<TextureMap>,
+    textureFormat: TextureFormat = .png, viewPixels: Int
+  ) {
+    self.maximumTriangles = maximumTriangles
+    self.textureSide = textureSide
+    self.maximumAtlases = maximumAtlases
+    self.maps = maps
+    self.textureFormat = textureFormat
+    self.viewPixels = viewPixels
+  }
+
+  /// The budgets of one of Apple's levels.
+  package init(_ level: DetailLevel) {
+    let basic: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
+    switch level {
+    case .preview:
+      self.init(
+        maximumTriangles: 24_999, textureSide: 1024, maps: basic, viewPixels: 250_000)
+    case .reduced:
+      self.init(
+        maximumTriangles: 49_999, textureSide: 2048, maps: basic, viewPixels: 500_000)
+    case .medium:
+      self.init(
+        maximumTriangles: 99_999, textureSide: 4096, maps: basic, viewPixels: 1_000_000)
+    case .full:
+      self.init(
+        maximumTriangles: 249_999, textureSide: 8192, maps: Set(TextureMap.allCases),
+        viewPixels: 2_000_000)
+    case .raw:
+      self.init(
+        maximumTriangles: 29_999_999, textureSide: 8192, maximumAtlases: 16,
+        maps: [.diffuseColor], viewPixels: 4_000_000)
+    }
+  }
+}

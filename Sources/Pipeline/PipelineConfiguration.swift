@@ -1,0 +1,25 @@
+import Foundation
+
+/// What a whole run is told.
+package struct PipelineConfiguration: Hashable, Codable, Sendable {
+  /// Separate the object from its support and background.
+  package var isObjectMaskingEnabled: Bool = true
+  /// The photos are in the order of capture, and neighbours overlap.
+  package var isSequential: Bool = false
+  /// Look harder for features on objects of low texture.
+  package var isHighSensitivity: Bool = false
+  /// Where intermediate results are left; nil leaves none.
+  package var checkpointDirectory: URL?
+  /// Threads of all stages. Results do not depend on it.
+  package var threadCount: Int = ProcessInfo.processInfo.activeProcessorCount
+  /// Bytes that decoded photos may take.
+  package var imageMemory: Int = 1 << 30
+
+  package init() {}
+}
+
+/// The stages of a run in their order; the cases of `Output.ProcessingStage`.
+package enum PipelineStage: String, CaseIterable, Codable, Sendable {
+  case preProcessing, imageAlignment, pointCloudGeneration, meshGeneration, textureMapping
+  case optimization
+}

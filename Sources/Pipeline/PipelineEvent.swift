@@ -1,0 +1,14 @@
+import SceneModel
+
+/// What a run tells while it works.
+package enum PipelineEvent: Sendable {
+  case progress(PipelineStage, fraction: Double)
+  /// Validation is over: so many photos are used.
+  case ingested(photos: Int)
+  /// A photo is not used, and why: refused by validation or not registered by alignment.
+  case refused(RefusedPhoto)
+  /// Photos are processed at a lower resolution than they have, to fit the memory.
+  case downsampled
+  case stitchingIncomplete(registered: Int, of: Int)
+  case warning(String)
+}

@@ -1,0 +1,40 @@
+import Foundation
+import SceneModel
+
+/// What a run did, stage by stage and photo by photo: the content of `report.json`.
+package struct RunReport: Codable, Sendable {
+  package struct Stage: Codable, Sendable {
+    package var name: String
+    package var seconds: Double
+    package var cpuSeconds: Double
+    /// Peak resident memory of the process at the stage's end.
+    package var peakMemoryBytes: Int
+    package var counts: [String: Double]
+  }
+
+  package struct PhotoEntry: Codable, Sendable {
+    package enum Status: String, Codable, Sendable { case registered, refused, notRegistered }
+    package var name: String
+    package var status: Status
+    package var reason: String?
+  }
+
+  package var version: String = "1"
+  package var configuration: PipelineConfiguration
+  package var stages: [Stage] = []
+  package var photos: [PhotoEntry] = []
+  package var meanReprojectionError: Double?
+  package var worldFrame: WorldFrame?
+  package var warnings: [String] = []
+
+  package init(configuration: PipelineConfiguration) {
+    self.configuration = configuration
+  }
+
+  /// The report as JSON with sorted keys.
+  package func encoded() throws -> Data {
+    let encoder = JSONEncoder()
+    encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
+    return try encoder.encode(self)
+  }
+}
