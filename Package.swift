@@ -28,7 +28,7 @@ let strictCxx: [CXXSetting] = [
   .treatAllWarnings(as: .error),
   .unsafeFlags([
     "-isystem", "/usr/include/opencv4", "-isystem", "/usr/include/eigen3",
-"-O3", "-fno-math-errno",
+    "-O3", "-fno-math-errno",
   ]),
 ]
 
@@ -105,7 +105,7 @@ let package = Package(
   dependencies: [
     dependency(
       "swift-argument-parser", url: "https://github.com/apple/swift-argument-parser",
-      from: "1.3.0"),
+      from: "1.4.0"),
     dependency("swift-log", url: "https://github.com/apple/swift-log", from: "1.5.0"),
   ],
   targets: targets,

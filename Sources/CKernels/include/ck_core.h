@@ -21,9 +21,9 @@ typedef enum {
 
 /// Reports progress and asks whether to go on. May be called from any thread.
 typedef struct {
-  void *context;
+  void* context;
   /// `fraction` runs from 0 to 1. Returns false to cancel the kernel.
-  bool (*should_continue)(void *context, double fraction);
+  bool (*should_continue)(void* context, double fraction);
   /// Threads the kernel may use, at least 1. Results do not depend on it.
   int32_t threads;
 } ck_control;
@@ -31,7 +31,7 @@ typedef struct {
 /// What went wrong in the last call on this thread that did not return `ck_ok`.
 ///
 /// Valid until the next kernel call on the same thread.
-const char *ck_last_error(void);
+const char* ck_last_error(void);
 
 /// Redirects the messages of OpenCV, glog and Open3D away from the terminal. Call once.
 void ck_silence_libraries(void);

@@ -41,9 +41,10 @@ package struct Camera: Hashable, Codable, Sendable {
       let residual = value - distorted
       let determinant = jacobian.0 * jacobian.3 - jacobian.1 * jacobian.2
       guard abs(determinant) > 1e-9 else { break }
-      let step = SIMD2(
-        jacobian.3 * residual.x - jacobian.1 * residual.y,
-        jacobian.0 * residual.y - jacobian.2 * residual.x) / determinant
+      let step =
+        SIMD2(
+          jacobian.3 * residual.x - jacobian.1 * residual.y,
+          jacobian.0 * residual.y - jacobian.2 * residual.x) / determinant
       p -= step
       if step.squaredLength < 1e-24 { break }
     }
