@@ -65,6 +65,7 @@ var cliDependencies: [Target.Dependency] = [
         .linkedLibrary("opencv_calib3d"), .linkedLibrary("opencv_flann"),
         .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
         .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"), .linkedLibrary("exif"),
+        .linkedLibrary("jpeg"), .linkedLibrary("png"),
       ]),
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(

@@ -1,6 +1,7 @@
 #include <glog/logging.h>
 #include <open3d/utility/Logging.h>
 
+#include <iostream>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
@@ -12,6 +13,8 @@ void ck_silence_libraries(void) {
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
     // Kernels fan out themselves; a second level of threads would only break determinism.
     cv::setNumThreads(1);
+    // OpenCV's decoders write to this stream past its logger.
+    std::cerr.rdbuf(nullptr);
     FLAGS_minloglevel = google::GLOG_FATAL;
     open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);
     open3d::utility::Logger::GetInstance().SetPrintFunction([](const std::string&) {});

@@ -3,5 +3,6 @@
 #define CKERNELS_H
 
 #include "ck_core.h"
+#include "ck_image.h"
 
 #endif

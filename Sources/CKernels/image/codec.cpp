@@ -1,0 +1,128 @@
+#include <png.h>
+
+#include <cstring>
+#include <memory>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "core/guard.h"
+#include "image/buffers.h"
+
+namespace ck {
+
+void require_within(const ck_decode_limits& limits, int64_t width, int64_t height) {
+  require(width > 0 && height > 0, "the image has no pixels");
+  require(width <= limits.maximum_side && height <= limits.maximum_side &&
+              width * height <= limits.maximum_pixels,
+          "the image has too many pixels");
+}
+
+void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+                ck_image& image) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  struct Free {
+    png_image* png;
+    ~Free() { png_image_free(png); }
+  } free_at_end{&png};
+  if (!png_image_begin_read_from_memory(&png, bytes, count)) {
+    throw std::runtime_error(png.message);
+  }
+  require_within(limits, png.width, png.height);
+  // RGBA keeps the colours under transparent pixels, where RGB would composite on a background.
+  png.format = PNG_FORMAT_RGBA;
+  png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
+  std::vector<uint8_t> rgba(PNG_IMAGE_SIZE(png));
+  if (!png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr)) {
+    throw std::runtime_error(png.message);
+  }
+  image.width = static_cast<int32_t>(png.width);
+  image.height = static_cast<int32_t>(png.height);
+  image.pixels.resize(rgba.size() / 4 * 3);
+  for (size_t i = 0; i < rgba.size() / 4; ++i) {
+    std::memcpy(&image.pixels[3 * i], &rgba[4 * i], 3);
+  }
+}
+
+namespace {
+
+void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+                  ck_image& image) {
+  require(count <= static_cast<size_t>(INT32_MAX), "the file is too large");
+  const cv::Mat data(1, static_cast<int>(count), CV_8U, const_cast<uint8_t*>(bytes));
+  const cv::Mat bgr = cv::imdecode(data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  if (bgr.empty() || bgr.type() != CV_8UC3) throw std::runtime_error("it can't be decoded");
+  require_within(limits, bgr.cols, bgr.rows);
+  image.width = bgr.cols;
+  image.height = bgr.rows;
+  image.pixels.resize(bgr.total() * 3);
+  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data());
+  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+}
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec codec,
+                          const ck_decode_limits* limits, ck_image** image) {
+  return ck::guarded([&] {
+    ck::require(bytes && byte_count > 0, "the file is empty");
+    auto result = std::make_unique<ck_image>();
+    switch (codec) {
+      case ck_codec_jpeg:
+        ck::decode_jpeg(bytes, byte_count, *limits, *result);
+        break;
+      case ck_codec_png:
+        ck::decode_png(bytes, byte_count, *limits, *result);
+        break;
+      default:
+        ck::decode_other(bytes, byte_count, *limits, *result);
+    }
+    *image = result.release();
+  });
+}
+
+int32_t ck_image_width(const ck_image* image) { return image->width; }
+int32_t ck_image_height(const ck_image* image) { return image->height; }
+void ck_image_copy(const ck_image* image, uint8_t* destination) {
+  std::memcpy(destination, image->pixels.data(), image->pixels.size());
+}
+void ck_image_free(ck_image* image) { delete image; }
+
+ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
+                          ck_codec codec, int32_t quality, ck_bytes** encoded) {
+  return ck::guarded([&] {
+    ck::require(width > 0 && height > 0, "an image without pixels can't be encoded");
+    ck::require(channels == 1 || channels == 3 || (channels == 4 && codec == ck_codec_png),
+                "this number of channels can't be encoded");
+    const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels));
+    // Of its own, since OpenCV would write into a matrix of the right size that it is given.
+    cv::Mat swapped;
+    switch (channels) {
+      case 3:
+        cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR);
+        break;
+      case 4:
+        cv::cvtColor(source, swapped, cv::COLOR_RGBA2BGRA);
+        break;
+      default:
+        swapped = source;
+    }
+    auto result = std::make_unique<ck_bytes>();
+    const bool png = codec == ck_codec_png;
+    const std::vector<int> options =
+        png ? std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY,
+                               cv::IMWRITE_PNG_STRATEGY_FILTERED}
+            : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1};
+    if (!cv::imencode(png ? ".png" : ".jpg", swapped, result->data, options)) {
+      throw std::runtime_error("the image can't be encoded");
+    }
+    *encoded = result.release();
+  });
+}
+
+size_t ck_bytes_count(const ck_bytes* bytes) { return bytes->data.size(); }
+void ck_bytes_copy(const ck_bytes* bytes, uint8_t* destination) {
+  std::memcpy(destination, bytes->data.data(), bytes->data.size());
+}
+void ck_bytes_free(ck_bytes* bytes) { delete bytes; }

@@ -1,0 +1,84 @@
+#ifndef CK_IMAGE_H
+#define CK_IMAGE_H
+
+#include "ck_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A decoded RGB image, three bytes a pixel, top row first. Free with `ck_image_free`.
+typedef struct ck_image ck_image;
+
+/// Bytes of unknown size that a kernel made. Free with `ck_bytes_free`.
+typedef struct ck_bytes ck_bytes;
+
+typedef enum {
+  ck_codec_jpeg = 0,
+  ck_codec_png = 1,
+  /// TIFF, BMP and WebP through OpenCV.
+  ck_codec_other = 2,
+} ck_codec;
+
+/// What a decoder refuses before it allocates pixels.
+typedef struct {
+  int32_t maximum_side;
+  int64_t maximum_pixels;
+} ck_decode_limits;
+
+/// Pinhole with OpenCV's distortion; pixel origin at the corner of the top-left pixel.
+typedef struct {
+  int32_t width;
+  int32_t height;
+  double focal_length[2];
+  double principal_point[2];
+  /// k1, k2, p1, p2.
+  double distortion[4];
+} ck_camera;
+
+/// Decodes an image file in memory to RGB as stored: no EXIF orientation is applied, alpha is
+/// dropped, 16 bits become 8, gray, palette and CMYK become RGB.
+///
+/// A JPEG whose pixel data is damaged or cut off fails with a message that says so.
+ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec codec,
+                          const ck_decode_limits* limits, ck_image** image);
+
+int32_t ck_image_width(const ck_image* image);
+int32_t ck_image_height(const ck_image* image);
+/// Copies `width × height × 3` bytes.
+void ck_image_copy(const ck_image* image, uint8_t* destination);
+void ck_image_free(ck_image* image);
+
+/// Encodes gray, RGB or RGBA (JPEG: gray or RGB). `quality` is 0…100, JPEG only.
+ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
+                          ck_codec codec, int32_t quality, ck_bytes** encoded);
+
+size_t ck_bytes_count(const ck_bytes* bytes);
+void ck_bytes_copy(const ck_bytes* bytes, uint8_t* destination);
+void ck_bytes_free(ck_bytes* bytes);
+
+/// Resizes: area averages where it shrinks, linear where it grows.
+ck_status ck_image_resize(const uint8_t* source, int32_t width, int32_t height, int32_t channels,
+                          uint8_t* destination, int32_t destination_width,
+                          int32_t destination_height);
+
+/// Turns stored pixels upright by EXIF orientation 1…8. `destination` holds as many bytes as the
+/// source; orientations 5…8 swap width and height.
+ck_status ck_image_turn(const uint8_t* source, int32_t width, int32_t height, int32_t channels,
+                        int32_t orientation, uint8_t* destination);
+
+/// Resamples (bicubic) what `source_camera` saw as `destination_camera`, which has no distortion.
+/// Pixels without source repeat the border. Both images have `channels` channels and the size of
+/// their camera.
+ck_status ck_image_undistort(const uint8_t* source, const ck_camera* source_camera,
+                             int32_t channels, uint8_t* destination,
+                             const ck_camera* destination_camera);
+
+/// Variance of the Laplacian of a gray image divided by the variance of its gray values, both over
+/// the best textured blocks: a measure of sharpness that depends little on what is seen.
+ck_status ck_image_sharpness(const uint8_t* gray, int32_t width, int32_t height, double* sharpness);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,131 @@
+import CKernels
+import Foundation
+import SceneModel
+
+/// Why a file gives no image; each is the end of a sentence that starts with the file's name.
+package enum ImageError: LocalizedError, Hashable, Sendable {
+  /// What the file is instead: "a HEIC image".
+  case unsupportedFormat(String)
+  case tooLarge(width: Int, height: Int)
+  case damaged(String)
+  case unreadable(String)
+
+  package var errorDescription: String? {
+    switch self {
+    case .unsupportedFormat(let name): "it is \(name); convert it to JPEG"
+    case .tooLarge(let width, let height):
+      "it has \(width) × \(height) pixels, more than can be processed; make it smaller"
+    case .damaged(let detail): "\(detail); copy it from the camera again or leave it out"
+    case .unreadable(let detail): "it can't be read: \(detail)"
+    }
+  }
+}
+
+/// Reads and writes image files.
+///
+/// Reads JPEG, PNG, TIFF, BMP and WebP, told apart by content. Images come as 8-bit RGB: 16 bits
+/// are reduced, gray, palette and CMYK converted, and an alpha channel is dropped, which keeps the
+/// colours under transparent pixels. No EXIF orientation is applied: see `RasterImage.turned`.
+package enum ImageCodec {
+  /// Sizes that are refused before anything is decoded.
+  package struct Limits: Hashable, Codable, Sendable {
+    /// Pixels a side.
+    package var maximumSide = 16384
+    package var maximumPixels = 300_000_000
+    /// Bytes a file.
+    package var maximumFileSize = 1 << 30
+
+    package init() {}
+  }
+
+  /// The content of a regular file.
+  package static func contents(
+    of url: URL, limits: Limits = Limits()
+  ) throws(ImageError) -> [UInt8] {
+    let data: Data
+    do {
+      let values = try url.resolvingSymlinksInPath().resourceValues(
+        forKeys: [.isRegularFileKey, .fileSizeKey])
+      guard values.isRegularFile == true else { throw ImageError.unreadable("it is not a file") }
+      guard values.fileSize ?? 0 <= limits.maximumFileSize else {
+        throw ImageError.unreadable("the file is larger than 1 GB")
+      }
+      data = try Data(contentsOf: url)
+    } catch let error as ImageError {
+      throw error
+    } catch {
+      throw .unreadable("check that it exists and its permissions")
+    }
+    return [UInt8](data)
+  }
+
+  /// Decodes the content of an image file, pixels as stored.
+  package static func decode(
+    _ bytes: [UInt8], limits: Limits = Limits()
+  ) throws(ImageError) -> RasterImage {
+    let header = try ImageHeader(bytes)
+    guard header.width <= limits.maximumSide, header.height <= limits.maximumSide,
+      header.width * header.height <= limits.maximumPixels
+    else { throw .tooLarge(width: header.width, height: header.height) }
+    let codec =
+      switch header.format {
+      case .jpeg: ck_codec_jpeg
+      case .png: ck_codec_png
+      case .tiff, .bmp, .webP: ck_codec_other
+      }
+    let rawLimits = ck_decode_limits(
+      maximum_side: Int32(clamping: limits.maximumSide),
+      maximum_pixels: Int64(limits.maximumPixels))
+    var image: OpaquePointer?
+    do {
+      try withKernel(KernelControl()) { _ in
+        withUnsafePointer(to: rawLimits) {
+          ck_image_decode(bytes, bytes.count, codec, $0, &image)
+        }
+      }
+    } catch {
+      throw .damaged("its \(header.format.rawValue) data is damaged (\(message(of: error)))")
+    }
+    guard let image else { throw .damaged("it can't be decoded") }
+    defer { ck_image_free(image) }
+    let (width, height) = (Int(ck_image_width(image)), Int(ck_image_height(image)))
+    let pixels = [UInt8](unsafeUninitializedCapacity: width * height * 3) { buffer, count in
+      if let base = buffer.baseAddress { ck_image_copy(image, base) }
+      count = width * height * 3
+    }
+    return RasterImage(width: width, height: height, channels: 3, pixels: pixels)
+  }
+
+  /// Encodes gray, RGB or RGBA as PNG; the same image gives the same bytes.
+  package static func encodePNG(_ image: RasterImage) throws -> [UInt8] {
+    try encode(image, ck_codec_png, quality: 0)
+  }
+
+  /// Encodes gray or RGB as JPEG; the same image gives the same bytes. `quality` runs from 0 to 1.
+  package static func encodeJPEG(_ image: RasterImage, quality: Float) throws -> [UInt8] {
+    let percent = Int32((min(max(quality.isFinite ? quality : 1, 0), 1) * 100).rounded())
+    return try encode(image, ck_codec_jpeg, quality: percent)
+  }
+
+  private static func encode(
+    _ image: RasterImage, _ codec: ck_codec, quality: Int32
+  ) throws -> [UInt8] {
+    var encoded: OpaquePointer?
+    try withKernel(KernelControl()) { _ in
+      ck_image_encode(
+        image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), codec,
+        quality, &encoded)
+    }
+    guard let encoded else { throw KernelError.failed("the image can't be encoded") }
+    defer { ck_bytes_free(encoded) }
+    let size = ck_bytes_count(encoded)
+    return [UInt8](unsafeUninitializedCapacity: size) { buffer, count in
+      if let base = buffer.baseAddress { ck_bytes_copy(encoded, base) }
+      count = size
+    }
+  }
+
+  private static func message(of error: any Error) -> String {
+    (error as? KernelError)?.description ?? "unknown reason"
+  }
+}

@@ -1,0 +1,136 @@
+import SceneModel
+
+/// What the first bytes of a file say about the image in it, read without decoding.
+///
+/// File names play no part. All reads are bounds-checked.
+package struct ImageHeader: Hashable, Sendable {
+  package enum Format: String, Hashable, Sendable, CaseIterable {
+    case jpeg = "JPEG"
+    case png = "PNG"
+    case tiff = "TIFF"
+    case bmp = "BMP"
+    case webP = "WebP"
+  }
+
+  package var format: Format
+  /// Size in pixels as stored, before any EXIF orientation.
+  package var width: Int
+  package var height: Int
+
+  package init(format: Format, width: Int, height: Int) {
+    self.format = format
+    self.width = width
+    self.height = height
+  }
+
+  /// Reads the header of a file's content.
+  ///
+  /// Throws `ImageError.unsupportedFormat` for everything that is not one of the formats above and
+  /// `ImageError.damaged` when the header of one of them is.
+  package init(_ bytes: [UInt8]) throws(ImageError) {
+    let reader = ByteReader(bytes)
+    guard !bytes.isEmpty else { throw .damaged("the file is empty") }
+    if reader.hasPrefix([0xFF, 0xD8, 0xFF]) {
+      self = try Self.jpeg(reader)
+    } else if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A]) {
+      self = try Self.png(reader)
+    } else if reader.hasPrefix("BM"), bytes.count >= 2, reader.uint32(14, .little) != nil {
+      self = try Self.bmp(reader)
+    } else if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+      self = try Self.webP(reader)
+    } else if let tiff = TIFFStructure(reader) {
+      self = try Self.tiff(tiff)
+    } else {
+      throw .unsupportedFormat(Self.nameOfUnsupported(reader))
+    }
+    guard width > 0, height > 0 else { throw .damaged("its header says it has no pixels") }
+  }
+
+  private static func jpeg(_ reader: ByteReader) throws(ImageError) -> ImageHeader {
+    for segment in JPEGSegments(reader) where segment.isStartOfFrame {
+      let start = segment.payload.lowerBound
+      guard let height = reader.uint16(start + 1, .big), let width = reader.uint16(start + 3, .big)
+      else { break }
+      return ImageHeader(format: .jpeg, width: width, height: height)
+    }
+    throw .damaged("its JPEG header is damaged or cut off")
+  }
+
+  private static func png(_ reader: ByteReader) throws(ImageError) -> ImageHeader {
+    guard reader.hasText("IHDR", at: 12), let width = reader.uint32(16, .big),
+      let height = reader.uint32(20, .big)
+    else { throw .damaged("its PNG header is damaged or cut off") }
+    return ImageHeader(format: .png, width: width, height: height)
+  }
+
+  private static func bmp(_ reader: ByteReader) throws(ImageError) -> ImageHeader {
+    let damaged = ImageError.damaged("its BMP header is damaged or cut off")
+    guard let size = reader.uint32(14, .little) else { throw damaged }
+    if size == 12 {
+      guard let width = reader.uint16(18, .little), let height = reader.uint16(20, .little)
+      else { throw damaged }
+      return ImageHeader(format: .bmp, width: width, height: height)
+    }
+    guard size >= 16, size <= 1024, let width = reader.uint32(18, .little),
+      let height = reader.uint32(22, .little)
+    else { throw damaged }
+    // A negative height means that the top row comes first.
+    let signedHeight = Int(Int32(truncatingIfNeeded: height))
+    return ImageHeader(format: .bmp, width: width, height: abs(signedHeight))
+  }
+
+  private static func webP(_ reader: ByteReader) throws(ImageError) -> ImageHeader {
+    let damaged = ImageError.damaged("its WebP header is damaged or cut off")
+    if reader.hasText("VP8X", at: 12) {
+      guard let width = reader.uint24(24), let height = reader.uint24(27) else { throw damaged }
+      return ImageHeader(format: .webP, width: width + 1, height: height + 1)
+    }
+    if reader.hasText("VP8L", at: 12) {
+      guard let bits = reader.uint32(21, .little) else { throw damaged }
+      return ImageHeader(
+        format: .webP, width: bits & 0x3FFF + 1, height: (bits >> 14) & 0x3FFF + 1)
+    }
+    guard reader.hasText("VP8 ", at: 12), let width = reader.uint16(26, .little),
+      let height = reader.uint16(28, .little)
+    else { throw damaged }
+    return ImageHeader(format: .webP, width: width & 0x3FFF, height: height & 0x3FFF)
+  }
+
+  private static func tiff(_ tiff: TIFFStructure) throws(ImageError) -> ImageHeader {
+    let entries = tiff.entries(ofDirectoryAt: tiff.firstDirectory)
+    func value(_ tag: Int) -> Int? {
+      entries.first { $0.tag == tag }.flatMap { tiff.integer($0) }
+    }
+    // Camera raw files are TIFFs that start with a thumbnail.
+    if value(50706) != nil || value(254).map({ $0 & 1 != 0 }) == true {
+      throw .unsupportedFormat("a camera raw file")
+    }
+    guard let width = value(256), let height = value(257) else {
+      throw .damaged("its TIFF header is damaged or cut off")
+    }
+    return ImageHeader(format: .tiff, width: width, height: height)
+  }
+
+  /// Names the formats that people put among photos, with a word on what to do.
+  private static func nameOfUnsupported(_ reader: ByteReader) -> String {
+    if reader.hasText("ftyp", at: 4) {
+      let brand = reader.text(at: 8, count: 4) ?? ""
+      if ["heic", "heix", "hevc", "heim", "heis", "hevm", "hevs", "mif1", "msf1"].contains(brand) {
+        return "a HEIC image"
+      }
+      return brand.hasPrefix("avi")
+        ? "an AVIF image" : brand == "crx " ? "a camera raw file" : "a video"
+    }
+    let signatures: [(bytes: [UInt8], name: String)] = [
+      (Array("GIF8".utf8), "a GIF image"), ([0x76, 0x2F, 0x31, 0x01], "an OpenEXR image"),
+      ([0, 0, 0, 12, 0x6A, 0x50], "a JPEG 2000 image"),
+      ([0xFF, 0x4F, 0xFF, 0x51], "a JPEG 2000 image"),
+      (Array("8BPS".utf8), "a Photoshop file"), (Array("DDS ".utf8), "a DDS texture"),
+      (Array("%PDF".utf8), "a PDF document"), ([0x50, 0x4B, 3, 4], "a zip archive"),
+      ([0xFF, 0x0A], "a JPEG XL image"), ([0, 0, 0, 12, 0x4A, 0x58, 0x4C], "a JPEG XL image"),
+      ([0, 0, 1, 0], "an icon"),
+    ]
+    if let known = signatures.first(where: { reader.hasPrefix($0.bytes) }) { return known.name }
+    return reader.looksLikeText ? "a text file" : "not an image in a known format"
+  }
+}

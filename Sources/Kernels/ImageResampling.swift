@@ -1,0 +1,84 @@
+import CKernels
+import SceneModel
+
+extension RasterImage {
+  /// The image at another size: area averages where it shrinks, linear where it grows.
+  package func resized(width newWidth: Int, height newHeight: Int) throws -> RasterImage {
+    guard newWidth != width || newHeight != height else { return self }
+    var result = RasterImage(width: newWidth, height: newHeight, channels: channels)
+    try withKernel(KernelControl()) { _ in
+      ck_image_resize(
+        pixels, Int32(width), Int32(height), Int32(channels), &result.pixels, Int32(newWidth),
+        Int32(newHeight))
+    }
+    return result
+  }
+
+  /// The stored image turned upright by its EXIF orientation 1…8.
+  package func turned(byOrientation orientation: Int) throws -> RasterImage {
+    guard orientation != 1 else { return self }
+    let swaps = orientation >= 5
+    var result = RasterImage(
+      width: swaps ? height : width, height: swaps ? width : height, channels: channels)
+    try withKernel(KernelControl()) { _ in
+      ck_image_turn(
+        pixels, Int32(width), Int32(height), Int32(channels), Int32(orientation), &result.pixels)
+    }
+    return result
+  }
+
+  /// What `camera`, which took this image, would have seen as `pinhole`, which has no distortion.
+  ///
+  /// Bicubic; pixels without source repeat the border.
+  package func undistorted(from camera: Camera, to pinhole: Camera) throws -> RasterImage {
+    guard camera.width == width, camera.height == height else {
+      throw KernelError.invalidArgument("the camera does not have the image's size")
+    }
+    guard pinhole.width > 0, pinhole.height > 0 else {
+      throw KernelError.invalidArgument("the pinhole camera has no pixels")
+    }
+    var result = RasterImage(width: pinhole.width, height: pinhole.height, channels: channels)
+    var (source, destination) = (ck_camera(camera), ck_camera(pinhole))
+    try withKernel(KernelControl()) { _ in
+      ck_image_undistort(
+        pixels, &source, Int32(channels), &result.pixels, &destination)
+    }
+    return result
+  }
+
+  /// Gray by the weights of Rec. 601.
+  package var gray: RasterImage {
+    guard channels >= 3 else { return self }
+    var result = RasterImage(width: width, height: height, channels: 1)
+    for index in result.pixels.indices {
+      let at = index * channels
+      let sum = 299 * Int(pixels[at]) + 587 * Int(pixels[at + 1]) + 114 * Int(pixels[at + 2])
+      result.pixels[index] = UInt8((sum + 500) / 1000)
+    }
+    return result
+  }
+
+  /// How sharp the textured parts of a gray image are: variance of the Laplacian by variance.
+  ///
+  /// About 0.01 for strong blur, 0.1 and more for sharp photos at about one megapixel.
+  package func sharpness() throws -> Double {
+    guard channels == 1 else { throw KernelError.invalidArgument("the image is not gray") }
+    var result = 0.0
+    try withKernel(KernelControl()) { _ in
+      ck_image_sharpness(pixels, Int32(width), Int32(height), &result)
+    }
+    return result
+  }
+}
+
+extension ck_camera {
+  init(_ camera: Camera) {
+    self.init(
+      width: Int32(camera.width), height: Int32(camera.height),
+      focal_length: (camera.focalLength.x, camera.focalLength.y),
+      principal_point: (camera.principalPoint.x, camera.principalPoint.y),
+      distortion: (
+        camera.distortion.x, camera.distortion.y, camera.distortion.z, camera.distortion.w
+      ))
+  }
+}

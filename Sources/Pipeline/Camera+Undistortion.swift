@@ -1,0 +1,61 @@
+import SceneModel
+
+extension Camera {
+  /// The camera without distortion that sees the largest rectangle around the principal point which
+  /// this camera's photo fills, with the same focal length where `maximumPixels` allows it.
+  package func undistortedPinhole(maximumPixels: Int) -> Camera {
+    var (low, high) = innerRectangle()
+    // Where border samples were too far apart for the truth, give in a little.
+    for _ in 0..<200 where !isFilled(low, high) {
+      low *= 0.995
+      high *= 0.995
+    }
+    let extent = (high - low) * focalLength
+    let scale = min(1, (Double(maximumPixels) / (extent.x * extent.y)).squareRoot())
+    let focal = focalLength * scale
+    let size = (high - low) * focal
+    return Camera(
+      width: max(1, Int(size.x)), height: max(1, Int(size.y)), focalLength: focal,
+      principalPoint: -low * focal, calibration: calibration)
+  }
+
+  /// Corners, at depth 1, of a rectangle inside the undistorted outline of the photo.
+  private func innerRectangle() -> (low: SIMD2<Double>, high: SIMD2<Double>) {
+    let (w, h) = (Double(width), Double(height))
+    let nominalLow = -principalPoint / focalLength
+    let nominalHigh = (SIMD2(w, h) - principalPoint) / focalLength
+    var (low, high) = (3 * nominalLow, 3 * nominalHigh)
+    let samples = 64
+    for index in 0...samples {
+      let t = Double(index) / Double(samples)
+      let (left, right) = (unproject([0, t * h]), unproject([w, t * h]))
+      let (top, bottom) = (unproject([t * w, 0]), unproject([t * w, h]))
+      if isRegular(left) { low.x = max(low.x, left.x) }
+      if isRegular(right) { high.x = min(high.x, right.x) }
+      if isRegular(top) { low.y = max(low.y, top.y) }
+      if isRegular(bottom) { high.y = min(high.y, bottom.y) }
+    }
+    guard low.x < 0, low.y < 0, high.x > 0, high.y > 0 else { return (nominalLow, nominalHigh) }
+    return (low, high)
+  }
+
+  /// The distortion is increasing at the ray, so that it can be inverted there.
+  private func isRegular(_ p: SIMD2<Double>) -> Bool {
+    let r2 = p.squaredLength
+    let slope = 1 + r2 * (3 * distortion.x + r2 * 5 * distortion.y)
+    return r2.isFinite && slope > 0.05
+  }
+
+  /// All rays on the rectangle's border meet the photo.
+  private func isFilled(_ low: SIMD2<Double>, _ high: SIMD2<Double>) -> Bool {
+    let samples = 64
+    return (0...samples).allSatisfy { index in
+      let p = low + (high - low) * (Double(index) / Double(samples))
+      return [SIMD2(p.x, low.y), [p.x, high.y], [low.x, p.y], [high.x, p.y]].allSatisfy {
+        let pixel = distort($0) * focalLength + principalPoint
+        return isRegular($0) && pixel.x >= -0.01 && pixel.y >= -0.01
+          && pixel.x <= Double(width) + 0.01 && pixel.y <= Double(height) + 0.01
+      }
+    }
+  }
+}

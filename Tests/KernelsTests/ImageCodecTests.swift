@@ -1,0 +1,137 @@
+import Foundation
+import SceneModel
+import Testing
+
+@testable import Kernels
+
+@Suite struct ImageCodecTests {
+  /// Red grows to the right, green downwards, blue is a checkerboard.
+  private func pattern(width: Int = 48, height: Int = 32) -> RasterImage {
+    var image = RasterImage(width: width, height: height, channels: 3)
+    for y in 0..<height {
+      for x in 0..<width {
+        let at = (y * width + x) * 3
+        image.pixels[at] = UInt8(x * 5 % 256)
+        image.pixels[at + 1] = UInt8(y * 7 % 256)
+        image.pixels[at + 2] = (x / 8 + y / 8) % 2 == 0 ? 40 : 200
+      }
+    }
+    return image
+  }
+
+  @Test func pngKeepsEveryPixel() throws {
+    let image = pattern()
+    let bytes = try ImageCodec.encodePNG(image)
+    #expect(try ImageCodec.decode(bytes) == image)
+    #expect(try ImageCodec.encodePNG(image) == bytes)
+    #expect(try ImageHeader(bytes) == ImageHeader(format: .png, width: 48, height: 32))
+  }
+
+  @Test func jpegIsCloseAndDeterministic() throws {
+    let image = pattern()
+    let bytes = try ImageCodec.encodeJPEG(image, quality: 0.95)
+    let decoded = try ImageCodec.decode(bytes)
+    let error = zip(image.pixels, decoded.pixels).map { abs(Int($0) - Int($1)) }.reduce(0, +)
+    #expect(Double(error) / Double(image.pixels.count) < 8)
+    #expect(try ImageCodec.encodeJPEG(image, quality: 0.95) == bytes)
+    #expect(try ImageCodec.encodeJPEG(image, quality: 0.2).count < bytes.count)
+  }
+
+  @Test func grayAndAlphaBecomeRGB() throws {
+    let gray = RasterImage(width: 5, height: 4, channels: 1, filledWith: 77)
+    #expect(
+      try ImageCodec.decode(ImageCodec.encodePNG(gray))
+        == RasterImage(width: 5, height: 4, channels: 3, filledWith: 77))
+    var transparent = RasterImage(width: 5, height: 4, channels: 4, filledWith: 90)
+    for index in stride(from: 3, to: 80, by: 4) { transparent.pixels[index] = 0 }
+    #expect(
+      try ImageCodec.decode(ImageCodec.encodePNG(transparent))
+        == RasterImage(width: 5, height: 4, channels: 3, filledWith: 90))
+  }
+
+  @Test(arguments: [0.2, 0.5, 0.9]) func cutOffFilesAreDamaged(fraction: Double) throws {
+    for bytes in [
+      try ImageCodec.encodeJPEG(pattern(width: 200, height: 200), quality: 0.9),
+      try ImageCodec.encodePNG(pattern(width: 200, height: 200)),
+    ] {
+      let cut = Array(bytes.prefix(Int(Double(bytes.count) * fraction)))
+      let error = #expect(throws: ImageError.self) { try ImageCodec.decode(cut) }
+      guard case .damaged = error else {
+        Issue.record("\(String(describing: error))")
+        continue
+      }
+    }
+  }
+
+  @Test func headersThatPromiseTooMuchAreRefusedBeforeDecoding() throws {
+    var bytes = try ImageCodec.encodePNG(pattern())
+    bytes.replaceSubrange(16..<24, with: [0, 1, 0, 0, 0, 1, 0, 0])
+    #expect(throws: ImageError.tooLarge(width: 65536, height: 65536)) {
+      try ImageCodec.decode(bytes)
+    }
+  }
+
+  @Test func otherContentIsNamed() {
+    let heic: [UInt8] = [0, 0, 0, 24] + Array("ftypheic".utf8) + Array(repeating: 0, count: 12)
+    #expect(throws: ImageError.unsupportedFormat("a HEIC image")) { try ImageHeader(heic) }
+    #expect(throws: ImageError.unsupportedFormat("a text file")) {
+      try ImageHeader(Array("just some notes\n".utf8))
+    }
+    #expect(throws: ImageError.self) { try ImageHeader([]) }
+  }
+
+  @Test func noPrefixOfAnyHeaderCrashes() throws {
+    let bytes = try ImageCodec.encodeJPEG(pattern(), quality: 0.5)
+    for count in 0..<min(700, bytes.count) { _ = try? ImageHeader(Array(bytes.prefix(count))) }
+    let tiff: [UInt8] = [0x49, 0x49, 42, 0, 8, 0, 0, 0, 0xFF, 0xFF, 0, 1, 4, 0]
+    #expect(throws: ImageError.self) { try ImageCodec.decode(tiff) }
+  }
+
+  /// Where the stored top-left pixel of an orientation ends up: the definition in the EXIF standard.
+  @Test(
+    arguments: zip(
+      1...8,
+      [(0, 0), (2, 0), (2, 1), (0, 1), (0, 0), (1, 0), (1, 2), (0, 2)]))
+  func orientationsTurnUpright(orientation: Int, corner: (x: Int, y: Int)) throws {
+    // 3 × 2: the top-left pixel is 1, its right neighbour 2, the one below 4.
+    let stored = RasterImage(width: 3, height: 2, channels: 1, pixels: [1, 2, 3, 4, 5, 6])
+    let upright = try stored.turned(byOrientation: orientation)
+    #expect(upright.width == (orientation < 5 ? 3 : 2))
+    #expect(upright.pixels[corner.y * upright.width + corner.x] == 1)
+    let expected: [[UInt8]] = [
+      [1, 2, 3, 4, 5, 6], [3, 2, 1, 6, 5, 4], [6, 5, 4, 3, 2, 1], [4, 5, 6, 1, 2, 3],
+      [1, 4, 2, 5, 3, 6], [4, 1, 5, 2, 6, 3], [6, 3, 5, 2, 4, 1], [3, 6, 2, 5, 1, 4],
+    ]
+    #expect(upright.pixels == expected[orientation - 1])
+  }
+
+  @Test func reducingAverages() throws {
+    let image = RasterImage(
+      width: 4, height: 2, channels: 1, pixels: [0, 10, 20, 30, 40, 50, 60, 70])
+    let half = try image.resized(width: 2, height: 1)
+    #expect(half.pixels == [25, 45])
+  }
+
+  @Test func undistortingMovesPixelsAsTheCameraSays() throws {
+    let camera = Camera(
+      width: 320, height: 240, focalLength: [280, 282], principalPoint: [158, 121],
+      distortion: [-0.2, 0.05, 0.001, -0.002])
+    let pinhole = Camera(
+      width: 300, height: 220, focalLength: [270, 270], principalPoint: [150, 108])
+    // A smooth image, so that interpolation adds next to nothing.
+    func value(_ p: SIMD2<Double>) -> Double { 40 + 0.5 * p.x + 0.2 * p.y }
+    var image = RasterImage(width: 320, height: 240, channels: 1)
+    for index in image.pixels.indices {
+      let p = SIMD2(Double(index % 320) + 0.5, Double(index / 320) + 0.5)
+      image.pixels[index] = UInt8(value(p).rounded())
+    }
+    let result = try image.undistorted(from: camera, to: pinhole)
+    var worst = 0.0
+    for (x, y) in [(40, 30), (150, 108), (260, 40), (35, 190), (270, 200)] {
+      let ray = pinhole.unproject([Double(x) + 0.5, Double(y) + 0.5])
+      let source = camera.project([ray.x, ray.y, 1])
+      worst = max(worst, abs(value(source) - Double(result.pixels[y * 300 + x])))
+    }
+    #expect(worst < 1.1)
+  }
+}
