@@ -3,6 +3,8 @@
 #define CKERNELS_H
 
 #include "ck_core.h"
+#include "ck_features.h"
 #include "ck_image.h"
+#include "ck_matching.h"
 
 #endif

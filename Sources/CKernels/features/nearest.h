@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace ck {
+
+constexpr size_t kDescriptorLength = 128;
+/// Squared distances are below this; also the distance to a neighbour that doesn't exist.
+constexpr uint32_t kFar = 1u << 20;
+/// Bits of a packed key that hold an index; the rest hold the squared distance.
+constexpr int kIndexBits = 12;
+
+/// The two nearest neighbours of a descriptor by squared distance; ties go to the lower index.
+struct NearestTwo {
+  uint32_t distance = kFar;
+  uint32_t second = kFar;
+  uint32_t index = UINT32_MAX;
+
+  void offer(uint32_t candidate, uint32_t candidate_index) {
+    if (candidate < distance || (candidate == distance && candidate_index < index)) {
+      second = distance;
+      distance = candidate;
+      index = candidate_index;
+    } else if (candidate < second) {
+      second = candidate;
+    }
+  }
+};
+
+/// A rectangle of the table of distances between two sets of descriptors.
+struct DistanceBlock {
+  const uint8_t* rows;
+  size_t row_begin, row_end;
+  const uint8_t* columns;
+  size_t column_begin, column_end;
+};
+
+// Each offers every distance of the block to its row and to its column. The vector versions need
+// rows in eights and columns in thirty-twos, at most 2^12 rows and 2^15 columns, and squared
+// norms of which any two add to less than `kFar`.
+void nearest_portable(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
+void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
+void nearest_avx512_vnni(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
+
+/// Squared length of a descriptor.
+uint32_t squared_norm(const uint8_t* descriptor);
+
+/// Offers the packed (distance, index) pairs that one lane of a vector has kept.
+inline void offer_packed(NearestTwo& nearest, uint32_t best, uint32_t second, uint32_t first_index,
+                         uint32_t index_step) {
+  if (best != UINT32_MAX) {
+    const uint32_t place = best & ((1u << kIndexBits) - 1);
+    nearest.offer(best >> kIndexBits, first_index + place * index_step);
+  }
+  // Its index doesn't matter: it can't be the best any more, or ties with it and comes later.
+  if (second != UINT32_MAX) nearest.offer(second >> kIndexBits, UINT32_MAX);
+}
+
+}  // namespace ck

@@ -1,0 +1,37 @@
+#include <algorithm>
+
+#include "features/nearest.h"
+
+namespace ck {
+namespace {
+
+uint32_t squared_distance(const uint8_t* a, const uint8_t* b) {
+  int32_t sum = 0;
+  for (size_t k = 0; k < kDescriptorLength; ++k) {
+    const int32_t difference = int32_t{a[k]} - int32_t{b[k]};
+    sum += difference * difference;
+  }
+  return static_cast<uint32_t>(sum);
+}
+
+}  // namespace
+
+uint32_t squared_norm(const uint8_t* descriptor) {
+  uint32_t sum = 0;
+  for (size_t k = 0; k < kDescriptorLength; ++k) sum += uint32_t{descriptor[k]} * descriptor[k];
+  return sum;
+}
+
+void nearest_portable(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column) {
+  for (size_t i = block.row_begin; i < block.row_end; ++i) {
+    const uint8_t* row = block.rows + i * kDescriptorLength;
+    for (size_t j = block.column_begin; j < block.column_end; ++j) {
+      const uint32_t distance =
+          std::min(squared_distance(row, block.columns + j * kDescriptorLength), kFar - 1);
+      by_row[i].offer(distance, static_cast<uint32_t>(j));
+      by_column[j].offer(distance, static_cast<uint32_t>(i));
+    }
+  }
+}
+
+}  // namespace ck

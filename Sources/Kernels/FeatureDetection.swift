@@ -1,0 +1,76 @@
+import CKernels
+import SceneModel
+
+/// SIFT with root-SIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR 2012).
+package struct FeatureDetection: Hashable, Codable, Sendable {
+  /// Features kept at most, the strongest of each part of the photo.
+  package var maximumFeatures = 8000
+  /// Lowe's contrast threshold for intensities 0…1.
+  package var contrastThreshold = 0.02
+  /// The threshold is multiplied by a factor between these two, the highest that still leaves
+  /// `sufficientFeatures`.
+  package var lowestFactor = 0.8
+  package var highestFactor = 1.2
+  /// Features that are enough for a photo.
+  package var sufficientFeatures = 6000
+  /// Lowe's limit on the ratio of principal curvatures.
+  package var edgeThreshold = 10.0
+  /// Scale samples of one octave.
+  package var octaveLayers = 3
+  /// Gaussian blur of the first layer in pixels.
+  package var sigma = 1.6
+  /// Cells along the longer side of the grid over which the features are balanced.
+  package var gridCells = 12
+
+  package init() {}
+
+  /// The features of an image with 1, 3 (RGB) or 4 channels, sorted by scale, largest first.
+  ///
+  /// Positions are in the image's pixels, origin at the corner of the top-left one. An image without
+  /// texture has none.
+  package func features(in image: RasterImage, _ control: KernelControl) throws -> FeatureSet {
+    var set = FeatureSet(
+      positions: Array(repeating: .zero, count: maximumFeatures),
+      scales: Array(repeating: 0, count: maximumFeatures),
+      orientations: Array(repeating: 0, count: maximumFeatures),
+      descriptors: Array(repeating: 0, count: maximumFeatures * FeatureSet.descriptorLength),
+      colors: Array(repeating: .zero, count: maximumFeatures))
+    var options = kernelOptions
+    var count = 0
+    try withKernel(control) { control in
+      set.positions.withUnsafeMutableBytes { positions in
+        set.colors.withUnsafeMutableBytes { colors in
+          ck_sift_detect(
+            image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
+            image.width * image.channels, &options, control,
+            positions.baseAddress?.assumingMemoryBound(to: Float.self), &set.scales,
+            &set.orientations, &set.descriptors,
+            colors.baseAddress?.assumingMemoryBound(to: UInt8.self),
+            MemoryLayout<SIMD3<UInt8>>.stride, &count)
+        }
+      }
+    }
+    set.truncate(to: count)
+    return set
+  }
+
+  private var kernelOptions: ck_sift_options {
+    ck_sift_options(
+      maximum_features: Int32(clamping: maximumFeatures), octave_layers: Int32(octaveLayers),
+      high_contrast_threshold: contrastThreshold * highestFactor,
+      low_contrast_threshold: contrastThreshold * lowestFactor,
+      sufficient_features: Int32(clamping: sufficientFeatures), edge_threshold: edgeThreshold,
+      sigma: sigma, grid_cells: Int32(gridCells))
+  }
+}
+
+extension FeatureSet {
+  /// Keeps the first `count` features.
+  fileprivate mutating func truncate(to count: Int) {
+    positions.removeLast(positions.count - count)
+    scales.removeLast(scales.count - count)
+    orientations.removeLast(orientations.count - count)
+    descriptors.removeLast(descriptors.count - count * FeatureSet.descriptorLength)
+    colors.removeLast(colors.count - count)
+  }
+}
