@@ -117,8 +117,8 @@ ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const u
     for (size_t i = 0; i < first_count; i += ck::kBlockRows) {
       ck::step(control, static_cast<double>(i) / static_cast<double>(first_count));
       for (size_t j = 0; j < second_count; j += ck::kBlockColumns) {
-        const ck::DistanceBlock block{first, i, std::min(first_count, i + ck::kBlockRows), second,
-                                      j, std::min(second_count, j + ck::kBlockColumns)};
+        const ck::DistanceBlock block{first,  i, std::min(first_count, i + ck::kBlockRows),
+                                      second, j, std::min(second_count, j + ck::kBlockColumns)};
         ck::scan_block(block, path, by_row.data(), by_column.data());
       }
     }

@@ -9,9 +9,9 @@
 namespace ck {
 namespace {
 
-constexpr size_t kLanes = 16;   // columns of a tile
-constexpr size_t kGroup = 8;    // rows handled together
-constexpr size_t kChunk = 64;   // rows whose state stays in the first-level cache
+constexpr size_t kLanes = 16;  // columns of a tile
+constexpr size_t kGroup = 8;   // rows handled together
+constexpr size_t kChunk = 64;  // rows whose state stays in the first-level cache
 constexpr size_t kSteps = kDescriptorLength / 4;
 
 /// Rows as signed bytes, four bytes of eight rows in turn. With a signed row a − 128 the product

@@ -32,8 +32,8 @@ void apply_threshold(std::vector<size_t>& order, const std::vector<Candidate>& c
 
 /// The rank of each of `order` within its cell.
 std::vector<size_t> ranks_in_cells(const std::vector<size_t>& order,
-                                   const std::vector<Candidate>& candidates, int width,
-                                   int height, int cells) {
+                                   const std::vector<Candidate>& candidates, int width, int height,
+                                   int cells) {
   const float side = std::max(1.0f, static_cast<float>(std::max(width, height)) / cells);
   const int columns = static_cast<int>(std::ceil(width / side));
   const int rows = static_cast<int>(std::ceil(height / side));
@@ -50,8 +50,8 @@ std::vector<size_t> ranks_in_cells(const std::vector<size_t>& order,
 
 }  // namespace
 
-std::vector<size_t> select_features(const std::vector<Candidate>& candidates, int width,
-                                    int height, const Selection& selection) {
+std::vector<size_t> select_features(const std::vector<Candidate>& candidates, int width, int height,
+                                    const Selection& selection) {
   std::vector<size_t> order = by_response(candidates);
   apply_threshold(order, candidates, selection);
   if (order.size() > selection.maximum) {

@@ -24,8 +24,9 @@ struct Selection {
 };
 
 /// The indices of the features to keep, ascending: those above a threshold that adapts to the
-/// photo, of these the strongest of each cell of a grid, so that one textured corner can't take all.
-std::vector<size_t> select_features(const std::vector<Candidate>& candidates, int width,
-                                    int height, const Selection& selection);
+/// photo, of these the strongest of each cell of a grid, so that one textured corner can't take
+/// all.
+std::vector<size_t> select_features(const std::vector<Candidate>& candidates, int width, int height,
+                                    const Selection& selection);
 
 }  // namespace ck

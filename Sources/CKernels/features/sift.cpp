@@ -45,8 +45,8 @@ void write_root_sift(const float* descriptor, uint8_t* bytes) {
   }
 }
 
-void write_color(const uint8_t* pixels, int width, int height, int channels, size_t stride,
-                 float x, float y, uint8_t* color) {
+void write_color(const uint8_t* pixels, int width, int height, int channels, size_t stride, float x,
+                 float y, uint8_t* color) {
   const int column = std::clamp(static_cast<int>(x), 0, width - 1);
   const int row = std::clamp(static_cast<int>(y), 0, height - 1);
   const uint8_t* pixel = pixels + row * stride + static_cast<size_t>(column) * channels;
@@ -59,8 +59,8 @@ struct Detection {
 };
 
 Detection detect(const cv::Mat& gray, const ck_sift_options& options) {
-  // Descriptors are made for all that OpenCV returns, so ask for little more than is kept.
-  const int limit = options.maximum_features + options.maximum_features / 2;
+  // Descriptors are made for all that OpenCV returns, so bound them before the grid does.
+  const int limit = 2 * options.maximum_features;
   auto sift = cv::SIFT::create(limit, options.octave_layers, options.low_contrast_threshold,
                                options.edge_threshold, options.sigma);
   Detection result;
@@ -81,9 +81,8 @@ std::vector<size_t> selected(const std::vector<cv::KeyPoint>& keypoints, int wid
   selection.high_threshold = static_cast<float>(options.high_contrast_threshold);
   selection.cells = options.grid_cells;
   std::vector<size_t> kept = select_features(candidates, width, height, selection);
-  std::sort(kept.begin(), kept.end(), [&](size_t a, size_t b) {
-    return larger_scale_first(keypoints[a], keypoints[b]);
-  });
+  std::sort(kept.begin(), kept.end(),
+            [&](size_t a, size_t b) { return larger_scale_first(keypoints[a], keypoints[b]); });
   return kept;
 }
 
@@ -101,9 +100,9 @@ ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, i
     ck::require(width >= 0 && height >= 0, "the size is negative");
     ck::require(channels == 1 || channels == 3 || channels == 4, "1, 3 or 4 channels are needed");
     ck::require(row_stride >= static_cast<size_t>(width) * channels, "the row stride is too small");
-    ck::require(options->maximum_features >= 0 && options->octave_layers > 0 &&
-                    options->grid_cells > 0,
-                "an option is out of range");
+    ck::require(
+        options->maximum_features >= 0 && options->octave_layers > 0 && options->grid_cells > 0,
+        "an option is out of range");
     if (width < 8 || height < 8 || options->maximum_features == 0) return;
     ck::step(control, 0);
     const cv::Mat gray = ck::gray_image(pixels, width, height, channels, row_stride);

@@ -32,16 +32,16 @@ typedef struct {
 /// Detects SIFT features (Lowe, IJCV 2004) and describes them by root-SIFT bytes (Arandjelović and
 /// Zisserman, CVPR 2012): `min(255, round(512 √(d / |d|₁)))`.
 ///
-/// `pixels` is 8-bit with 1, 3 (RGB) or 4 (RGBA) channels, `row_stride` bytes a row. Positions (x, y)
-/// are in pixels with the origin at the corner of the top-left pixel, scales are σ in pixels,
+/// `pixels` is 8-bit with 1, 3 (RGB) or 4 (RGBA) channels, `row_stride` bytes a row. Positions (x,
+/// y) are in pixels with the origin at the corner of the top-left pixel, scales are σ in pixels,
 /// orientations in radians from x to y. The features are sorted by scale, largest first.
 /// The caller owns the outputs, which hold `maximum_features` elements: 2 floats, 1 float, 1 float,
 /// 128 bytes, and `color_stride` bytes of which 3 are written (RGB).
-ck_status ck_sift_detect(const uint8_t *pixels, int32_t width, int32_t height, int32_t channels,
-                         size_t row_stride, const ck_sift_options *options,
-                         const ck_control *control, float *positions, float *scales,
-                         float *orientations, uint8_t *descriptors, uint8_t *colors,
-                         size_t color_stride, size_t *count);
+ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
+                         size_t row_stride, const ck_sift_options* options,
+                         const ck_control* control, float* positions, float* scales,
+                         float* orientations, uint8_t* descriptors, uint8_t* colors,
+                         size_t color_stride, size_t* count);
 
 #ifdef __cplusplus
 }

@@ -28,12 +28,12 @@ bool ck_simd_supported(ck_simd_path path);
 
 /// Matches descriptors by exact nearest neighbours: mutual best with the ratio test both ways.
 ///
-/// At most 65,536 descriptors of 128 bytes a side. `pairs` receives (first, second) indices, the most
-/// distinctive pair (smallest ratio of best to second best) first; it holds
-/// `2 × min(first_count, second_count)` elements. Ties go to the lower index.
-ck_status ck_match_descriptors(const uint8_t *first, size_t first_count, const uint8_t *second,
-                               size_t second_count, const ck_match_options *options,
-                               const ck_control *control, int32_t *pairs, size_t *pair_count);
+/// At most 65,536 descriptors of 128 bytes a side. `pairs` receives (first, second) indices, the
+/// most distinctive pair (smallest ratio of best to second best) first; it holds `2 ×
+/// min(first_count, second_count)` elements. Ties go to the lower index.
+ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const uint8_t* second,
+                               size_t second_count, const ck_match_options* options,
+                               const ck_control* control, int32_t* pairs, size_t* pair_count);
 
 #ifdef __cplusplus
 }
