@@ -73,7 +73,8 @@ var cliDependencies: [Target.Dependency] = [
       swiftSettings: strict),
     .target(name: "simd", swiftSettings: strict),
     .target(
-      name: "RealityFoundation", dependencies: ["Pipeline", "SceneModel", "simd", logging],
+      name: "RealityFoundation",
+      dependencies: ["Pipeline", "Kernels", "SceneModel", "simd", logging],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),
     .target(
@@ -86,7 +87,11 @@ var cliDependencies: [Target.Dependency] = [
       name: "PipelineTests", dependencies: ["Pipeline", "Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
-      name: "RealityFoundationTests", dependencies: ["RealityKit", "TestSupport"],
+      name: "RealityFoundationTests",
+      dependencies: [
+        "RealityKit", "RealityFoundation", "Pipeline", "Kernels", "SceneModel", "simd",
+        "TestSupport",
+      ],
       swiftSettings: strict),
     .testTarget(
       name: "CommandLineTests", dependencies: ["photogrammetry-cli", "TestSupport"],

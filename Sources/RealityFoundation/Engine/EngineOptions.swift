@@ -1,0 +1,11 @@
+import Pipeline
+
+/// What our engine can be told beyond Apple's configuration.
+package struct EngineOptions: Equatable, Sendable {
+  /// Threads of all stages. Results do not depend on it.
+  package var threadCount = ProcessInfo.processInfo.activeProcessorCount
+  /// Suffixes of model files that are accepted besides `usdz`, for instance `glb` and `ply`.
+  package var additionalFileFormats: Set<String> = []
+
+  package init() {}
+}

@@ -1,0 +1,51 @@
+/// Where a model goes: the URL decides about the kind of output.
+enum OutputLocation: Hashable {
+  case file(URL)
+  case folder(URL)
+
+  /// Takes a URL as Apple's session does: by the suffix `usdz`, or else as a folder.
+  init(_ url: URL, additionalFormats: Set<String> = []) throws(PhotogrammetrySession.Error) {
+    if Self.fault(of: url, additionalFormats: additionalFormats) != nil {
+      throw .invalidOutput(url)
+    }
+    self = Self.namesFile(url, additionalFormats) ? .file(url) : .folder(url)
+  }
+
+  /// Why nothing can be written there, in a sentence; nil if something can.
+  static func fault(of url: URL, additionalFormats: Set<String> = []) -> String? {
+    guard url.isFileURL else { return "\(url.absoluteString) is not on a disk of this machine." }
+    guard namesFile(url, additionalFormats) else {
+      return url.hasDirectoryPath
+        ? folderFault(of: url) : "\(url.path) names neither a .usdz file nor a folder."
+    }
+    if isDirectory(url) { return "\(url.path) is a folder." }
+    let parent = url.deletingLastPathComponent()
+    guard isDirectory(parent) else { return "The folder \(parent.path) does not exist." }
+    return isWritable(parent) ? nil : "The folder \(parent.path) can't be written to."
+  }
+
+  private static func namesFile(_ url: URL, _ additionalFormats: Set<String>) -> Bool {
+    let suffix = url.pathExtension.lowercased()
+    return suffix == "usdz" || additionalFormats.contains(suffix)
+  }
+
+  /// A folder may have to be made, in the nearest folder above that is there.
+  private static func folderFault(of url: URL) -> String? {
+    var existing = url.standardizedFileURL
+    while !FileManager.default.fileExists(atPath: existing.path), existing.path != "/" {
+      existing = existing.deletingLastPathComponent()
+    }
+    guard isDirectory(existing) else { return "\(existing.path) is a file and not a folder." }
+    return isWritable(existing) ? nil : "The folder \(existing.path) can't be written to."
+  }
+
+  private static func isDirectory(_ url: URL) -> Bool {
+    var isDirectory: ObjCBool = false
+    return FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
+      && isDirectory.boolValue
+  }
+
+  private static func isWritable(_ url: URL) -> Bool {
+    FileManager.default.isWritableFile(atPath: url.path)
+  }
+}

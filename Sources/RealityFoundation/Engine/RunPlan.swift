@@ -1,0 +1,140 @@
+import Pipeline
+import SceneModel
+
+/// A piece of work that is done once, whoever needs it.
+struct WorkUnit: Hashable, Sendable {
+  var stage: PipelineStage
+  /// What the unit is done for; nil for what all levels share.
+  var specification: DetailSpecification?
+
+  static let preProcessing = WorkUnit(stage: .preProcessing)
+  static let alignment = WorkUnit(stage: .imageAlignment)
+  static let densification = WorkUnit(stage: .pointCloudGeneration)
+
+  init(stage: PipelineStage, specification: DetailSpecification? = nil) {
+    self.stage = stage
+    switch stage {
+    case .preProcessing, .imageAlignment, .pointCloudGeneration: self.specification = nil
+    case .meshGeneration, .textureMapping, .optimization: self.specification = specification
+    }
+  }
+}
+
+/// The requests of a run in the order that they are worked on, and what each needs.
+///
+/// What needs least comes first, then models from coarse to fine.
+struct RunPlan: Sendable {
+  /// A request and what has to be done for it.
+  struct Entry: Sendable {
+    var request: PhotogrammetrySession.Request
+    /// In the order of the stages.
+    var units: [WorkUnit]
+    /// What the model is to be like; nil where no model is asked for.
+    var specification: DetailSpecification?
+  }
+
+  let entries: [Entry]
+  /// The requests as they were given, without repetitions.
+  let requests: [PhotogrammetrySession.Request]
+  /// What the shared stages are done for: the finest of all levels.
+  let finest: DetailSpecification
+
+  init(
+    _ requests: [PhotogrammetrySession.Request],
+    configuration: PhotogrammetrySession.Configuration
+  ) {
+    var seen: Set<PhotogrammetrySession.Request> = []
+    self.requests = requests.filter { seen.insert($0).inserted }
+    let specifications = self.requests.compactMap { $0.specification(configuration) }
+    let models = specifications.sorted { $0.viewPixels < $1.viewPixels }
+    let coarsest = models.first ?? DetailSpecification(.preview)
+    finest =
+      models.last ?? DetailSpecification(self.requests.contains(.pointCloud) ? .reduced : .preview)
+    entries = self.requests
+      .map { Entry($0, specification: $0.specification(configuration), coarsest: coarsest) }
+      .enumerated()
+      .sorted { ($0.element.rank, $0.offset) < ($1.element.rank, $1.offset) }
+      .map(\.element)
+  }
+
+  /// All units in the order that they are worked on.
+  var units: [WorkUnit] {
+    var seen: Set<WorkUnit> = []
+    return entries.flatMap(\.units).filter { seen.insert($0).inserted }
+  }
+}
+
+extension RunPlan.Entry {
+  fileprivate init(
+    _ request: PhotogrammetrySession.Request, specification: DetailSpecification?,
+    coarsest: DetailSpecification
+  ) {
+    self.request = request
+    self.specification = specification
+    let last: PipelineStage =
+      switch request {
+      case .poses: .imageAlignment
+      case .pointCloud: .pointCloudGeneration
+      case .bounds: .meshGeneration
+      case .modelFile, .modelEntity: .optimization
+      }
+    if request == .bounds { self.specification = coarsest }
+    let stages = PipelineStage.allCases
+    units = stages.prefix(through: stages.firstIndex(of: last) ?? 0)
+      .map { [specification = self.specification] in
+        WorkUnit(stage: $0, specification: specification)
+      }
+  }
+
+  /// Sorts by how much of the pipeline is needed, then by how fine it is to be.
+  fileprivate var rank: Int {
+    guard units.last?.stage == .optimization else { return units.count }
+    return units.count + (specification?.viewPixels ?? 0)
+  }
+}
+
+extension PhotogrammetrySession.Request {
+  /// The budgets of the model that is asked for; nil where none is.
+  fileprivate func specification(
+    _ configuration: PhotogrammetrySession.Configuration
+  ) -> DetailSpecification? {
+    switch self {
+    case .modelFile(_, let detail, _), .modelEntity(let detail, _):
+      switch detail {
+      case .preview: DetailSpecification(.preview)
+      case .reduced: DetailSpecification(.reduced)
+      case .medium: DetailSpecification(.medium)
+      case .full: DetailSpecification(.full)
+      case .raw: DetailSpecification(.raw)
+      case .custom: DetailSpecification(configuration.customDetailSpecification)
+      }
+    case .bounds, .pointCloud, .poses: nil
+    }
+  }
+}
+
+extension DetailSpecification {
+  /// The budgets of a custom specification, with the resolution of the level next above.
+  init(_ custom: PhotogrammetrySession.Configuration.CustomDetailSpecification) {
+    let triangles = Int(clamping: custom.maximumPolygonCount)
+    let levels = DetailLevel.allCases.map { DetailSpecification($0) }
+    let next = levels.first { $0.maximumTriangles >= triangles - 1 } ?? DetailSpecification(.raw)
+    let maps:
+      [(
+        PhotogrammetrySession.Configuration.CustomDetailSpecification.TextureMapOutputs,
+        TextureMap
+      )] = [
+        (.diffuseColor, .diffuseColor), (.normal, .normal), (.roughness, .roughness),
+        (.displacement, .displacement), (.ambientOcclusion, .ambientOcclusion),
+      ]
+    let format: TextureFormat =
+      switch custom.textureFormat {
+      case .png: .png
+      case .jpeg(let quality): .jpeg(quality: quality.isFinite ? min(max(quality, 0), 1) : 0.8)
+      }
+    self.init(
+      maximumTriangles: triangles, textureSide: Int(custom.maximumTextureDimension.rawValue),
+      maps: Set(maps.filter { custom.outputTextureMaps.contains($0.0) }.map(\.1)),
+      textureFormat: format, viewPixels: next.viewPixels)
+  }
+}

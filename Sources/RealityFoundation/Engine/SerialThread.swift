@@ -1,0 +1,73 @@
+import Synchronization
+
+/// A thread that runs jobs one after another on a value that never leaves it.
+///
+/// Begins with the first job and ends after `stop()`. The numeric stages block for minutes, which
+/// Swift's own pool must not.
+final class SerialThread<Local>: Sendable {
+  typealias Job = @Sendable (inout Local) -> Void
+
+  private struct Queue {
+    var jobs: [Job] = []
+    var isStarted = false
+    var isStopped = false
+  }
+
+  private let name: String
+  private let makeLocal: @Sendable () -> Local
+  private let condition = NSCondition()
+  private let queue = Mutex(Queue())
+
+  init(name: String, makeLocal: @escaping @Sendable () -> Local) {
+    self.name = name
+    self.makeLocal = makeLocal
+  }
+
+  /// Hands over a job; has no effect after `stop()`.
+  func submit(_ job: @escaping Job) {
+    let starts = queue.withLock { queue -> Bool in
+      guard !queue.isStopped else { return false }
+      queue.jobs.append(job)
+      defer { queue.isStarted = true }
+      return !queue.isStarted
+    }
+    if starts { start() }
+    wake()
+  }
+
+  /// Ends the thread after the jobs that it has.
+  func stop() {
+    queue.withLock { $0.isStopped = true }
+    wake()
+  }
+
+  private func start() {
+    let thread = Thread { [self] in
+      var local = makeLocal()
+      while let job = next() { job(&local) }
+    }
+    thread.name = name
+    thread.stackSize = 16 << 20
+    thread.start()
+  }
+
+  private func wake() {
+    condition.lock()
+    condition.broadcast()
+    condition.unlock()
+  }
+
+  /// Waits for a job; nil when there is none and the thread is to end.
+  private func next() -> Job? {
+    condition.lock()
+    defer { condition.unlock() }
+    while true {
+      let (job, isStopped) = queue.withLock { queue in
+        (queue.jobs.isEmpty ? nil : queue.jobs.removeFirst(), queue.isStopped)
+      }
+      if let job { return job }
+      if isStopped { return nil }
+      condition.wait()
+    }
+  }
+}

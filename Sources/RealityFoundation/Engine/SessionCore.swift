@@ -1,0 +1,157 @@
+import Kernels
+import Pipeline
+import SceneModel
+import Synchronization
+
+/// Joins the state of a session, its outputs and the thread that does the work.
+///
+/// Does not refer to the session except while it works, so that an idle session can go away.
+final class SessionCore: Sendable {
+  typealias EventHandler = @Sendable (PipelineEvent) -> Void
+  typealias EngineFactory =
+    @Sendable (EngineTask, CancellationFlag, @escaping EventHandler) throws -> any SessionEngine
+
+  private struct Shared {
+    var state = SessionState()
+    var flag = CancellationFlag()
+    var report: RunReport?
+  }
+
+  /// What lives on the session's thread: the engine and the flag that it was made with.
+  private struct Resident {
+    var engine: (any SessionEngine)?
+    var flag: CancellationFlag?
+  }
+
+  let outputs = OutputBuffer()
+  private let shared = Mutex(Shared())
+  private let makeEngine: EngineFactory
+  private let thread = SerialThread(name: "photogrammetry") { Resident() }
+
+  init(makeEngine: @escaping EngineFactory) { self.makeEngine = makeEngine }
+
+  var isProcessing: Bool { shared.withLock { $0.state.isProcessing } }
+  var activeRequests: [PhotogrammetrySession.Request] {
+    shared.withLock { $0.state.activeRequests }
+  }
+  var report: RunReport? { shared.withLock { $0.report } }
+
+  /// Begins a task on the session's thread; `session` lives until the task has ended.
+  func process(_ task: EngineTask, keepingAlive session: AnyObject) throws {
+    let session = KeepAlive(session)
+    let flag = try shared.withLock { shared in
+      try shared.state.begin(
+        task.plan, photoCount: task.input.fileCount, threadCount: task.options.threadCount,
+        at: now())
+      // A flag can't be taken back: what was cancelled needs another, and another engine.
+      if shared.flag.isCancelled {
+        shared.flag = CancellationFlag()
+        shared.state.forgetWork()
+      }
+      return shared.flag
+    }
+    thread.submit { resident in
+      self.perform(task, flag, &resident)
+      withExtendedLifetime(session) {}
+    }
+  }
+
+  /// Asks to stop.
+  func cancel() {
+    shared.withLock { if $0.state.cancel() { $0.flag.cancel() } }
+  }
+
+  /// Ends the outputs and the thread.
+  func close() {
+    shared.withLock { $0.flag.cancel() }
+    thread.stop()
+    outputs.finish()
+  }
+
+  private func perform(_ task: EngineTask, _ flag: CancellationFlag, _ resident: inout Resident) {
+    do {
+      if resident.flag !== flag { resident = Resident(engine: nil, flag: flag) }
+      let engine =
+        try resident.engine ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
+      resident.engine = engine
+      try work(on: task.plan, with: engine, flag)
+    } catch is CancellationError {
+      // The state knows, and `finished` tells.
+    } catch {
+      for entry in task.plan.entries { fail(entry, error) }
+    }
+    let report = resident.engine?.report
+    shared.withLock { $0.report = report ?? $0.report }
+    emit { $0.finished() }
+  }
+
+  private func work(
+    on plan: RunPlan, with engine: any SessionEngine, _ flag: CancellationFlag
+  ) throws {
+    let count = try engine.ingest()
+    sessionLogger.info("Ingestion done: \(count) photos are used.")
+    emit { $0.ingested(photos: count) }
+    for entry in plan.entries {
+      if flag.isCancelled { throw CancellationError() }
+      shared.withLock { $0.state.began(entry) }
+      do {
+        let result = try engine.result(for: entry, of: plan)
+        emit { $0.completed(entry, result, at: now()) }
+      } catch let error as CancellationError {
+        throw error
+      } catch {
+        fail(entry, error)
+      }
+    }
+  }
+
+  private func fail(_ entry: RunPlan.Entry, _ error: any Swift.Error) {
+    let error: any Swift.Error =
+      error is PhotogrammetrySession.Error ? error : ProcessingError(error)
+    sessionLogger.error("\(entry.request) failed: \(sentence(of: error))")
+    emit { $0.failed(entry, error) }
+  }
+
+  private func handle(_ event: PipelineEvent) {
+    log(event)
+    switch event {
+    case .progress(let stage, let fraction):
+      emit { $0.progressed(stage, fraction: fraction, at: now()) }
+    case .refused(let photo): emit { $0.refused(photo) }
+    case .downsampled: emit { $0.downsampled() }
+    case .stitchingIncomplete: emit { $0.stitchingIncomplete() }
+    case .ingested, .warning: break
+    }
+  }
+
+  /// Changes the state and adds what follows to the outputs, in this order for all threads.
+  private func emit(_ change: (inout SessionState) -> [PhotogrammetrySession.Output]) {
+    shared.withLock { for output in change(&$0.state) { outputs.append(output) } }
+  }
+}
+
+/// Writes an event of the engine to the log.
+private func log(_ event: PipelineEvent) {
+  switch event {
+  case .refused(let photo):
+    sessionLogger.warning("\(photo.name) is not used: \(photo.reason)")
+  case .downsampled:
+    sessionLogger.notice("Photos are used at a lower resolution to fit the memory.")
+  case .stitchingIncomplete(let registered, let count):
+    sessionLogger.warning("Only \(registered) of \(count) photos could be put together.")
+  case .warning(let sentence):
+    sessionLogger.warning("\(sentence)")
+  case .progress, .ingested:
+    break
+  }
+}
+
+/// Seconds of a clock that does not go back.
+private func now() -> Double { ProcessInfo.processInfo.systemUptime }
+
+/// Holds an object of any type while a job runs; nothing but its lifetime is touched.
+private struct KeepAlive: @unchecked Sendable {
+  private let object: AnyObject
+
+  init(_ object: AnyObject) { self.object = object }
+}

@@ -1,0 +1,43 @@
+import Kernels
+import Pipeline
+
+/// What a session asks of the engine behind it; used on one thread.
+protocol SessionEngine: AnyObject {
+  /// Reads all photos and returns the number of those that are used.
+  func ingest() throws -> Int
+  func poses() throws -> PhotogrammetrySession.Poses
+  func pointCloud(_ specification: DetailSpecification) throws -> PhotogrammetrySession.PointCloud
+  func bounds(_ specification: DetailSpecification) throws -> BoundingBox
+  func writeModel(_ specification: DetailSpecification, to url: URL) throws
+  /// What was done so far.
+  var report: RunReport? { get }
+}
+
+/// One call of `process`: everything that the engine needs to know.
+struct EngineTask: Sendable {
+  var input: SessionInput
+  var configuration: PhotogrammetrySession.Configuration
+  var options: EngineOptions
+  var plan: RunPlan
+}
+
+extension SessionEngine {
+  /// Does the work for one request of a plan.
+  func result(
+    for entry: RunPlan.Entry, of plan: RunPlan
+  ) throws -> PhotogrammetrySession.Result {
+    let specification = entry.specification ?? plan.finest
+    switch entry.request {
+    case .poses: return .poses(try poses())
+    case .pointCloud: return .pointCloud(try pointCloud(plan.finest))
+    case .bounds: return .bounds(try bounds(specification))
+    case .modelFile(let url, _, _):
+      try writeModel(specification, to: url)
+      return .modelFile(url)
+    case .modelEntity:
+      throw ProcessingError.notAvailable(
+        "A model in memory can't be made on this system.",
+        remedy: "Request a modelFile and load it.")
+    }
+  }
+}

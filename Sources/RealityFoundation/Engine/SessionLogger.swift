@@ -1,0 +1,4 @@
+import Logging
+
+/// The logger of all sessions.
+let sessionLogger = Logger(label: "photogrammetry.session")

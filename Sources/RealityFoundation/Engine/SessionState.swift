@@ -1,0 +1,176 @@
+import Pipeline
+import SceneModel
+
+/// What a session is doing, as a value: events go in, outputs come out.
+///
+/// Knows nothing of threads and files. Times are seconds of any clock that does not go back.
+struct SessionState: Sendable {
+  typealias Request = PhotogrammetrySession.Request
+  typealias Output = PhotogrammetrySession.Output
+
+  /// Where the session is in its life.
+  enum Phase: Hashable, Sendable { case idle, ingesting, processing, cancelling }
+
+  private(set) var phase = Phase.idle
+  /// What was asked for and has not ended.
+  private(set) var activeRequests: [Request] = []
+  /// All photos were read in this or an earlier call.
+  private(set) var hasIngested = false
+
+  private var plan: RunPlan?
+  private var durations: UsualDurations?
+  private var estimator: ProgressEstimator?
+  private var specification: DetailSpecification?
+  /// Units that an earlier call has done.
+  private var known: Set<WorkUnit> = []
+  private var toldSamples: Set<Int> = []
+  private var hasDownsampled = false
+  private var told: [Request: (fraction: Double, stage: PipelineStage)] = [:]
+
+  /// Whether requests are being worked on.
+  var isProcessing: Bool { phase != .idle }
+
+  /// Begins with a plan for about so many photos.
+  mutating func begin(
+    _ plan: RunPlan, photoCount: Int, threadCount: Int, at time: Double
+  ) throws(ProcessingError) {
+    guard phase == .idle else { throw .alreadyProcessing }
+    phase = hasIngested ? .processing : .ingesting
+    self.plan = plan
+    activeRequests = plan.requests
+    told = [:]
+    specification = nil
+    let durations = UsualDurations(
+      photoCount: photoCount, finest: plan.finest, threadCount: threadCount)
+    self.durations = durations
+    estimator = ProgressEstimator(units: plan.units, at: time) { [known] in
+      known.contains($0) ? 0 : durations.seconds(of: $0)
+    }
+  }
+
+  /// Asks to stop; says whether there is something to stop.
+  mutating func cancel() -> Bool {
+    guard phase == .ingesting || phase == .processing else { return false }
+    phase = .cancelling
+    return true
+  }
+
+  /// All photos were read; so many are used.
+  mutating func ingested(photos: Int) -> [Output] {
+    guard phase == .ingesting else { return [] }
+    phase = .processing
+    hasIngested = true
+    if var durations {
+      durations.photoCount = photos
+      self.durations = durations
+      estimator?.reweigh { [known] in known.contains($0) ? 0 : durations.seconds(of: $0) }
+    }
+    return [.inputComplete]
+  }
+
+  /// A photo is not used.
+  mutating func refused(_ photo: RefusedPhoto) -> [Output] {
+    guard isWorking, toldSamples.insert(photo.sampleID).inserted else { return [] }
+    return photo.fault == .notRegistered
+      ? [.skippedSample(id: photo.sampleID)]
+      : [.invalidSample(id: photo.sampleID, reason: photo.reason)]
+  }
+
+  /// Photos are used at a lower resolution.
+  mutating func downsampled() -> [Output] {
+    guard isWorking, !hasDownsampled else { return [] }
+    hasDownsampled = true
+    return [.automaticDownsampling]
+  }
+
+  /// Only some of the photos could be put together.
+  func stitchingIncomplete() -> [Output] { isWorking ? [.stitchingIncomplete] : [] }
+
+  /// The work for one of the requests begins.
+  mutating func began(_ entry: RunPlan.Entry) { specification = entry.specification }
+
+  /// A stage of the current request has come to a fraction.
+  mutating func progressed(
+    _ stage: PipelineStage, fraction: Double, at time: Double
+  ) -> [Output] {
+    guard isWorking else { return [] }
+    let unit = WorkUnit(stage: stage, specification: specification ?? plan?.finest)
+    estimator?.advance(unit, to: fraction, at: time)
+    return entries(needing: unit).flatMap { progress(of: $0, in: stage) }
+  }
+
+  /// A request was met.
+  mutating func completed(
+    _ entry: RunPlan.Entry, _ result: PhotogrammetrySession.Result, at time: Double
+  )
+    -> [Output]
+  {
+    guard isWorking, activeRequests.contains(entry.request) else { return [] }
+    for unit in entry.units { estimator?.advance(unit, to: 1, at: time) }
+    known.formUnion(entry.units)
+    activeRequests.removeAll { $0 == entry.request }
+    return [
+      .requestProgress(entry.request, fractionComplete: 1), .requestComplete(entry.request, result),
+    ]
+  }
+
+  /// A request can't be met.
+  mutating func failed(_ entry: RunPlan.Entry, _ error: any Swift.Error) -> [Output] {
+    guard isWorking, activeRequests.contains(entry.request) else { return [] }
+    activeRequests.removeAll { $0 == entry.request }
+    let needed = Set(
+      plan?.entries.filter { activeRequests.contains($0.request) }.flatMap(\.units) ?? [])
+    estimator?.remove { !needed.contains($0) }
+    return [.requestError(entry.request, error)]
+  }
+
+  /// All work has ended, or has stopped after `cancel()`.
+  mutating func finished() -> [Output] {
+    guard phase != .idle else { return [] }
+    let output: Output = phase == .cancelling ? .processingCancelled : .processingComplete
+    phase = .idle
+    activeRequests = []
+    plan = nil
+    estimator = nil
+    return [output]
+  }
+
+  /// The engine was given up, so that nothing is known of earlier calls' work.
+  mutating func forgetWork() { known = [] }
+
+  private var isWorking: Bool { phase == .ingesting || phase == .processing }
+
+  private func entries(needing unit: WorkUnit) -> [RunPlan.Entry] {
+    plan?.entries.filter { $0.units.contains(unit) && activeRequests.contains($0.request) } ?? []
+  }
+
+  /// Tells the progress of a request if it has moved by a thousandth or to another stage.
+  private mutating func progress(of entry: RunPlan.Entry, in stage: PipelineStage) -> [Output] {
+    guard let estimator else { return [] }
+    let last = told[entry.request]
+    // 1 is for a request that is complete.
+    let fraction = max(last?.fraction ?? 0, min(estimator.fraction(of: entry.units), 0.999))
+    if let last, fraction - last.fraction < 0.001, last.stage == stage { return [] }
+    told[entry.request] = (fraction, stage)
+    let info = Output.ProgressInfo(
+      estimatedRemainingTime: estimator.remainingSeconds(of: entry.units),
+      processingStage: Output.ProcessingStage(stage))
+    return [
+      .requestProgress(entry.request, fractionComplete: fraction),
+      .requestProgressInfo(entry.request, info),
+    ]
+  }
+}
+
+extension PhotogrammetrySession.Output.ProcessingStage {
+  init(_ stage: PipelineStage) {
+    switch stage {
+    case .preProcessing: self = .preProcessing
+    case .imageAlignment: self = .imageAlignment
+    case .pointCloudGeneration: self = .pointCloudGeneration
+    case .meshGeneration: self = .meshGeneration
+    case .textureMapping: self = .textureMapping
+    case .optimization: self = .optimization
+    }
+  }
+}

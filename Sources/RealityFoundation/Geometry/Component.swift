@@ -1,0 +1,2 @@
+/// A part of an entity's description.
+public protocol Component {}

@@ -1,0 +1,16 @@
+/// A box turned about its centre.
+public struct OrientedBoundingBox: Hashable, Sendable {
+  /// The rotation about the centre of the box.
+  public var orientation: simd_quatf
+  /// The box before it is turned.
+  public var boundingBox: BoundingBox
+
+  /// Creates a box from its rotation and its extent.
+  public init(
+    orientation: simd_quatf = simd_quatf(ix: 0, iy: 0, iz: 0, r: 1),
+    boundingBox: BoundingBox = BoundingBox.empty
+  ) {
+    self.orientation = orientation
+    self.boundingBox = boundingBox
+  }
+}
