@@ -114,8 +114,8 @@ extension SyntheticScene {
   }
 
   private static func orbit(_ angle: Double) -> RigidTransform {
-    let height = 1.5 + 0.4 * sin(3 * angle)
-    return lookingAt([0, 0, 0], from: [5 * sin(angle), height, 5 * cos(angle)])
+    let (height, distance) = (1 + 0.4 * sin(3 * angle), 3 + 0.5 * sin(2 * angle))
+    return lookingAt([0, 0, 0], from: [distance * sin(angle), height, distance * cos(angle)])
   }
 
   /// `cameraFromWorld` of an upright camera at `center` whose axis meets `target`.

@@ -2,9 +2,12 @@
 #ifndef CKERNELS_H
 #define CKERNELS_H
 
+#include "ck_bundle.h"
+#include "ck_camera.h"
 #include "ck_core.h"
 #include "ck_features.h"
 #include "ck_image.h"
 #include "ck_matching.h"
+#include "ck_resection.h"
 
 #endif

@@ -1,0 +1,258 @@
+#include <ceres/ceres.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "bundle/reprojection_cost.h"
+#include "ck_bundle.h"
+#include "core/guard.h"
+
+namespace ck {
+namespace {
+
+/// Passes progress out of Ceres and the wish to cancel into it.
+class ControlCallback final : public ceres::IterationCallback {
+ public:
+  ControlCallback(const ck_control* control, int max_iterations)
+      : control_(control), max_iterations_(max_iterations) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    try {
+      step(control_, std::min(1.0, summary.iteration / double(std::max(1, max_iterations_))));
+    } catch (const Cancelled&) {
+      cancelled = true;
+      return ceres::SOLVER_ABORT;
+    }
+    return ceres::SOLVER_CONTINUE;
+  }
+
+  bool cancelled = false;
+
+ private:
+  const ck_control* control_;
+  int max_iterations_;
+};
+
+/// The parameter blocks of a bundle and the Ceres problem over them.
+class Adjustment {
+ public:
+  Adjustment(ck_bundle& bundle, const ck_bundle_options& options)
+      : bundle_(bundle), options_(options), loss_(options.huber_width), problem_(settings()) {
+    load();
+    add_observations();
+    constrain();
+  }
+
+  ceres::Solver::Summary solve(ControlCallback& callback) {
+    ceres::Solver::Options solver;
+    solver.max_num_iterations = options_.max_iterations;
+    solver.function_tolerance = options_.function_tolerance;
+    solver.gradient_tolerance = 1e-10;
+    solver.parameter_tolerance = 1e-10;
+    solver.num_threads = 1;
+    solver.logging_type = ceres::SILENT;
+    solver.callbacks.push_back(&callback);
+    solver.linear_solver_ordering = ordering_;
+    solver.linear_solver_type = free_photos_ <= options_.dense_photo_limit ? ceres::DENSE_SCHUR
+                                : free_photos_ <= options_.direct_photo_limit
+                                    ? ceres::SPARSE_SCHUR
+                                    : ceres::ITERATIVE_SCHUR;
+    solver.preconditioner_type = ceres::SCHUR_JACOBI;
+    solver.max_linear_solver_iterations = 100;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem_, &summary);
+    return summary;
+  }
+
+  /// False when the adjusted cameras aren't cameras any more.
+  bool is_sound() const {
+    bool sound = true;
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+      sound = sound && std::isfinite(blocks_[i][0] + blocks_[i][4]);
+      sound = sound && (i >= bundle_.camera_count || blocks_[i][0] > 0);
+    }
+    return sound;
+  }
+
+  /// Writes the adjusted values back.
+  void store() {
+    for (size_t i = 0; i < bundle_.camera_count; ++i) {
+      if (!used_cameras_[i]) continue;
+      const double* c = camera(i);
+      bundle_.cameras[i] = {c[0], c[0] * aspects_[i], c[1], c[2], c[3], c[4], c[5], c[6]};
+    }
+    for (size_t i = 0; i < bundle_.photo_count; ++i) {
+      const double* p = pose(i);
+      if (used_photos_[i]) bundle_.poses[i] = {p[0], p[1], p[2], p[3], p[4], p[5], p[6]};
+    }
+  }
+
+ private:
+  static ceres::Problem::Options settings() {
+    ceres::Problem::Options options;
+    options.cost_function_ownership = ceres::TAKE_OWNERSHIP;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    options.disable_all_safety_checks = true;
+    return options;
+  }
+
+  double* camera(size_t i) { return blocks_[i].data(); }
+  double* pose(size_t i) { return blocks_[bundle_.camera_count + i].data(); }
+  double* point(size_t i) const {
+    return reinterpret_cast<double*>(reinterpret_cast<char*>(bundle_.points) +
+                                     i * bundle_.point_stride);
+  }
+
+  void load() {
+    for (size_t i = 0; i < bundle_.camera_count; ++i) {
+      const ck_camera_model& c = bundle_.cameras[i];
+      require(c.fx > 0 && c.fy > 0, "a camera without a focal length");
+      blocks_.push_back({c.fx, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2});
+      aspects_.push_back(c.fy / c.fx);
+    }
+    for (size_t i = 0; i < bundle_.photo_count; ++i) {
+      const Eigen::Quaterniond q = quaternion_of(bundle_.poses[i]);
+      const ck_pose& p = bundle_.poses[i];
+      blocks_.push_back({q.x(), q.y(), q.z(), q.w(), p.tx, p.ty, p.tz});
+    }
+    used_cameras_.resize(bundle_.camera_count);
+    used_photos_.resize(bundle_.photo_count);
+  }
+
+  void add_observations() {
+    std::vector<bool> used_points(bundle_.point_count);
+    for (size_t i = 0; i < bundle_.observation_count; ++i) {
+      const ck_observation& o = bundle_.observations[i];
+      require(o.photo >= 0 && size_t(o.photo) < bundle_.photo_count && o.point >= 0 &&
+                  size_t(o.point) < bundle_.point_count,
+              "an observation names a photo or point that isn't there");
+      const int32_t index = bundle_.photo_cameras[o.photo];
+      require(index >= 0 && size_t(index) < bundle_.camera_count,
+              "a photo names a camera that isn't there");
+      used_cameras_[size_t(index)] = true;
+      used_photos_[size_t(o.photo)] = true;
+      used_points[size_t(o.point)] = true;
+      problem_.AddResidualBlock(new ReprojectionCost(o.x, o.y, aspects_[size_t(index)]), &loss_,
+                                pose(size_t(o.photo)), point(size_t(o.point)),
+                                camera(size_t(index)));
+    }
+    ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (size_t i = 0; i < bundle_.point_count; ++i) {
+      if (!used_points[i]) continue;
+      if (bundle_.point_freedom[i]) {
+        ordering_->AddElementToGroup(point(i), 0);
+      } else {
+        problem_.SetParameterBlockConstant(point(i));
+        ordering_->AddElementToGroup(point(i), 1);
+      }
+    }
+  }
+
+  void constrain() {
+    for (size_t i = 0; i < bundle_.photo_count; ++i) {
+      if (!used_photos_[i]) continue;
+      double* block = pose(i);
+      ordering_->AddElementToGroup(block, 1);
+      if (bundle_.pose_freedom[i] == ck_pose_constant) {
+        problem_.SetParameterBlockConstant(block);
+        continue;
+      }
+      ++free_photos_;
+      int axis = -1;
+      if (bundle_.pose_freedom[i] == ck_pose_scale_fixed) {
+        Vector3(block[4], block[5], block[6]).cwiseAbs().maxCoeff(&axis);
+      }
+      manifolds_.push_back(std::make_unique<PoseManifold>(axis));
+      problem_.SetManifold(block, manifolds_.back().get());
+    }
+    for (size_t i = 0; i < bundle_.camera_count; ++i) {
+      if (used_cameras_[i]) constrain_camera(i);
+    }
+  }
+
+  void constrain_camera(size_t i) {
+    double* block = camera(i);
+    ordering_->AddElementToGroup(block, 1);
+    const uint32_t freedom = bundle_.camera_freedom[i];
+    const uint32_t bits[camera_size] = {
+        ck_free_focal_length, ck_free_principal_point, ck_free_principal_point, ck_free_k1,
+        ck_free_k2, ck_free_tangential, ck_free_tangential};
+    std::vector<int> constant;
+    for (int k = 0; k < camera_size; ++k) {
+      if (!(freedom & bits[k])) constant.push_back(k);
+    }
+    if (constant.size() == camera_size) {
+      problem_.SetParameterBlockConstant(block);
+      return;
+    }
+    if (!constant.empty()) {
+      manifolds_.push_back(std::make_unique<ceres::SubsetManifold>(camera_size, constant));
+      problem_.SetManifold(block, manifolds_.back().get());
+    }
+    problem_.AddResidualBlock(new CameraPriorCost(bundle_.camera_priors[i]), nullptr, block);
+  }
+
+  ck_bundle& bundle_;
+  const ck_bundle_options& options_;
+  ceres::HuberLoss loss_;
+  std::vector<std::unique_ptr<ceres::Manifold>> manifolds_;
+  /// Cameras, then poses, in one buffer: Ceres orders parameter blocks by address, and sums depend
+  /// on the order.
+  std::vector<std::array<double, 7>> blocks_;
+  std::vector<double> aspects_;
+  std::vector<bool> used_cameras_, used_photos_;
+  std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
+  int free_photos_ = 0;
+  ceres::Problem problem_;
+};
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
+                           const ck_bundle_options* options, const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck;
+    require(bundle && summary && options, "bundle adjustment needs a scene");
+    require(options->max_iterations >= 0 && options->huber_width > 0, "bundle options invalid");
+    *summary = {0, 0, 0, true};
+    if (bundle->observation_count == 0) return;
+    step(control, 0);
+    Adjustment adjustment(*bundle, *options);
+    ControlCallback callback(control, options->max_iterations);
+    const ceres::Solver::Summary result = adjustment.solve(callback);
+    if (callback.cancelled) throw Cancelled{};
+    if (result.termination_type == ceres::FAILURE) throw std::runtime_error(result.message);
+    if (!adjustment.is_sound()) throw std::runtime_error("bundle adjustment diverged");
+    adjustment.store();
+    *summary = {2 * result.initial_cost, 2 * result.final_cost,
+                static_cast<int32_t>(result.iterations.size()),
+                result.termination_type == ceres::CONVERGENCE};
+  });
+}
+
+ck_status ck_reprojection_jacobians(double* residual, double* pose_jacobian,
+                                    double* point_jacobian, double* camera_jacobian,
+                                    const ck_camera_model* camera, const ck_pose* pose,
+                                    const double* point, const double* pixel) {
+  return ck::guarded([&] {
+    using namespace ck;
+    require(residual && pose_jacobian && point_jacobian && camera_jacobian && camera && pose &&
+                point && pixel,
+            "missing argument");
+    const double p[pose_size] = {pose->qx, pose->qy, pose->qz, pose->qw,
+                                 pose->tx, pose->ty, pose->tz};
+    const double c[camera_size] = {camera->fx, camera->cx, camera->cy, camera->k1,
+                                   camera->k2, camera->p1, camera->p2};
+    const double* parameters[3] = {p, point, c};
+    double ambient[2 * pose_size];
+    double* jacobians[3] = {ambient, point_jacobian, camera_jacobian};
+    ReprojectionCost(pixel[0], pixel[1], camera->fy / camera->fx)
+        .Evaluate(parameters, residual, jacobians);
+    for (int row = 0; row < 2; ++row) {
+      std::copy(ambient + row * pose_size, ambient + row * pose_size + 6, pose_jacobian + 6 * row);
+    }
+  });
+}

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "ck_camera.h"
+
+namespace ck {
+
+using Vector2 = Eigen::Vector2d;
+using Vector3 = Eigen::Vector3d;
+
+/// `cameraFromWorld` with the rotation as a matrix.
+struct Pose {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Vector3 translation = Vector3::Zero();
+
+  Vector3 operator*(const Vector3& point) const { return rotation * point + translation; }
+  Vector3 center() const { return -rotation.transpose() * translation; }
+};
+
+inline Eigen::Quaterniond quaternion_of(const ck_pose& pose) {
+  return Eigen::Quaterniond(pose.qw, pose.qx, pose.qy, pose.qz).normalized();
+}
+
+inline Pose pose_from(const ck_pose& pose) {
+  return {quaternion_of(pose).toRotationMatrix(), Vector3(pose.tx, pose.ty, pose.tz)};
+}
+
+inline ck_pose pose_to(const Eigen::Quaterniond& q, const Vector3& t) {
+  return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
+}
+
+inline ck_pose pose_to(const Pose& pose) {
+  return pose_to(Eigen::Quaterniond(pose.rotation).normalized(), pose.translation);
+}
+
+/// The rotation by a rotation vector.
+inline Eigen::Quaterniond exponential(const Vector3& omega) {
+  const double angle = omega.norm();
+  const double factor = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5 - angle * angle / 48;
+  return Eigen::Quaterniond(std::cos(angle / 2), factor * omega.x(), factor * omega.y(),
+                            factor * omega.z());
+}
+
+/// Applies the lens distortion to normalised image coordinates.
+inline Vector2 distort(const ck_camera_model& c, const Vector2& p) {
+  const double r2 = p.squaredNorm();
+  const double radial = 1 + r2 * (c.k1 + r2 * c.k2);
+  const double xy = p.x() * p.y();
+  return {p.x() * radial + 2 * c.p1 * xy + c.p2 * (r2 + 2 * p.x() * p.x()),
+          p.y() * radial + c.p1 * (r2 + 2 * p.y() * p.y()) + 2 * c.p2 * xy};
+}
+
+/// The derivative of `distort` by its point.
+inline Eigen::Matrix2d distort_jacobian(const ck_camera_model& c, const Vector2& p) {
+  const double r2 = p.squaredNorm();
+  const double radial = 1 + r2 * (c.k1 + r2 * c.k2);
+  const double slope = 2 * (c.k1 + 2 * c.k2 * r2);
+  const double cross = slope * p.x() * p.y() + 2 * c.p1 * p.x() + 2 * c.p2 * p.y();
+  Eigen::Matrix2d j;
+  j << radial + slope * p.x() * p.x() + 2 * c.p1 * p.y() + 6 * c.p2 * p.x(), cross, cross,
+      radial + slope * p.y() * p.y() + 6 * c.p1 * p.y() + 2 * c.p2 * p.x();
+  return j;
+}
+
+/// The pixel of a point in the camera frame.
+inline Vector2 project(const ck_camera_model& c, const Vector3& point) {
+  const Vector2 d = distort(c, point.head<2>() / point.z());
+  return {c.fx * d.x() + c.cx, c.fy * d.y() + c.cy};
+}
+
+/// The derivative of `project` by its point.
+inline Eigen::Matrix<double, 2, 3> project_jacobian(const ck_camera_model& c,
+                                                    const Vector3& point) {
+  const double inverse = 1 / point.z();
+  const Vector2 p = point.head<2>() * inverse;
+  Eigen::Matrix2d d = distort_jacobian(c, p);
+  d.row(0) *= c.fx * inverse;
+  d.row(1) *= c.fy * inverse;
+  Eigen::Matrix<double, 2, 3> j;
+  j.leftCols<2>() = d;
+  j.col(2) = -d * p;
+  return j;
+}
+
+/// The point at depth 1 on the ray of a pixel; inverts the distortion by Newton's method.
+inline Vector2 unproject(const ck_camera_model& c, double x, double y) {
+  const Vector2 target((x - c.cx) / c.fx, (y - c.cy) / c.fy);
+  if (c.k1 == 0 && c.k2 == 0 && c.p1 == 0 && c.p2 == 0) return target;
+  Vector2 p = target;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Matrix2d j = distort_jacobian(c, p);
+    const double determinant = j.determinant();
+    if (!(std::abs(determinant) > 1e-9)) break;
+    const Vector2 r = distort(c, p) - target;
+    const Vector2 step = Vector2(j(1, 1) * r.x() - j(0, 1) * r.y(),
+                                 j(0, 0) * r.y() - j(1, 0) * r.x()) / determinant;
+    p -= step;
+    if (step.squaredNorm() < 1e-24) break;
+  }
+  return p;
+}
+
+}  // namespace ck

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <ceres/manifold.h>
+#include <ceres/sized_cost_function.h>
+
+#include "bundle/camera_model.h"
+#include "ck_bundle.h"
+
+namespace ck {
+
+/// Parameters of a pose: quaternion x, y, z, w, then the translation.
+constexpr int pose_size = 7;
+/// Parameters of a camera: fx (fy keeps its ratio), cx, cy, k1, k2, p1, p2.
+constexpr int camera_size = 7;
+
+/// A pose's tangent space: a rotation vector applied from the left, then the translation.
+///
+/// `ReprojectionCost` differentiates by the tangent directly and leaves the seventh column zero, so
+/// the derivative of `Plus` only has to pick columns.
+class PoseManifold final : public ceres::Manifold {
+ public:
+  /// `fixed_axis` 0…2 keeps one component of the translation; −1 keeps none.
+  explicit PoseManifold(int fixed_axis) : fixed_axis_(fixed_axis) {}
+
+  int AmbientSize() const override { return pose_size; }
+  int TangentSize() const override { return fixed_axis_ < 0 ? 6 : 5; }
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override;
+  bool Minus(const double* y, const double* x, double* y_minus_x) const override;
+  bool MinusJacobian(const double* x, double* jacobian) const override;
+
+ private:
+  int fixed_axis_;
+};
+
+/// The reprojection error of one observation with hand-derived derivatives.
+///
+/// Parameter blocks: pose, point, camera.
+class ReprojectionCost final
+    : public ceres::SizedCostFunction<2, pose_size, 3, camera_size> {
+ public:
+  /// `aspect` is fy / fx.
+  ReprojectionCost(double x, double y, double aspect) : pixel_(x, y), aspect_(aspect) {}
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Vector2 pixel_;
+  double aspect_;
+};
+
+/// The distance of a camera from what is known of it, in standard deviations.
+class CameraPriorCost final : public ceres::SizedCostFunction<5, camera_size> {
+ public:
+  explicit CameraPriorCost(const ck_camera_prior& prior);
+
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
+
+ private:
+  double mean_[5];
+  /// Reciprocal deviations; 0 where nothing is known.
+  double weight_[5];
+};
+
+}  // namespace ck

@@ -1,0 +1,274 @@
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "bundle/camera_model.h"
+#include "ck_bundle.h"
+#include "core/guard.h"
+#include "core/parallel.h"
+
+namespace ck {
+namespace {
+
+/// The views with rotations as matrices.
+struct Views {
+  std::vector<Pose> poses;
+  std::vector<Vector3> centers;
+  const ck_views& raw;
+
+  explicit Views(const ck_views& views) : raw(views) {
+    for (size_t i = 0; i < views.photo_count; ++i) {
+      poses.push_back(pose_from(views.poses[i]));
+      centers.push_back(poses.back().center());
+    }
+  }
+
+  const ck_camera_model& camera(int photo) const {
+    return raw.cameras[raw.photo_cameras[photo]];
+  }
+};
+
+/// One track: its rays, and the work on its point.
+struct Track {
+  const Views& views;
+  const ck_observation* observations;
+  size_t count;
+  std::vector<Vector3> directions;  // unit, in the world
+
+  Track(const Views& views, const ck_observation* observations, size_t count)
+      : views(views), observations(observations), count(count) {
+    for (size_t i = 0; i < count; ++i) {
+      const int photo = observations[i].photo;
+      const Vector2 ray = unproject(views.camera(photo), observations[i].x, observations[i].y);
+      const Vector3 direction = Vector3(ray.x(), ray.y(), 1).normalized();
+      directions.push_back(views.poses[photo].rotation.transpose() * direction);
+    }
+  }
+
+  double error(const Vector3& point, size_t i) const {
+    const int photo = observations[i].photo;
+    const Vector3 p = views.poses[photo] * point;
+    if (!(p.z() > 1e-9)) return std::numeric_limits<double>::infinity();
+    return (project(views.camera(photo), p) - Vector2(observations[i].x, observations[i].y)).norm();
+  }
+
+  /// The point nearest to the chosen rays.
+  bool intersect(const std::vector<size_t>& chosen, Vector3& point) const {
+    Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+    Vector3 b = Vector3::Zero();
+    for (const size_t i : chosen) {
+      const Vector3& d = directions[i];
+      const Eigen::Matrix3d m = Eigen::Matrix3d::Identity() - d * d.transpose();
+      a += m;
+      b += m * views.centers[observations[i].photo];
+    }
+    if (!(a.determinant() > 1e-12)) return false;
+    point = a.inverse() * b;
+    return point.allFinite();
+  }
+
+  /// Gauss–Newton on the chosen observations' reprojection errors.
+  void refine(const std::vector<size_t>& chosen, Vector3& point) const {
+    double cost = squares(chosen, point);
+    for (int iteration = 0; iteration < 8; ++iteration) {
+      Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
+      Vector3 g = Vector3::Zero();
+      for (const size_t i : chosen) {
+        const int photo = observations[i].photo;
+        const Vector3 p = views.poses[photo] * point;
+        const Vector2 r = project(views.camera(photo), p) -
+                          Vector2(observations[i].x, observations[i].y);
+        const Eigen::Matrix<double, 2, 3> j =
+            project_jacobian(views.camera(photo), p) * views.poses[photo].rotation;
+        h.noalias() += j.transpose() * j;
+        g.noalias() += j.transpose() * r;
+      }
+      const Vector3 next = point - h.ldlt().solve(g);
+      if (!next.allFinite()) return;
+      const double next_cost = squares(chosen, next);
+      if (!(next_cost < cost)) return;
+      const bool settled = cost - next_cost < 1e-6 * cost;
+      point = next;
+      cost = next_cost;
+      if (settled) return;
+    }
+  }
+
+  double squares(const std::vector<size_t>& chosen, const Vector3& point) const {
+    double sum = 0;
+    for (const size_t i : chosen) {
+      const double e = error(point, i);
+      sum += e * e;
+    }
+    return sum;
+  }
+
+  double angle(size_t i, size_t j) const {
+    return std::atan2(directions[i].cross(directions[j]).norm(),
+                      directions[i].dot(directions[j]));
+  }
+
+  /// The largest angle at `point` between two of the chosen centres.
+  double largest_angle(const std::vector<size_t>& chosen, const Vector3& point) const {
+    std::vector<Vector3> rays;
+    for (const size_t i : chosen) {
+      rays.push_back((point - views.centers[observations[i].photo]).normalized());
+    }
+    double cosine = 1;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      for (size_t j = i + 1; j < rays.size(); ++j) cosine = std::min(cosine, rays[i].dot(rays[j]));
+    }
+    return std::acos(std::clamp(cosine, -1.0, 1.0));
+  }
+
+  std::vector<size_t> inliers(const Vector3& point, double max_error) const {
+    std::vector<size_t> chosen;
+    for (size_t i = 0; i < count; ++i) {
+      if (error(point, i) <= max_error) chosen.push_back(i);
+    }
+    return chosen;
+  }
+
+  double score(const Vector3& point, double max_square) const {
+    double sum = 0;
+    for (size_t i = 0; i < count; ++i) {
+      const double e = error(point, i);
+      sum += std::min(e * e, max_square);
+    }
+    return sum;
+  }
+
+  /// The observations that the best hypothesis from two rays explains.
+  std::vector<size_t> robust(double max_error, double min_angle) const {
+    const double max_square = max_error * max_error;
+    double best_score = std::numeric_limits<double>::infinity();
+    Vector3 best = Vector3::Zero();
+    // Long tracks try pairs at growing distances in the track, up to a fixed number.
+    size_t tried = 0;
+    for (size_t gap = count - 1; gap >= 1 && tried < 60; --gap) {
+      for (size_t i = 0; i + gap < count && tried < 60; ++i) {
+        if (angle(i, i + gap) < min_angle) continue;
+        ++tried;
+        Vector3 point;
+        if (!intersect({i, i + gap}, point)) continue;
+        const double s = score(point, max_square);
+        if (s < best_score) {
+          best_score = s;
+          best = point;
+        }
+      }
+    }
+    return std::isfinite(best_score) ? inliers(best, max_error) : std::vector<size_t>{};
+  }
+
+  /// True with a point that at least two observations agree on.
+  bool triangulate(const ck_triangulation_options& options, Vector3& point,
+                   std::vector<size_t>& chosen) const {
+    if (count < 2) return false;
+    chosen.resize(count);
+    for (size_t i = 0; i < count; ++i) chosen[i] = i;
+    if (intersect(chosen, point)) {
+      refine(chosen, point);
+      if (inliers(point, options.max_error).size() == count) {
+        return largest_angle(chosen, point) >= options.min_angle;
+      }
+    }
+    if (count < 3) return false;
+    chosen = robust(options.max_error, options.min_angle);
+    for (int round = 0; round < 3; ++round) {
+      if (chosen.size() < 2 || !intersect(chosen, point)) return false;
+      refine(chosen, point);
+      const std::vector<size_t> next = inliers(point, options.max_error);
+      if (next == chosen) break;
+      chosen = next;
+    }
+    return chosen.size() >= 2 && largest_angle(chosen, point) >= options.min_angle;
+  }
+};
+
+double* strided(double* base, size_t stride, size_t i) {
+  return reinterpret_cast<double*>(reinterpret_cast<char*>(base) + i * stride);
+}
+
+const double* strided(const double* base, size_t stride, size_t i) {
+  return reinterpret_cast<const double*>(reinterpret_cast<const char*>(base) + i * stride);
+}
+
+void check(const int32_t* offsets, size_t track_count, const ck_observation* observations,
+           const ck_views* views) {
+  require(offsets && observations && views && views->cameras && views->poses, "missing tracks");
+  for (size_t t = 0; t < track_count; ++t) require(offsets[t] <= offsets[t + 1], "bad offsets");
+  for (int32_t i = 0; i < offsets[track_count]; ++i) {
+    require(observations[i].photo >= 0 &&
+                static_cast<size_t>(observations[i].photo) < views->photo_count,
+            "an observation names a photo that isn't there");
+  }
+}
+
+/// Runs `body(track index)` in blocks, so that progress costs nothing.
+template <typename Body>
+void for_each_track(const ck_control* control, size_t count, Body&& body) {
+  constexpr size_t block = 512;
+  parallel_for(control, (count + block - 1) / block, [&](size_t b) {
+    for (size_t t = b * block; t < std::min(count, (b + 1) * block); ++t) body(t);
+  });
+}
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_triangulate(double* positions, size_t position_stride, uint8_t* found,
+                         uint8_t* inliers, const int32_t* offsets, size_t track_count,
+                         const ck_observation* observations, const ck_views* views,
+                         const ck_triangulation_options* options, const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck;
+    if (track_count == 0) return;
+    require(positions && found && inliers && options, "missing output");
+    check(offsets, track_count, observations, views);
+    const Views prepared(*views);
+    for_each_track(control, track_count, [&](size_t t) {
+      const int32_t begin = offsets[t], end = offsets[t + 1];
+      std::fill(inliers + begin, inliers + end, uint8_t(0));
+      const Track track(prepared, observations + begin, static_cast<size_t>(end - begin));
+      Vector3 point = Vector3::Zero();
+      std::vector<size_t> chosen;
+      found[t] = track.triangulate(*options, point, chosen);
+      if (!found[t]) return;
+      for (const size_t i : chosen) inliers[begin + static_cast<int32_t>(i)] = 1;
+      for (int k = 0; k < 3; ++k) strided(positions, position_stride, t)[k] = point[k];
+    });
+  });
+}
+
+ck_status ck_measure_tracks(double* errors, double* angles, const double* positions,
+                            size_t position_stride, const int32_t* offsets, size_t track_count,
+                            const ck_observation* observations, const ck_views* views,
+                            double max_error, const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck;
+    if (track_count == 0) return;
+    require(errors && angles && positions, "missing output");
+    check(offsets, track_count, observations, views);
+    const Views prepared(*views);
+    for_each_track(control, track_count, [&](size_t t) {
+      const double* p = strided(positions, position_stride, t);
+      const Vector3 point(p[0], p[1], p[2]);
+      std::vector<Vector3> rays;
+      double cosine = 1;
+      for (int32_t i = offsets[t]; i < offsets[t + 1]; ++i) {
+        const int photo = observations[i].photo;
+        const Vector3 q = prepared.poses[photo] * point;
+        errors[i] = q.z() > 1e-9 ? (project(prepared.camera(photo), q) -
+                                    Vector2(observations[i].x, observations[i].y)).norm()
+                                 : std::numeric_limits<double>::infinity();
+        if (!(errors[i] <= max_error)) continue;
+        const Vector3 ray = (point - prepared.centers[photo]).normalized();
+        for (const Vector3& other : rays) cosine = std::min(cosine, ray.dot(other));
+        rays.push_back(ray);
+      }
+      angles[t] = rays.size() < 2 ? 0 : std::acos(std::clamp(cosine, -1.0, 1.0));
+    });
+  });
+}

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <array>
+
+#include "bundle/camera_model.h"
+
+namespace ck {
+
+/// All poses that see three points along three unit rays; returns how many.
+int p3p(const std::array<Vector3, 3>& rays, const std::array<Vector3, 3>& points,
+        std::array<Pose, 4>& poses);
+
+}  // namespace ck

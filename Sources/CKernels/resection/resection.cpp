@@ -1,0 +1,216 @@
+#include "ck_resection.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "core/guard.h"
+#include "resection/p3p.h"
+
+namespace ck {
+namespace {
+
+/// SplitMix64: the same sequence everywhere.
+struct Random {
+  uint64_t state;
+
+  uint64_t next() {
+    uint64_t z = (state += 0x9E3779B97F4A7C15ull);
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+    return z ^ (z >> 31);
+  }
+  size_t below(size_t bound) { return static_cast<size_t>(next() % bound); }
+};
+
+struct Resection {
+  const ck_camera_model& camera;
+  std::vector<Vector3> points;
+  std::vector<Vector2> pixels;
+  /// Unit rays in the camera frame.
+  std::vector<Vector3> rays;
+  double max_square;
+
+  size_t size() const { return points.size(); }
+
+  /// The squared reprojection error; infinite behind the camera.
+  double square_error(const Pose& pose, size_t i) const {
+    const Vector3 p = pose * points[i];
+    if (!(p.z() > 1e-9)) return std::numeric_limits<double>::infinity();
+    return (project(camera, p) - pixels[i]).squaredNorm();
+  }
+
+  /// Σ min(e², limit²); stops once it exceeds `best`.
+  double score(const Pose& pose, double best) const {
+    double sum = 0;
+    for (size_t i = 0; i < size(); ++i) {
+      sum += std::min(square_error(pose, i), max_square);
+      if (sum >= best) return sum;
+    }
+    return sum;
+  }
+
+  size_t count_inliers(const Pose& pose) const {
+    size_t count = 0;
+    for (size_t i = 0; i < size(); ++i) count += square_error(pose, i) <= max_square;
+    return count;
+  }
+
+  bool sample(Random& random, std::array<Pose, 4>& poses, int& found) const {
+    size_t index[3];
+    index[0] = random.below(size());
+    do index[1] = random.below(size()); while (index[1] == index[0]);
+    do index[2] = random.below(size()); while (index[2] == index[0] || index[2] == index[1]);
+    std::array<Vector3, 3> r, p;
+    for (int k = 0; k < 3; ++k) {
+      r[k] = rays[index[k]];
+      p[k] = points[index[k]];
+    }
+    found = p3p(r, p, poses);
+    return found > 0;
+  }
+
+  /// Normal equations over the points within the limit, errors weighted by a Huber loss.
+  double normal_equations(const Pose& pose, double huber, Eigen::Matrix<double, 6, 6>& h,
+                          Eigen::Matrix<double, 6, 1>& g) const {
+    h.setZero();
+    g.setZero();
+    double cost = 0;
+    for (size_t i = 0; i < size(); ++i) {
+      const Vector3 rotated = pose.rotation * points[i];
+      const Vector3 p = rotated + pose.translation;
+      if (!(p.z() > 1e-9)) {
+        cost += max_square;
+        continue;
+      }
+      const Vector2 r = project(camera, p) - pixels[i];
+      const double square = r.squaredNorm();
+      cost += std::min(square, max_square);
+      if (square > max_square) continue;
+      const Eigen::Matrix<double, 2, 3> jp = project_jacobian(camera, p);
+      Eigen::Matrix<double, 2, 6> j;
+      for (int row = 0; row < 2; ++row) {
+        j.block<1, 3>(row, 0) = rotated.cross(jp.row(row).transpose()).transpose();
+      }
+      j.rightCols<3>() = jp;
+      const double norm = std::sqrt(square);
+      const double weight = norm > huber ? huber / norm : 1;
+      h.noalias() += weight * j.transpose() * j;
+      g.noalias() += weight * j.transpose() * r;
+    }
+    return cost;
+  }
+
+  /// Levenberg–Marquardt on the inliers.
+  Pose refine(Pose pose, int iterations, double huber) const {
+    double lambda = 1e-4;
+    Eigen::Matrix<double, 6, 6> h;
+    Eigen::Matrix<double, 6, 1> g;
+    double cost = normal_equations(pose, huber, h, g);
+    for (int i = 0; i < iterations; ++i) {
+      Eigen::Matrix<double, 6, 6> damped = h;
+      damped.diagonal() *= 1 + lambda;
+      damped.diagonal().array() += 1e-12;
+      const Eigen::Matrix<double, 6, 1> step = damped.ldlt().solve(-g);
+      if (!step.allFinite()) break;
+      Pose next;
+      next.rotation = exponential(step.head<3>()).toRotationMatrix() * pose.rotation;
+      next.translation = pose.translation + step.tail<3>();
+      Eigen::Matrix<double, 6, 6> next_h;
+      Eigen::Matrix<double, 6, 1> next_g;
+      const double next_cost = normal_equations(next, huber, next_h, next_g);
+      if (next_cost < cost) {
+        const bool settled = cost - next_cost < 1e-8 * cost;
+        pose = next;
+        cost = next_cost;
+        h = next_h;
+        g = next_g;
+        lambda = std::max(1e-12, lambda / 10);
+        if (settled) break;
+      } else {
+        lambda *= 10;
+        if (lambda > 1e6) break;
+      }
+    }
+    return pose;
+  }
+};
+
+/// Hypotheses after which the best is found with the wanted probability.
+int needed_iterations(double inlier_ratio, double confidence) {
+  const double miss = 1 - inlier_ratio * inlier_ratio * inlier_ratio;
+  if (miss <= 0) return 1;
+  if (miss >= 1) return std::numeric_limits<int>::max();
+  const double n = std::log(1 - confidence) / std::log(miss);
+  return n > 1e9 ? std::numeric_limits<int>::max() : static_cast<int>(std::ceil(n));
+}
+
+bool search(const Resection& problem, const ck_resection_options& options,
+            const ck_control* control, Pose& best) {
+  Random random{options.seed};
+  double best_score = std::numeric_limits<double>::infinity();
+  // A hypothesis of three points is never exact: the bound on iterations gets a floor.
+  const int least = std::min(options.max_iterations, 30);
+  int limit = options.max_iterations;
+  std::array<Pose, 4> poses;
+  for (int iteration = 0; iteration < std::max(least, limit); ++iteration) {
+    if (iteration % 50 == 0) step(control, double(iteration) / options.max_iterations);
+    int found = 0;
+    if (!problem.sample(random, poses, found)) continue;
+    for (int k = 0; k < found; ++k) {
+      double score = problem.score(poses[k], best_score);
+      if (!(score < best_score)) continue;
+      best = poses[k];
+      best_score = score;
+      const Pose local = problem.refine(poses[k], 8, std::sqrt(problem.max_square) / 3);
+      score = problem.score(local, best_score);
+      if (score < best_score) {
+        best = local;
+        best_score = score;
+      }
+      const double ratio = double(problem.count_inliers(best)) / double(problem.size());
+      limit = std::min(options.max_iterations, needed_iterations(ratio, options.confidence));
+    }
+  }
+  return std::isfinite(best_score);
+}
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const double* pixels,
+                    const double* points, size_t point_stride, size_t count,
+                    const ck_camera_model* camera, const ck_resection_options* options,
+                    const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck;
+    require(pose && inliers && inlier_count && pixels && points && camera && options,
+            "resection needs pixels, points and a camera");
+    require(options->max_error > 0 && options->max_iterations > 0, "resection options invalid");
+    *inlier_count = 0;
+    if (count < 4) throw Degenerate("resection needs at least four points");
+    Resection problem{*camera, {}, {}, {}, options->max_error * options->max_error};
+    for (size_t i = 0; i < count; ++i) {
+      const auto* p = reinterpret_cast<const double*>(
+          reinterpret_cast<const char*>(points) + i * point_stride);
+      problem.points.emplace_back(p[0], p[1], p[2]);
+      problem.pixels.emplace_back(pixels[2 * i], pixels[2 * i + 1]);
+      const Vector2 ray = unproject(*camera, pixels[2 * i], pixels[2 * i + 1]);
+      problem.rays.push_back(Vector3(ray.x(), ray.y(), 1).normalized());
+      require(problem.points.back().allFinite() && problem.rays.back().allFinite(),
+              "resection needs finite points and pixels");
+    }
+    Pose best;
+    if (!search(problem, *options, control, best)) throw Degenerate("no pose sees the points");
+    best = problem.refine(best, 20, std::min(1.0, options->max_error));
+    for (size_t i = 0; i < count; ++i) {
+      inliers[i] = problem.square_error(best, i) <= problem.max_square;
+      *inlier_count += inliers[i];
+    }
+    *pose = pose_to(best);
+    if (*inlier_count < static_cast<size_t>(std::max(4, options->minimum_inliers))) {
+      throw Degenerate("too few points agree with one pose");
+    }
+  });
+}

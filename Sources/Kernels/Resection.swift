@@ -1,0 +1,81 @@
+import CKernels
+import SceneModel
+
+/// Finds the pose of a photo from pixels and the points that they see: LO-RANSAC on P3P.
+package struct Resection: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Largest reprojection error of an inlier in pixels.
+    package var maximumError = 8.0
+    /// Hypotheses drawn at most.
+    package var maximumIterations = 1000
+    /// Stops when the best hypothesis is the best of all with this probability.
+    package var confidence = 0.99999
+    /// Fewer inliers are no pose.
+    package var minimumInliers = 15
+    /// Seed of the random samples.
+    package var seed: UInt64 = 0
+
+    package init() {}
+  }
+
+  package struct Result: Sendable {
+    package var cameraFromWorld: RigidTransform
+    /// One value for each pixel.
+    package var isInlier: [Bool]
+    package var inlierCount: Int
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The pose that most of the pairs of pixel and point agree on.
+  ///
+  /// Throws `KernelError.degenerate` where no pose has enough inliers.
+  package func run(
+    pixels: [SIMD2<Double>], points: [SIMD3<Double>], camera: Camera,
+    control: KernelControl = KernelControl()
+  ) throws -> Result {
+    guard pixels.count == points.count else {
+      throw KernelError.invalidArgument("resection needs as many pixels as points")
+    }
+    var pose = ck_pose()
+    var inliers = [UInt8](repeating: 0, count: pixels.count)
+    var inlierCount = 0
+    var model = ck_camera_model(camera)
+    var raw = ck_resection_options(
+      max_error: options.maximumError, max_iterations: Int32(options.maximumIterations),
+      confidence: options.confidence, minimum_inliers: Int32(options.minimumInliers),
+      seed: options.seed)
+    try withKernel(control) { control in
+      pixels.withUnsafeBytes { pixels in
+        points.withUnsafeBytes { points in
+          ck_resect(
+            &pose, &inliers, &inlierCount,
+            pixels.baseAddress?.assumingMemoryBound(to: Double.self),
+            points.baseAddress?.assumingMemoryBound(to: Double.self),
+            MemoryLayout<SIMD3<Double>>.stride, inliers.count, &model, &raw, control)
+        }
+      }
+    }
+    return Result(
+      cameraFromWorld: RigidTransform(pose), isInlier: inliers.map { $0 != 0 },
+      inlierCount: inlierCount)
+  }
+
+  /// All poses that see three points along three rays of the camera frame (Persson and Nordberg,
+  /// "Lambda Twist", ECCV 2018); none for degenerate input.
+  package static func perspectiveThreePoint(
+    rays: [SIMD3<Double>], points: [SIMD3<Double>]
+  ) throws -> [RigidTransform] {
+    guard rays.count == 3, points.count == 3 else {
+      throw KernelError.invalidArgument("p3p needs three rays and three points")
+    }
+    var poses = [ck_pose](repeating: ck_pose(), count: 4)
+    var count = 0
+    let flatRays = rays.flatMap { [$0.x, $0.y, $0.z] }
+    let flatPoints = points.flatMap { [$0.x, $0.y, $0.z] }
+    try withKernel(KernelControl()) { _ in ck_p3p(&poses, &count, flatRays, flatPoints) }
+    return poses.prefix(count).map { RigidTransform($0) }
+  }
+}

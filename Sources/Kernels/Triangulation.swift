@@ -1,0 +1,94 @@
+import CKernels
+import SceneModel
+
+/// Observations grouped by track: those of track i are `observations[offsets[i]..<offsets[i + 1]]`.
+package struct TrackObservations: Sendable {
+  package var offsets: [Int32] = [0]
+  package var observations: [PointObservation] = []
+
+  package init() {}
+
+  package var count: Int { offsets.count - 1 }
+
+  package func range(_ track: Int) -> Range<Int> {
+    Int(offsets[track])..<Int(offsets[track + 1])
+  }
+
+  package mutating func append(_ track: some Sequence<PointObservation>) {
+    observations.append(contentsOf: track)
+    offsets.append(Int32(observations.count))
+  }
+}
+
+/// Triangulates tracks: robust over pairs of rays, then least squares of the reprojection error.
+package struct Triangulation: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Largest reprojection error of an inlier in pixels.
+    package var maximumError = 4.0
+    /// Smallest triangulation angle in radians.
+    package var minimumAngle = 1.5 * Double.pi / 180
+
+    package init() {}
+  }
+
+  package struct Result: Sendable {
+    /// The point of each track; nil where its observations do not agree on one.
+    package var positions: [SIMD3<Double>?]
+    /// Whether each observation agrees with its track's point.
+    package var isInlier: [Bool]
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  package func run(
+    _ tracks: TrackObservations, photos: PosedPhotos, control: KernelControl = KernelControl()
+  ) throws -> Result {
+    var positions = [SIMD3<Double>](repeating: .zero, count: tracks.count)
+    var found = [UInt8](repeating: 0, count: tracks.count)
+    var inliers = [UInt8](repeating: 0, count: tracks.observations.count)
+    let raw = tracks.observations.map(\.raw)
+    var rawOptions = ck_triangulation_options(
+      max_error: options.maximumError, min_angle: options.minimumAngle)
+    try withKernel(control) { control in
+      photos.withViews { views in
+        positions.withUnsafeMutableBytes { positions in
+          ck_triangulate(
+            positions.baseAddress?.assumingMemoryBound(to: Double.self),
+            MemoryLayout<SIMD3<Double>>.stride, &found, &inliers, tracks.offsets, found.count, raw,
+            views, &rawOptions, control)
+        }
+      }
+    }
+    return Result(
+      positions: zip(positions, found).map { $1 != 0 ? $0 : nil },
+      isInlier: inliers.map { $0 != 0 })
+  }
+
+  /// The reprojection error in pixels of each observation of its track's point (infinite behind the
+  /// camera), and the largest angle in radians between two rays with an error of at most
+  /// `maximumError`.
+  package static func measure(
+    _ tracks: TrackObservations, positions: [SIMD3<Double>], photos: PosedPhotos,
+    maximumError: Double, control: KernelControl = KernelControl()
+  ) throws -> (errors: [Double], angles: [Double]) {
+    guard positions.count == tracks.count else {
+      throw KernelError.invalidArgument("measuring tracks needs as many positions as tracks")
+    }
+    var errors = [Double](repeating: 0, count: tracks.observations.count)
+    var angles = [Double](repeating: 0, count: tracks.count)
+    let raw = tracks.observations.map(\.raw)
+    try withKernel(control) { control in
+      photos.withViews { views in
+        positions.withUnsafeBytes { positions in
+          ck_measure_tracks(
+            &errors, &angles, positions.baseAddress?.assumingMemoryBound(to: Double.self),
+            MemoryLayout<SIMD3<Double>>.stride, tracks.offsets, tracks.count, raw, views,
+            maximumError, control)
+        }
+      }
+    }
+    return (errors, angles)
+  }
+}

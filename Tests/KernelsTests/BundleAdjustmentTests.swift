@@ -1,0 +1,154 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct BundleAdjustmentTests {
+  let camera: Camera = {
+    var camera = Camera(
+      width: 1600, height: 1200, focalLength: [1400, 1410], principalPoint: [810, 590])
+    camera.distortion = [-0.12, 0.05, 0.001, -0.002]
+    return camera
+  }()
+
+  @Test func derivativesAgreeWithDifferences() throws {
+    let pose = RigidTransform(
+      rotation: Quaternion(angle: 0.7, axis: [1, -2, 0.5]), translation: [0.2, -0.1, 5])
+    let (point, pixel) = (SIMD3(0.4, -0.7, 0.9), SIMD2(700.0, 500.0))
+    let found = try BundleAdjustment.jacobians(
+      camera: camera, cameraFromWorld: pose, point: point, pixel: pixel)
+    #expect((found.residual - (camera.project(pose * point) - pixel)).length < 1e-10)
+
+    func difference(_ step: Double, _ value: (Double) -> SIMD2<Double>) -> SIMD2<Double> {
+      (value(step) - value(-step)) / (2 * step)
+    }
+    for axis in 0..<3 {
+      var unit = SIMD3<Double>.zero
+      unit[axis] = 1
+      let byRotation = difference(1e-6) { h in
+        let tilt = Quaternion(angle: h, axis: unit)
+        return camera.project(tilt * (pose.rotation * point) + pose.translation)
+      }
+      let byTranslation = difference(1e-6) { camera.project(pose * point + $0 * unit) }
+      let byPoint = difference(1e-6) { camera.project(pose * (point + $0 * unit)) }
+      for row in 0..<2 {
+        #expect(abs(found.pose[6 * row + axis] - byRotation[row]) < 1e-4)
+        #expect(abs(found.pose[6 * row + 3 + axis] - byTranslation[row]) < 1e-4)
+        #expect(abs(found.point[3 * row + axis] - byPoint[row]) < 1e-4)
+      }
+    }
+    for parameter in 0..<7 {
+      let byCamera = difference(1e-6) { h in
+        var changed = camera
+        switch parameter {
+        case 0: changed.focalLength *= (camera.focalLength.x + h) / camera.focalLength.x
+        case 1, 2: changed.principalPoint[parameter - 1] += h
+        default: changed.distortion[parameter - 3] += h
+        }
+        return changed.project(pose * point)
+      }
+      for row in 0..<2 {
+        #expect(abs(found.camera[7 * row + parameter] - byCamera[row]) < 1e-3)
+      }
+    }
+  }
+
+  /// The scene's true bundle with everything but the first pose moved a little.
+  private func perturbed(_ scene: SyntheticScene) -> BundleAdjustment.Problem {
+    var random = SeededGenerator(seed: 11)
+    let truth = scene.reconstruction
+    var photos = PosedPhotos(
+      cameras: [scene.camera], poses: scene.poses, cameraOfPhoto: scene.poses.map { _ in 0 })
+    for index in 1..<scene.poses.count {
+      let tilt = Quaternion(angle: 0.01, axis: random.normal3())
+      photos.poses[index] = RigidTransform(
+        rotation: (tilt * scene.poses[index].rotation).normalized,
+        translation: scene.poses[index].translation + 0.02 * random.normal3())
+    }
+    photos.cameras[0].focalLength *= 1.05
+    photos.cameras[0].principalPoint += [10, -8]
+    photos.cameras[0].distortion = .zero
+    var problem = BundleAdjustment.Problem(
+      photos: photos, points: truth.points.map { $0.position + 0.02 * random.normal3() },
+      observations: truth.points.enumerated().flatMap { index, point in
+        point.track.map {
+          PointObservation(photo: $0.photo.rawValue, point: Int32(index), pixel: $0.pixel)
+        }
+      })
+    problem.cameraFreedom[0] = [.focalLength, .k1, .k2, .principalPoint]
+    problem.poseFreedom[0] = .constant
+    problem.poseFreedom[3] = .scaleFixed
+    return problem
+  }
+
+  @Test(arguments: [0.0, 0.5, 1.0])
+  func perturbedSceneIsRecovered(pixels noise: Double) throws {
+    var options = SyntheticScene.Options()
+    options.pixelNoise = noise
+    options.camera.distortion = [-0.08, 0.02, 0, 0]
+    let scene = SyntheticScene(options)
+    var problem = perturbed(scene)
+    let summary = try BundleAdjustment().run(&problem)
+    #expect(summary.finalCost < summary.initialCost)
+    let found = problem.photos.cameras[0]
+    #expect(abs(found.focalLength.x - scene.camera.focalLength.x) < 0.05 + 8 * noise)
+    #expect((found.principalPoint - scene.camera.principalPoint).length < 0.1 + 14 * noise)
+    #expect(abs(found.distortion.x - -0.08) < 0.001 + 0.02 * noise)
+    let poses = PoseComparison(estimated: problem.photos.poses, true: scene.poses)
+    #expect(poses.maximumCenterError < 1e-4 + 0.01 * noise)
+    #expect(poses.maximumRotationError < 1e-4 + 0.012 * noise)
+  }
+
+  @Test func resultDoesNotDependOnThreads() throws {
+    var options = SyntheticScene.Options()
+    options.pixelNoise = 0.5
+    var problems = [perturbed(SyntheticScene(options)), perturbed(SyntheticScene(options))]
+    for threads in 1...2 {
+      try BundleAdjustment().run(
+        &problems[threads - 1], control: KernelControl(threadCount: threads))
+    }
+    let isSame =
+      problems[0].points == problems[1].points
+      && problems[0].photos.poses == problems[1].photos.poses
+      && problems[0].photos.cameras == problems[1].photos.cameras
+    #expect(isSame)
+  }
+
+  @Test func constantPartsStay() throws {
+    let scene = SyntheticScene()
+    var problem = perturbed(scene)
+    problem.cameraFreedom[0] = []
+    problem.poseFreedom = problem.poseFreedom.map { _ in .constant }
+    problem.poseFreedom[5] = .free
+    problem.isPointFree[7] = false
+    let before = problem
+    try BundleAdjustment().run(&problem)
+    #expect(problem.photos.cameras == before.photos.cameras)
+    #expect(problem.points[7] == before.points[7])
+    #expect(problem.points[8] != before.points[8])
+    for index in scene.poses.indices where index != 5 {
+      let (a, b) = (problem.photos.poses[index], before.photos.poses[index])
+      #expect(a?.translation == b?.translation)
+    }
+    #expect(problem.photos.poses[5] != before.photos.poses[5])
+  }
+
+  @Test func cancelledAdjustmentThrowsAndLeavesTheProblem() {
+    var problem = perturbed(SyntheticScene())
+    let before = problem.points
+    let flag = CancellationFlag()
+    let control = KernelControl(flag: flag) { if $0 > 0 { flag.cancel() } }
+    #expect(throws: CancellationError.self) {
+      try BundleAdjustment().run(&problem, control: control)
+    }
+    let isUnchanged = problem.points == before
+    #expect(isUnchanged)
+  }
+
+  @Test func wrongIndicesAreRefused() {
+    var problem = perturbed(SyntheticScene())
+    problem.observations[0].point = 1_000_000
+    #expect(throws: KernelError.self) { try BundleAdjustment().run(&problem) }
+  }
+}
