@@ -9,5 +9,6 @@
 #include "ck_image.h"
 #include "ck_matching.h"
 #include "ck_resection.h"
+#include "ck_two_view.h"
 
 #endif

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "core/guard.h"
+
+namespace ck {
+
+/// SplitMix64 (Steele et al., OOPSLA 2014).
+class Random {
+ public:
+  explicit Random(uint64_t seed) : state_(seed) {}
+
+  /// A number below `bound`, which is small against 2³².
+  size_t below(size_t bound) {
+    state_ += 0x9E3779B97F4A7C15ull;
+    uint64_t z = state_;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
+    return static_cast<size_t>(((z ^ (z >> 31)) >> 32) * bound >> 32);
+  }
+
+ private:
+  uint64_t state_;
+};
+
+struct RansacOptions {
+  /// Largest error of an inlier in the estimator's unit.
+  double maximum_error;
+  double confidence;
+  int minimum_iterations;
+  int maximum_iterations;
+  uint64_t seed;
+};
+
+template <class Model>
+struct RansacResult {
+  bool found = false;
+  Model model;
+  /// Σ min(error², limit²)
+  double score = std::numeric_limits<double>::max();
+  size_t inlier_count = 0;
+  int iterations = 0;
+};
+
+/// Score and inliers of a model; gives up once the score is above `bound`.
+template <class Estimator>
+std::pair<double, size_t> msac_score(const Estimator& estimator,
+                                     const typename Estimator::Model& model, double limit,
+                                     double bound) {
+  constexpr size_t kChunk = 128;
+  double errors[kChunk];
+  const double squared_limit = limit * limit;
+  double score = 0;
+  size_t inliers = 0;
+  for (size_t begin = 0; begin < estimator.size() && score <= bound; begin += kChunk) {
+    const size_t end = std::min(estimator.size(), begin + kChunk);
+    estimator.errors(model, begin, end, errors);
+    for (size_t i = 0; i < end - begin; ++i) {
+      const bool inlier = errors[i] < squared_limit;
+      score += inlier ? errors[i] : squared_limit;
+      inliers += inlier;
+    }
+  }
+  return {score, inliers};
+}
+
+/// Iterations after which a sample without outliers was drawn with the confidence asked for.
+inline double needed_iterations(double inlier_ratio, size_t sample_size, double confidence) {
+  const double good = std::pow(inlier_ratio, static_cast<double>(sample_size));
+  if (good <= 1e-12) return std::numeric_limits<double>::infinity();
+  if (good >= 1) return 1;
+  return std::log(1 - confidence) / std::log(1 - good);
+}
+
+/// LO-RANSAC. The estimator has a `Model`, `kSampleSize`, `size()`, `solve(sample, models)`,
+/// `errors(model, begin, end, squared)` and `refine(model, limit)`. Its data are in order of quality;
+/// samples of the first quarter of the iterations come from a prefix that grows.
+template <class Estimator>
+RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
+                                               const RansacOptions& options,
+                                               const ck_control* control) {
+  using Model = typename Estimator::Model;
+  constexpr size_t kSize = Estimator::kSampleSize;
+  RansacResult<Model> best;
+  const size_t count = estimator.size();
+  if (count < kSize) return best;
+  Random random(options.seed);
+  std::vector<Model> models;
+  const int growing = std::max(1, options.maximum_iterations / 4);
+  double needed = options.maximum_iterations;
+  for (int i = 0; i < options.maximum_iterations; ++i) {
+    if (i >= options.minimum_iterations && i >= needed) break;
+    if (i % 64 == 0) step(control, static_cast<double>(i) / options.maximum_iterations);
+    best.iterations = i + 1;
+    const double grown = std::min(1.0, (i + 1.0) / growing);
+    const size_t pool = std::min(
+        count, std::max<size_t>(4 * kSize, static_cast<size_t>(grown * static_cast<double>(count))));
+    std::array<size_t, kSize> sample;
+    for (size_t k = 0; k < kSize; ++k) {
+      do {
+        sample[k] = random.below(pool);
+      } while (std::find(sample.begin(), sample.begin() + k, sample[k]) != sample.begin() + k);
+    }
+    estimator.solve(sample, models);
+    bool improved = false;
+    for (const Model& model : models) {
+      const auto [score, inliers] =
+          msac_score(estimator, model, options.maximum_error, best.score);
+      if (!(score < best.score)) continue;
+      best = {true, model, score, inliers, best.iterations};
+      improved = true;
+    }
+    if (!improved) continue;
+    Model refined = best.model;
+    estimator.refine(refined, options.maximum_error);
+    const auto [score, inliers] =
+        msac_score(estimator, refined, options.maximum_error, best.score);
+    if (score < best.score) best = {true, refined, score, inliers, best.iterations};
+    needed = needed_iterations(static_cast<double>(best.inlier_count) / count, kSize,
+                               options.confidence);
+  }
+  return best;
+}
+
+}  // namespace ck

@@ -1,0 +1,92 @@
+import Kernels
+import SceneModel
+
+/// Keeps the matches of a pair that agree with one two-view geometry, by LO-RANSAC with the five-point
+/// solver (Nistér, PAMI 2004), or seven points where no focal length is known.
+package struct PairVerification {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Largest distance from the epipolar line, as a fraction of the photo's longer side.
+    package var relativeMaximumError = 0.0012
+    /// A pair with fewer inliers is dropped.
+    package var minimumInliers = 20
+    /// A pair with a smaller share of inliers among its matches is dropped.
+    package var minimumInlierRatio = 0.15
+    /// Probability with which the best model is to be found.
+    package var confidence = 0.9999
+    /// Iterations of RANSAC at most.
+    package var maximumIterations = 1000
+    /// From this share of inliers on that a homography explains, the pair counts as planar.
+    package var homographyRatio = 0.8
+    /// Where the focal length is only assumed, estimate fundamental matrices.
+    package var isUncalibratedWhereAssumed = true
+    package var seed: UInt64 = 0
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The verified ones of `pairs`, sorted. `matches` has the matches of each pair, the best first.
+  package func run(
+    _ pairs: [PhotoPair], matches: [[FeatureMatch]], features: [FeatureSet], photos: [Photo],
+    cameras: [Camera], _ context: StageContext
+  ) throws -> ViewGraph {
+    let points = try context.part(from: 0, to: 0.1).control.parallelMap(photos.count) { index in
+      let camera = cameras[photos[index].camera.index]
+      return features[index].positions.map { camera.unproject(SIMD2<Double>($0)) }
+    }
+    let verified = try context.part(from: 0.1, to: 1).control.parallelMap(pairs.count) { index in
+      let pair = pairs[index]
+      return try verify(
+        pair, matches[index], points: (points[pair.first.index], points[pair.second.index]),
+        cameras: (
+          cameras[photos[pair.first.index].camera.index],
+          cameras[photos[pair.second.index].camera.index]
+        ))
+    }
+    return ViewGraph(
+      photoCount: photos.count, pairs: verified.compactMap { $0 }.sorted { $0.pair < $1.pair })
+  }
+
+  /// Nil where no geometry agrees with enough of the matches.
+  func verify(
+    _ pair: PhotoPair, _ matches: [FeatureMatch],
+    points: ([SIMD2<Double>], [SIMD2<Double>]), cameras: (Camera, Camera)
+  ) throws -> VerifiedPair? {
+    guard matches.count >= options.minimumInliers else { return nil }
+    let isCalibrated =
+      !options.isUncalibratedWhereAssumed
+      || (cameras.0.calibration != .assumed && cameras.1.calibration != .assumed)
+    var estimation = TwoViewEstimation()
+    estimation.isCalibrated = isCalibrated
+    estimation.maximumError = maximumError(cameras)
+    estimation.confidence = options.confidence
+    estimation.maximumIterations = options.maximumIterations
+    estimation.seed = options.seed &+ UInt64(pair.first.index) << 32 &+ UInt64(pair.second.index)
+    // A unit runs on one thread; the units run side by side.
+    let geometry = try estimation.geometry(
+      matches.map { points.0[Int($0.first)] }, matches.map { points.1[Int($0.second)] },
+      KernelControl())
+    guard let geometry, geometry.inliers.count >= options.minimumInliers,
+      Double(geometry.inliers.count) >= options.minimumInlierRatio * Double(matches.count)
+    else { return nil }
+    let isPlanar =
+      Double(geometry.homographyInlierCount)
+      >= options.homographyRatio * Double(geometry.inliers.count)
+    return VerifiedPair(
+      pair: pair, model: isPlanar ? .homography : isCalibrated ? .essential : .fundamental,
+      secondFromFirst: geometry.secondFromFirst,
+      matches: geometry.inliers.map { matches[$0] }.sorted { $0.first < $1.first },
+      medianAngle: geometry.medianAngle)
+  }
+
+  /// The largest error at depth 1, the mean of the two photos'.
+  private func maximumError(_ cameras: (Camera, Camera)) -> Double {
+    func size(_ camera: Camera) -> Double {
+      Double(max(camera.width, camera.height)) * 2 / (camera.focalLength.x + camera.focalLength.y)
+    }
+    return options.relativeMaximumError * (size(cameras.0) + size(cameras.1)) / 2
+  }
+}
