@@ -8,16 +8,17 @@ extern "C" {
 #endif
 
 // Points are (x, y) pairs at depth 1 of the viewing rays: pixels freed from distortion, minus the
-// principal point, divided by the focal length. Matrices M have x₂ᵀ M x₁ = 0 and are stored by rows.
+// principal point, divided by the focal length. Matrices M have x₂ᵀ M x₁ = 0 and are stored by
+// rows.
 
 /// All essential matrices through five matches (Nistér, PAMI 2004); both arrays hold 5 points.
 ///
 /// `matrices` holds 20 × 9 numbers, each matrix of Frobenius norm 1.
-ck_status ck_five_point(const double *first, const double *second, double *matrices, size_t *count);
+ck_status ck_five_point(const double* first, const double* second, double* matrices, size_t* count);
 
 /// All fundamental matrices through seven matches; `matrices` holds 6 × 9 numbers of norm 1.
-ck_status ck_seven_point(const double *first, const double *second, double *matrices,
-                         size_t *count);
+ck_status ck_seven_point(const double* first, const double* second, double* matrices,
+                         size_t* count);
 
 typedef struct {
   /// Estimate an essential matrix; otherwise a fundamental one.
@@ -34,7 +35,8 @@ typedef struct {
 typedef struct {
   /// Essential or fundamental matrix of norm 1.
   double matrix[9];
-  /// x, y, z, w of the rotation of second-from-first; of the nearest essential matrix if uncalibrated.
+  /// x, y, z, w of the rotation of second-from-first; of the nearest essential matrix if
+  /// uncalibrated.
   double rotation[4];
   /// Unit length.
   double translation[3];
@@ -46,15 +48,15 @@ typedef struct {
   int32_t iterations;
 } ck_two_view_result;
 
-/// Estimates the geometry of two views by LO-RANSAC (Chum, Matas and Kittler, DAGM 2003) with an MSAC
-/// score, samples that start with the first matches (after Chum and Matas' PROSAC, CVPR 2005), and
-/// refinement of the Sampson error.
+/// Estimates the geometry of two views by LO-RANSAC (Chum, Matas and Kittler, DAGM 2003) with an
+/// MSAC score, samples that start with the first matches (after Chum and Matas' PROSAC, CVPR 2005),
+/// and refinement of the Sampson error.
 ///
 /// Matches are in order of quality, the best first. `inliers` holds `count` bytes. Returns
 /// `ck_degenerate` when no model is found.
-ck_status ck_two_view_estimate(const double *first, const double *second, size_t count,
-                               const ck_two_view_options *options, const ck_control *control,
-                               ck_two_view_result *result, uint8_t *inliers);
+ck_status ck_two_view_estimate(const double* first, const double* second, size_t count,
+                               const ck_two_view_options* options, const ck_control* control,
+                               ck_two_view_result* result, uint8_t* inliers);
 
 #ifdef __cplusplus
 }

@@ -39,7 +39,8 @@ bool homography(const std::vector<Eigen::Vector2d>& first,
   // A second null direction: the points don't determine the homography.
   if (!(solver.eigenvalues()[1] > 1e-12 * solver.eigenvalues()[8])) return false;
   const Eigen::Matrix<double, 9, 1> h = solver.eigenvectors().col(0);
-  const Eigen::Matrix3d m = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());
+  const Eigen::Matrix3d m =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(h.data());
   result = b.inverse() * m * a;
   return result.allFinite() && std::abs(result.determinant()) > 1e-12 * std::pow(result.norm(), 3);
 }

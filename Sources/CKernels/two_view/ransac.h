@@ -79,8 +79,8 @@ inline double needed_iterations(double inlier_ratio, size_t sample_size, double 
 }
 
 /// LO-RANSAC. The estimator has a `Model`, `kSampleSize`, `size()`, `solve(sample, models)`,
-/// `errors(model, begin, end, squared)` and `refine(model, limit)`. Its data are in order of quality;
-/// samples of the first quarter of the iterations come from a prefix that grows.
+/// `errors(model, begin, end, squared)` and `refine(model, limit)`. Its data are in order of
+/// quality; samples of the first quarter of the iterations come from a prefix that grows.
 template <class Estimator>
 RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
                                                const RansacOptions& options,
@@ -100,7 +100,8 @@ RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
     best.iterations = i + 1;
     const double grown = std::min(1.0, (i + 1.0) / growing);
     const size_t pool = std::min(
-        count, std::max<size_t>(4 * kSize, static_cast<size_t>(grown * static_cast<double>(count))));
+        count,
+        std::max<size_t>(4 * kSize, static_cast<size_t>(grown * static_cast<double>(count))));
     std::array<size_t, kSize> sample;
     for (size_t k = 0; k < kSize; ++k) {
       do {
@@ -110,8 +111,7 @@ RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
     estimator.solve(sample, models);
     bool improved = false;
     for (const Model& model : models) {
-      const auto [score, inliers] =
-          msac_score(estimator, model, options.maximum_error, best.score);
+      const auto [score, inliers] = msac_score(estimator, model, options.maximum_error, best.score);
       if (!(score < best.score)) continue;
       best = {true, model, score, inliers, best.iterations};
       improved = true;
@@ -119,8 +119,7 @@ RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
     if (!improved) continue;
     Model refined = best.model;
     estimator.refine(refined, options.maximum_error);
-    const auto [score, inliers] =
-        msac_score(estimator, refined, options.maximum_error, best.score);
+    const auto [score, inliers] = msac_score(estimator, refined, options.maximum_error, best.score);
     if (score < best.score) best = {true, refined, score, inliers, best.iterations};
     needed = needed_iterations(static_cast<double>(best.inlier_count) / count, kSize,
                                options.confidence);
