@@ -6,6 +6,8 @@ import SceneModel
 package enum ImageError: LocalizedError, Hashable, Sendable {
   /// What the file is instead: "a HEIC image".
   case unsupportedFormat(String)
+  /// What the file is instead: "a text file".
+  case notAnImage(String)
   case tooLarge(width: Int, height: Int)
   case damaged(String)
   case unreadable(String)
@@ -13,6 +15,7 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
   package var errorDescription: String? {
     switch self {
     case .unsupportedFormat(let name): "it is \(name); convert it to JPEG"
+    case .notAnImage(let name): "it is \(name), not a photo"
     case .tooLarge(let width, let height):
       "it has \(width) × \(height) pixels, more than can be processed; make it smaller"
     case .damaged(let detail): "\(detail); copy it from the camera again or leave it out"
@@ -25,7 +28,8 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
 ///
 /// Reads JPEG, PNG, TIFF, BMP and WebP, told apart by content. Images come as 8-bit RGB: 16 bits
 /// are reduced, gray, palette and CMYK converted, and an alpha channel is dropped, which keeps the
-/// colours under transparent pixels. No EXIF orientation is applied: see `RasterImage.turned`.
+/// colours under transparent pixels. No EXIF orientation is applied, see `RasterImage.turned`; only
+/// the decoder of TIFF files turns them upright by their own tag.
 package enum ImageCodec {
   /// Sizes that are refused before anything is decoded.
   package struct Limits: Hashable, Codable, Sendable {

@@ -25,8 +25,8 @@ package struct ImageHeader: Hashable, Sendable {
 
   /// Reads the header of a file's content.
   ///
-  /// Throws `ImageError.unsupportedFormat` for everything that is not one of the formats above and
-  /// `ImageError.damaged` when the header of one of them is.
+  /// Throws `unsupportedFormat` for other images, `notAnImage` for other files, and `damaged` when
+  /// the header of one of the formats above is.
   package init(_ bytes: [UInt8]) throws(ImageError) {
     let reader = ByteReader(bytes)
     guard !bytes.isEmpty else { throw .damaged("the file is empty") }
@@ -41,7 +41,7 @@ package struct ImageHeader: Hashable, Sendable {
     } else if let tiff = TIFFStructure(reader) {
       self = try Self.tiff(tiff)
     } else {
-      throw .unsupportedFormat(Self.nameOfUnsupported(reader))
+      throw Self.unsupported(reader)
     }
     guard width > 0, height > 0 else { throw .damaged("its header says it has no pixels") }
   }
@@ -111,26 +111,34 @@ package struct ImageHeader: Hashable, Sendable {
     return ImageHeader(format: .tiff, width: width, height: height)
   }
 
-  /// Names the formats that people put among photos, with a word on what to do.
-  private static func nameOfUnsupported(_ reader: ByteReader) -> String {
+  /// Tells images that need converting from files that are no images at all.
+  private static func unsupported(_ reader: ByteReader) -> ImageError {
     if reader.hasText("ftyp", at: 4) {
-      let brand = reader.text(at: 8, count: 4) ?? ""
-      if ["heic", "heix", "hevc", "heim", "heis", "hevm", "hevs", "mif1", "msf1"].contains(brand) {
-        return "a HEIC image"
+      switch reader.text(at: 8, count: 4) ?? "" {
+      case "heic", "heix", "hevc", "heim", "heis", "hevm", "hevs", "mif1", "msf1":
+        return .unsupportedFormat("a HEIC image")
+      case "avif", "avis": return .unsupportedFormat("an AVIF image")
+      case "crx ": return .unsupportedFormat("a camera raw file")
+      default: return .notAnImage("a video")
       }
-      return brand.hasPrefix("avi")
-        ? "an AVIF image" : brand == "crx " ? "a camera raw file" : "a video"
     }
-    let signatures: [(bytes: [UInt8], name: String)] = [
+    let images: [(bytes: [UInt8], name: String)] = [
       (Array("GIF8".utf8), "a GIF image"), ([0x76, 0x2F, 0x31, 0x01], "an OpenEXR image"),
       ([0, 0, 0, 12, 0x6A, 0x50], "a JPEG 2000 image"),
-      ([0xFF, 0x4F, 0xFF, 0x51], "a JPEG 2000 image"),
+      ([0xFF, 0x4F, 0xFF, 0x51], "a JPEG 2000 image"), ([0xFF, 0x0A], "a JPEG XL image"),
+      ([0, 0, 0, 12, 0x4A, 0x58, 0x4C], "a JPEG XL image"),
       (Array("8BPS".utf8), "a Photoshop file"), (Array("DDS ".utf8), "a DDS texture"),
+    ]
+    if let image = images.first(where: { reader.hasPrefix($0.bytes) }) {
+      return .unsupportedFormat(image.name)
+    }
+    let others: [(bytes: [UInt8], name: String)] = [
       (Array("%PDF".utf8), "a PDF document"), ([0x50, 0x4B, 3, 4], "a zip archive"),
-      ([0xFF, 0x0A], "a JPEG XL image"), ([0, 0, 0, 12, 0x4A, 0x58, 0x4C], "a JPEG XL image"),
       ([0, 0, 1, 0], "an icon"),
     ]
-    if let known = signatures.first(where: { reader.hasPrefix($0.bytes) }) { return known.name }
-    return reader.looksLikeText ? "a text file" : "not an image in a known format"
+    if let other = others.first(where: { reader.hasPrefix($0.bytes) }) {
+      return .notAnImage(other.name)
+    }
+    return .notAnImage(reader.looksLikeText ? "a text file" : "a file of an unknown kind")
   }
 }

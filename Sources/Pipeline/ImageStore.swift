@@ -22,13 +22,16 @@ package final class ImageStore: Sendable {
   private let photos: [Photo]
   private let images: [RasterImage]
   private let byteBudget: Int
+  private let processingPixels: Int?
   private let cache = Mutex(Cache())
 
-  /// `byteBudget` bounds the images that are kept between calls, not those a caller holds.
-  package init(photos: [Photo], byteBudget: Int = 1 << 30) {
+  /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
+  /// is larger than `processingPixels`.
+  package init(photos: [Photo], byteBudget: Int = 1 << 30, processingPixels: Int? = nil) {
     self.photos = photos
     self.images = []
     self.byteBudget = byteBudget
+    self.processingPixels = processingPixels
   }
 
   /// A store of images in memory: photo id i is `images[i]`.
@@ -36,6 +39,7 @@ package final class ImageStore: Sendable {
     self.photos = []
     self.images = images
     self.byteBudget = 0
+    self.processingPixels = nil
   }
 
   /// The largest size of at most `maximumPixels` with the aspect of `width` × `height`; never
@@ -58,7 +62,8 @@ package final class ImageStore: Sendable {
       return try full.resized(width: size.width, height: size.height)
     }
     let photo = try element(id, of: photos)
-    let size = Self.size(width: photo.width, height: photo.height, maximumPixels: maximumPixels)
+    let pixels = [maximumPixels, processingPixels].compactMap { $0 }.min()
+    let size = Self.size(width: photo.width, height: photo.height, maximumPixels: pixels)
     let key = Key(photo: id, width: size.width, height: size.height)
     if let kept = keptImage(key) { return kept }
     let image = try decode(photo).resized(width: size.width, height: size.height)

@@ -74,7 +74,7 @@ import Testing
   @Test func otherContentIsNamed() {
     let heic: [UInt8] = [0, 0, 0, 24] + Array("ftypheic".utf8) + Array(repeating: 0, count: 12)
     #expect(throws: ImageError.unsupportedFormat("a HEIC image")) { try ImageHeader(heic) }
-    #expect(throws: ImageError.unsupportedFormat("a text file")) {
+    #expect(throws: ImageError.notAnImage("a text file")) {
       try ImageHeader(Array("just some notes\n".utf8))
     }
     #expect(throws: ImageError.self) { try ImageHeader([]) }

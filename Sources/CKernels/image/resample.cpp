@@ -99,37 +99,3 @@ ck_status ck_image_undistort(const uint8_t* source, const ck_camera* source_came
     }
   });
 }
-
-ck_status ck_image_sharpness(const uint8_t* gray, int32_t width, int32_t height,
-                             double* sharpness) {
-  return ck::guarded([&] {
-    constexpr int block = 32;
-    const cv::Mat image = wrap(gray, width, height, 1);
-    cv::Mat laplacian;
-    cv::Laplacian(image, laplacian, CV_32F, 1);
-    struct Block {
-      double contrast, detail;
-    };
-    std::vector<Block> blocks;
-    for (int y = 0; y + block <= height; y += block) {
-      for (int x = 0; x + block <= width; x += block) {
-        const cv::Rect area(x, y, block, block);
-        cv::Scalar mean, deviation, ignored, detail;
-        cv::meanStdDev(image(area), mean, deviation);
-        cv::meanStdDev(laplacian(area), ignored, detail);
-        blocks.push_back({deviation[0] * deviation[0], detail[0] * detail[0]});
-      }
-    }
-    if (blocks.empty()) throw ck::Degenerate("the image is too small to measure its sharpness");
-    // The half with the most contrast: sky and walls say nothing about focus.
-    const size_t half = (blocks.size() + 1) / 2;
-    std::nth_element(blocks.begin(), blocks.begin() + (half - 1), blocks.end(),
-                     [](const Block& a, const Block& b) { return a.contrast > b.contrast; });
-    double contrast = 0, detail = 0;
-    for (size_t i = 0; i < half; ++i) {
-      contrast += blocks[i].contrast;
-      detail += blocks[i].detail;
-    }
-    *sharpness = contrast > 0 ? detail / contrast : 0;
-  });
-}

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "ck_image.h"
+#include "core/guard.h"
+
+namespace {
+
+constexpr int block = 32;
+/// Standard deviation in pixels of the blur that the image is compared with.
+constexpr double blur = 1.5;
+
+/// Sums over a block of the products of the gradient's components.
+struct Tensor {
+  double xx = 0, yy = 0, xy = 0;
+
+  double trace() const { return xx + yy; }
+  double along(double cosine, double sine) const {
+    return cosine * cosine * xx + sine * sine * yy + 2 * cosine * sine * xy;
+  }
+};
+
+Tensor tensor(const cv::Mat& image, int left, int top) {
+  Tensor sum;
+  const int bottom = std::min(top + block, image.rows - 1);
+  const int right = std::min(left + block, image.cols - 1);
+  for (int y = std::max(top, 1); y < bottom; ++y) {
+    const float* above = image.ptr<float>(y - 1);
+    const float* row = image.ptr<float>(y);
+    const float* below = image.ptr<float>(y + 1);
+    for (int x = std::max(left, 1); x < right; ++x) {
+      const double gx = row[x + 1] - row[x - 1];
+      const double gy = below[x] - above[x];
+      sum.xx += gx * gx;
+      sum.yy += gy * gy;
+      sum.xy += gx * gy;
+    }
+  }
+  return sum;
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+ck_status ck_image_sharpness(const uint8_t* gray, int32_t width, int32_t height,
+                             double* sharpness) {
+  return ck::guarded([&] {
+    ck::require(width > 0 && height > 0, "the image has no pixels");
+    const cv::Mat bytes(height, width, CV_8U, const_cast<uint8_t*>(gray));
+    cv::Mat image, blurred;
+    bytes.convertTo(image, CV_32F);
+    cv::GaussianBlur(image, blurred, cv::Size(), blur);
+    struct Block {
+      Tensor before, after;
+      size_t index;
+    };
+    std::vector<Block> blocks;
+    for (int y = 0; y + block <= height; y += block) {
+      for (int x = 0; x + block <= width; x += block) {
+        blocks.push_back({tensor(image, x, y), tensor(blurred, x, y), blocks.size()});
+      }
+    }
+    if (blocks.empty()) throw ck::Degenerate("the image is too small to tell its sharpness");
+    // The quarter with the strongest gradients: sky and walls say nothing about focus.
+    const size_t used = std::max<size_t>(1, blocks.size() / 4);
+    std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
+      const double x = a.after.trace(), y = b.after.trace();
+      return x != y ? x > y : a.index < b.index;
+    });
+    blocks.resize(used);
+    if (blocks.front().after.trace() < block * block) {
+      throw ck::Degenerate("the image shows nothing");
+    }
+    double least = INFINITY;
+    for (const auto& [cosine, sine] : std::array<std::pair<double, double>, 4>{
+             {{1, 0}, {0, 1}, {M_SQRT1_2, M_SQRT1_2}, {M_SQRT1_2, -M_SQRT1_2}}}) {
+      std::vector<double> ratios;
+      for (const Block& b : blocks) {
+        const double left = b.after.along(cosine, sine);
+        if (left > 0) ratios.push_back(b.before.along(cosine, sine) / left - 1);
+      }
+      if (!ratios.empty()) least = std::min(least, median(ratios));
+    }
+    *sharpness = std::isfinite(least) ? least : 0;
+  });
+}

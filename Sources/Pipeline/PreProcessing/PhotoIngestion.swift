@@ -1,0 +1,173 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// What a folder of files gives: the usable photos, their cameras, and every other file by name and
+/// reason.
+package struct IngestedPhotos: Sendable {
+  /// Ids are dense in the order of the files.
+  package var photos: [Photo]
+  package var cameras: [Camera]
+  /// In the order of the files.
+  package var refused: [RefusedPhoto]
+  /// All files of the folder; a sample id is an index into them.
+  package var files: [URL]
+  /// FNV-1a of each photo's file, by photo id.
+  package var contentHashes: [UInt64]
+  /// Most pixels of a photo that the memory budget lets stages work on; give it to `ImageStore`.
+  package var processingPixels: Int
+  /// Some photo has more than `processingPixels`.
+  package var isDownsampled: Bool
+}
+
+/// Validates the files of a folder: the first stage of a run.
+///
+/// Every file is read and decoded once; its name plays no part. What can't be used is refused with a
+/// reason, and the rest goes on.
+package struct PhotoIngestion: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    package var inspection = PhotoInspection.Options()
+    package var duplicates = DuplicateDetection.Options()
+    package var blur = BlurDetection.Options()
+    package var focalLength = FocalLengthEstimation.Options()
+    /// Photos beyond this number are refused.
+    package var maximumPhotos = 1000
+    /// Bytes that working on one photo may take.
+    package var memoryBudget = 1 << 30
+    /// Bytes that a stage needs for a pixel of a photo; the scale space of feature detection needs
+    /// most.
+    package var bytesPerPixel = 64
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// Throws when the folder can't be listed; what is in it never ends the run.
+  package func run(folder: URL, _ context: StageContext) throws -> IngestedPhotos {
+    try run(files: PhotoFolder.files(in: folder), context)
+  }
+
+  /// Validates the given files in their order.
+  package func run(files: [URL], _ context: StageContext) throws -> IngestedPhotos {
+    var (candidates, refused) = try inspect(files, context.part(from: 0, to: 0.95))
+    let originals = try DuplicateDetection(options.duplicates)
+      .run(candidates, context.part(from: 0.95, to: 1))
+    let names = candidates.map(\.url.lastPathComponent)
+    refused += originals.indices.compactMap { index in
+      originals[index].map {
+        refusal(candidates[index], .duplicate, "it shows the same picture as \(names[$0])")
+      }
+    }
+    candidates = zip(candidates, originals).filter { $0.1 == nil }.map(\.0)
+    let isBlurred = BlurDetection(options.blur).run(candidates.map(\.sharpness))
+    refused += zip(candidates, isBlurred).filter(\.1).map {
+      refusal($0.0, .blurred, "it is blurred; take it again with a steady, focused camera")
+    }
+    candidates = zip(candidates, isBlurred).filter { !$0.1 }.map(\.0)
+    let result = assemble(candidates, refused.sorted { $0.sampleID < $1.sampleID }, files)
+    report(result, candidates, context.notes)
+    return result
+  }
+
+  /// Reads files in blocks, so that what lies beyond the maximum is not even opened.
+  private func inspect(
+    _ files: [URL], _ context: StageContext
+  ) throws -> ([InspectedPhoto], [RefusedPhoto]) {
+    let inspection = PhotoInspection(options.inspection)
+    var accepted: [InspectedPhoto] = []
+    var refused: [RefusedPhoto] = []
+    let blockSize = 64
+    for start in stride(from: 0, to: files.count, by: blockSize) {
+      let block = start..<min(start + blockSize, files.count)
+      let control = context.control.part(
+        from: Double(start) / Double(files.count),
+        to: Double(block.upperBound) / Double(files.count))
+      let isFull = accepted.count >= options.maximumPhotos
+      let results = try control.parallelMap(block.count) { index in
+        let (file, sampleID) = (files[start + index], start + index)
+        guard !isFull else {
+          return Result<InspectedPhoto, Refusal>.failure(tooMany(file, sampleID))
+        }
+        return try Self.refusing(file, sampleID) { try inspection.run(file, sampleID: sampleID) }
+      }
+      for result in results {
+        switch result {
+        case .success(let photo) where accepted.count >= options.maximumPhotos:
+          refused.append(tooMany(photo.url, photo.sampleID).photo)
+        case .success(let photo): accepted.append(photo)
+        case .failure(let refusal): refused.append(refusal.photo)
+        }
+      }
+    }
+    return (accepted, refused)
+  }
+
+  /// Turns every error but cancellation into a refusal.
+  private static func refusing(
+    _ file: URL, _ sampleID: Int, _ body: () throws -> InspectedPhoto
+  ) throws -> Result<InspectedPhoto, Refusal> {
+    do {
+      return .success(try body())
+    } catch let refusal as Refusal {
+      return .failure(refusal)
+    } catch let error as CancellationError {
+      throw error
+    } catch {
+      return .failure(
+        Refusal(
+          RefusedPhoto(
+            sampleID: sampleID, name: file.lastPathComponent, fault: .unreadable, end: "\(error)")))
+    }
+  }
+
+  private func tooMany(_ file: URL, _ sampleID: Int) -> Refusal {
+    Refusal(
+      RefusedPhoto(
+        sampleID: sampleID, name: file.lastPathComponent, fault: .tooMany,
+        end: "a run takes \(options.maximumPhotos) photos; leave some out"))
+  }
+
+  private func refusal(
+    _ photo: InspectedPhoto, _ fault: RefusedPhoto.Fault, _ end: String
+  ) -> RefusedPhoto {
+    RefusedPhoto(
+      sampleID: photo.sampleID, name: photo.url.lastPathComponent, fault: fault, end: end)
+  }
+
+  private func assemble(
+    _ accepted: [InspectedPhoto], _ refused: [RefusedPhoto], _ files: [URL]
+  ) -> IngestedPhotos {
+    let (cameras, cameraIDs) = CameraGrouping(FocalLengthEstimation(options.focalLength))
+      .run(accepted)
+    let photos = zip(accepted, cameraIDs).enumerated().map { index, pair in
+      let (photo, camera) = pair
+      return Photo(
+        id: ID(index), sampleID: photo.sampleID, name: photo.url.lastPathComponent, url: photo.url,
+        width: photo.width, height: photo.height, orientation: photo.metadata.orientation,
+        camera: camera, position: photo.metadata.position)
+    }
+    let processingPixels = max(
+      options.inspection.minimumPixels, options.memoryBudget / max(1, options.bytesPerPixel))
+    return IngestedPhotos(
+      photos: photos, cameras: cameras, refused: refused, files: files,
+      contentHashes: accepted.map(\.contentHash), processingPixels: processingPixels,
+      isDownsampled: photos.contains { $0.width * $0.height > processingPixels })
+  }
+
+  private func report(
+    _ result: IngestedPhotos, _ accepted: [InspectedPhoto], _ notes: StageNotes
+  ) {
+    notes.count("files", Double(result.files.count))
+    notes.count("photos", Double(result.photos.count))
+    notes.count("refused", Double(result.refused.count))
+    notes.count("cameras", Double(result.cameras.count))
+    notes.count(
+      "megapixels", result.photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6)
+    if !accepted.isEmpty {
+      notes.count("medianSharpness", accepted.map(\.sharpness).sorted()[accepted.count / 2])
+    }
+  }
+}

@@ -1,0 +1,124 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// What is kept of a photo after it was decoded once: enough to compare it with the others.
+package struct InspectedPhoto: Sendable {
+  package var sampleID: Int
+  package var url: URL
+  /// Size in pixels, upright.
+  package var width: Int
+  package var height: Int
+  package var metadata: PhotoMetadata
+  /// FNV-1a of the file's bytes.
+  package var contentHash: UInt64
+  /// See `RasterImage.sharpness()`.
+  package var sharpness: Double
+  /// The whole photo, upright and gray, at most `PhotoInspection.thumbnailSide` pixels a side.
+  package var thumbnail: RasterImage
+}
+
+/// Reads and decodes one file and judges what can be judged without the other photos.
+package struct PhotoInspection: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    package var limits = ImageCodec.Limits()
+    /// Photos with fewer pixels show too little to align.
+    package var minimumPixels = 100_000
+    /// Pixels of the shorter side.
+    package var minimumSide = 240
+    /// Pixels of the copy that sharpness is measured on, so that the measure means the same for
+    /// photos of all sizes.
+    package var sharpnessPixels = 1_000_000
+
+    package init() {}
+  }
+
+  /// Longer side of the thumbnail in pixels.
+  static let thumbnailSide = 256
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  package func run(_ url: URL, sampleID: Int) throws -> InspectedPhoto {
+    let name = url.lastPathComponent
+    func refusal(_ fault: RefusedPhoto.Fault, _ sentenceEnd: String) -> Refusal {
+      Refusal(RefusedPhoto(sampleID: sampleID, name: name, fault: fault, end: sentenceEnd))
+    }
+    do {
+      let bytes = try ImageCodec.contents(of: url, limits: options.limits)
+      let header = try ImageHeader(bytes)
+      guard min(header.width, header.height) >= options.minimumSide,
+        header.width.multipliedReportingOverflow(by: header.height).partialValue
+          >= options.minimumPixels
+      else {
+        throw refusal(
+          .tooSmall,
+          "it has \(header.width) × \(header.height) pixels; photos need \(options.minimumSide) "
+            + "or more a side and \(options.minimumPixels) or more in all")
+      }
+      let metadata = PhotoMetadata(bytes)
+      let upright = try ImageCodec.decode(bytes, limits: options.limits)
+        .turned(byOrientation: metadata.orientation)
+      let reduced = try upright.reduced(to: options.sharpnessPixels).gray
+      let sharpness: Double
+      do {
+        sharpness = try reduced.sharpness()
+      } catch KernelError.degenerate {
+        throw refusal(.blurred, "it shows nothing: it is badly exposed, or the lens was covered")
+      }
+      return InspectedPhoto(
+        sampleID: sampleID, url: url, width: upright.width, height: upright.height,
+        metadata: metadata, contentHash: Self.hash(bytes), sharpness: sharpness,
+        thumbnail: try reduced.fitted(to: Self.thumbnailSide))
+    } catch let error as ImageError {
+      throw refusal(error.fault, error.errorDescription ?? "it can't be read")
+    }
+  }
+
+  /// FNV-1a, 64 bits.
+  private static func hash(_ bytes: [UInt8]) -> UInt64 {
+    bytes.reduce(0xCBF2_9CE4_8422_2325) { ($0 ^ UInt64($1)) &* 0x0000_0100_0000_01B3 }
+  }
+}
+
+/// Why a file is not used, as an error.
+struct Refusal: Error {
+  var photo: RefusedPhoto
+
+  init(_ photo: RefusedPhoto) { self.photo = photo }
+}
+
+extension RefusedPhoto {
+  /// `end` completes the sentence "NAME is not used: …".
+  init(sampleID: Int, name: String, fault: Fault, end: String) {
+    self.init(
+      sampleID: sampleID, name: name, fault: fault, reason: "\(name) is not used: \(end).")
+  }
+}
+
+extension ImageError {
+  var fault: RefusedPhoto.Fault {
+    switch self {
+    case .unsupportedFormat, .notAnImage: .unsupportedFormat
+    case .tooLarge: .tooLarge
+    case .damaged, .unreadable: .unreadable
+    }
+  }
+}
+
+extension RasterImage {
+  /// Reduced by area averaging to at most `maximumPixels`.
+  func reduced(to maximumPixels: Int) throws -> RasterImage {
+    let size = ImageStore.size(width: width, height: height, maximumPixels: maximumPixels)
+    return try resized(width: size.width, height: size.height)
+  }
+
+  /// Reduced so that the longer side has at most `side` pixels.
+  func fitted(to side: Int) throws -> RasterImage {
+    let scale = min(1, Double(side) / Double(max(width, height)))
+    return try resized(
+      width: max(1, Int((Double(width) * scale).rounded())),
+      height: max(1, Int((Double(height) * scale).rounded())))
+  }
+}

@@ -1,0 +1,137 @@
+import Kernels
+import SceneModel
+
+/// What a camera wrote into a photo, as far as reconstruction uses it.
+///
+/// Read from the EXIF data of JPEG, PNG, WebP and TIFF files (CIPA DC-008). Whatever is missing,
+/// damaged or nonsense is nil.
+package struct PhotoMetadata: Hashable, Sendable {
+  /// 1…8; turns the decoded pixels upright.
+  package var orientation = 1
+  package var make: String?
+  package var model: String?
+  package var lens: String?
+  /// Serial numbers of body and lens.
+  package var bodySerialNumber: String?
+  package var lensSerialNumber: String?
+  /// Millimetres.
+  package var focalLength: Double?
+  /// Millimetres on 35 mm film, rounded by the camera.
+  package var focalLengthIn35mmFilm: Double?
+  /// Pixels a millimetre on the sensor, of the photo as the camera wrote it.
+  package var focalPlaneResolution: Double?
+  /// Size of the photo as the camera wrote it; programs that resize photos often leave it.
+  package var originalWidth: Int?
+  package var originalHeight: Int?
+  package var position: GeographicPosition?
+  /// As written: "2024:05:17 12:34:56".
+  package var captureTime: String?
+
+  package init() {}
+
+  /// Reads the metadata of a file's content.
+  package init(_ bytes: [UInt8]) {
+    let reader = ByteReader(bytes)
+    guard let tiff = Self.structure(reader) else { return }
+    let image = Fields(tiff, tiff.firstDirectory)
+    let exif = Fields(tiff, image.integer(34665) ?? 0)
+    // The decoder of TIFF files turns them itself.
+    if TIFFStructure(reader) == nil {
+      orientation = image.integer(274).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
+    }
+    make = image.text(271)
+    model = image.text(272)
+    lens = exif.text(42036)
+    bodySerialNumber = exif.text(42033)
+    lensSerialNumber = exif.text(42037)
+    focalLength = exif.number(37386, in: 0.5...5000)
+    focalLengthIn35mmFilm = exif.number(41989, in: 2...5000)
+    focalPlaneResolution = Self.focalPlaneResolution(exif)
+    originalWidth = exif.integer(40962).flatMap { $0 > 0 ? $0 : nil }
+    originalHeight = exif.integer(40963).flatMap { $0 > 0 ? $0 : nil }
+    captureTime = exif.text(36867) ?? image.text(306)
+    position = Self.position(Fields(tiff, image.integer(34853) ?? 0))
+  }
+
+  /// Finds the TIFF structure that holds the EXIF data of an image file.
+  private static func structure(_ reader: ByteReader) -> TIFFStructure? {
+    if reader.hasPrefix([0xFF, 0xD8]) {
+      return JPEGSegments(reader).lazy
+        .filter { $0.marker == 0xE1 && reader.hasText("Exif\0", at: $0.payload.lowerBound) }
+        .compactMap { TIFFStructure(reader, at: $0.payload.lowerBound + 6) }.first
+    }
+    if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
+      return chunk("eXIf", reader, first: 8, nameOffset: 4, dataOffset: 8, trailer: 4, .big)
+    }
+    if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+      return chunk("EXIF", reader, first: 12, nameOffset: 0, dataOffset: 8, trailer: 0, .little)
+    }
+    return TIFFStructure(reader)
+  }
+
+  /// Walks the chunks of a PNG (length, name, data, checksum) or WebP (name, length, data) file.
+  private static func chunk(
+    _ name: String, _ reader: ByteReader, first: Int, nameOffset: Int, dataOffset: Int,
+    trailer: Int, _ order: ByteReader.Order
+  ) -> TIFFStructure? {
+    var offset = first
+    while let length = reader.uint32(offset + (4 - nameOffset), order) {
+      if reader.hasText(name, at: offset + nameOffset) {
+        let start = offset + dataOffset
+        return TIFFStructure(reader, at: start)
+          ?? TIFFStructure(reader, at: reader.hasText("Exif\0", at: start) ? start + 6 : start)
+      }
+      let padding = order == .little ? length & 1 : 0
+      offset += dataOffset + length + padding + trailer
+    }
+    return nil
+  }
+
+  /// Units 2 and none: inch; 3: centimetre; 4: millimetre; 5: micrometre.
+  private static func focalPlaneResolution(_ exif: Fields) -> Double? {
+    let millimetres = [2: 25.4, 3: 10, 4: 1, 5: 0.001][exif.integer(41488) ?? 2]
+    guard let millimetres, let value = exif.number(41486, in: 1e-3...1e9) else { return nil }
+    return value / millimetres
+  }
+
+  private static func position(_ gps: Fields) -> GeographicPosition? {
+    guard let latitude = gps.degrees(2), let longitude = gps.degrees(4),
+      latitude <= 90, longitude <= 180, latitude != 0 || longitude != 0
+    else { return nil }
+    let altitude = gps.number(6, in: 0...20000)
+    return GeographicPosition(
+      latitudeDegrees: gps.text(1) == "S" ? -latitude : latitude,
+      longitudeDegrees: gps.text(3) == "W" ? -longitude : longitude,
+      altitude: altitude.map { gps.integer(5) == 1 ? -$0 : $0 })
+  }
+}
+
+/// The fields of one directory by tag.
+private struct Fields {
+  private let tiff: TIFFStructure
+  private let entries: [TIFFStructure.Entry]
+
+  init(_ tiff: TIFFStructure, _ directory: Int) {
+    self.tiff = tiff
+    entries = tiff.entries(ofDirectoryAt: directory)
+  }
+
+  private func entry(_ tag: Int) -> TIFFStructure.Entry? { entries.first { $0.tag == tag } }
+
+  func integer(_ tag: Int) -> Int? { entry(tag).flatMap { tiff.integer($0) } }
+
+  func text(_ tag: Int) -> String? { entry(tag).flatMap { tiff.text($0) } }
+
+  /// A number inside the range that makes sense for it.
+  func number(_ tag: Int, in range: ClosedRange<Double>) -> Double? {
+    entry(tag).flatMap { tiff.number($0) }.flatMap { range.contains($0) ? $0 : nil }
+  }
+
+  /// An angle given as degrees, minutes and seconds; what is missing at the end counts as zero.
+  func degrees(_ tag: Int) -> Double? {
+    guard let entry = entry(tag), let degrees = tiff.number(entry) else { return nil }
+    let value =
+      degrees + (tiff.number(entry, 1) ?? 0) / 60 + (tiff.number(entry, 2) ?? 0) / 3600
+    return value.isFinite && value >= 0 ? value : nil
+  }
+}
