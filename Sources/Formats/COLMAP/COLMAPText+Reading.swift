@@ -1,0 +1,178 @@
+import Foundation
+import SceneModel
+
+extension COLMAPText {
+  /// Reads the model in `folder`; throws `FormatError`.
+  ///
+  /// Photos are numbered in the order of their ids in the file; their URLs are names below `images`.
+  /// Camera models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV.
+  package static func read(
+    _ folder: URL, images: URL = URL(fileURLWithPath: "/")
+  ) throws -> Reconstruction {
+    var reading = Reading(imageFolder: images)
+    try reading.parse(folder, "cameras.txt") { try $0.addCamera($1) }
+    var isPose = true
+    try reading.parse(folder, "images.txt", keepsEmptyLines: true) { reading, line in
+      if isPose, line.isEmpty { return }
+      if isPose { try reading.addImage(line) } else { try reading.addKeypoints(line) }
+      isPose.toggle()
+    }
+    try reading.parse(folder, "points3D.txt") { try $0.addPoint($1) }
+    return reading.reconstruction()
+  }
+}
+
+/// What is read so far.
+private struct Reading {
+  struct Fault: Error { var reason: String }
+
+  struct Image {
+    var id: Int
+    var camera: Int
+    var name: String
+    var pose: RigidTransform
+    var pixels: [SIMD2<Double>] = []
+  }
+
+  struct Point {
+    var id: Int
+    var point: ScenePoint
+    /// Image ids and keypoint indices.
+    var track: [(image: Int, keypoint: Int)]
+  }
+
+  let imageFolder: URL
+  var cameras: [(id: Int, camera: Camera)] = []
+  var images: [Image] = []
+  var points: [Point] = []
+
+  init(imageFolder: URL) { self.imageFolder = imageFolder }
+
+  mutating func parse(
+    _ folder: URL, _ name: String, keepsEmptyLines: Bool = false,
+    _ line: (inout Reading, Substring) throws -> Void
+  ) throws {
+    let url = folder.appendingPathComponent(name)
+    let text = String(decoding: try contents(of: url), as: UTF8.self)
+    for (number, content) in text.split(
+      omittingEmptySubsequences: false, whereSeparator: \.isNewline
+    ).enumerated() {
+      if content.first == "#" || (content.isEmpty && !keepsEmptyLines) { continue }
+      do {
+        try line(&self, content)
+      } catch let fault as Fault {
+        throw FormatError.malformed(
+          path: url.path, reason: "line \(number + 1): \(fault.reason)")
+      }
+    }
+  }
+
+  mutating func addCamera(_ line: Substring) throws {
+    let words = line.split(separator: " ")
+    guard words.count >= 4, let id = Int(words[0]), let width = Int(words[2]),
+      let height = Int(words[3]), width > 0, height > 0
+    else { throw Fault(reason: "no camera with id, model, width and height") }
+    let p = try numbers(words.dropFirst(4))
+    var camera = Camera(width: width, height: height, focalLength: .zero, calibration: .refined)
+    switch (words[1], p.count) {
+    case ("SIMPLE_PINHOLE", 3), ("SIMPLE_RADIAL", 4), ("RADIAL", 5):
+      camera.focalLength = [p[0], p[0]]
+      camera.principalPoint = [p[1], p[2]]
+      camera.distortion = [p.count > 3 ? p[3] : 0, p.count > 4 ? p[4] : 0, 0, 0]
+    case ("PINHOLE", 4), ("OPENCV", 8):
+      camera.focalLength = [p[0], p[1]]
+      camera.principalPoint = [p[2], p[3]]
+      if p.count == 8 { camera.distortion = [p[4], p[5], p[6], p[7]] }
+    default: throw Fault(reason: "camera model \(words[1]) with \(p.count) parameters")
+    }
+    cameras.append((id, camera))
+  }
+
+  mutating func addImage(_ line: Substring) throws {
+    let words = line.split(separator: " ", maxSplits: 9)
+    guard words.count == 10, let id = Int(words[0]), let camera = Int(words[8]) else {
+      throw Fault(reason: "no image with id, pose, camera and name")
+    }
+    let p = try numbers(words[1...7])
+    let rotation = Quaternion(x: p[1], y: p[2], z: p[3], w: p[0])
+    let length = p[0..<4].reduce(0) { $0 + $1 * $1 }
+    images.append(
+      Image(
+        id: id, camera: camera, name: String(words[9]),
+        pose: RigidTransform(
+          rotation: abs(length - 1) < 1e-14 ? rotation : rotation.normalized,
+          translation: [p[4], p[5], p[6]])))
+  }
+
+  mutating func addKeypoints(_ line: Substring) throws {
+    let values = try numbers(line.split(separator: " "))
+    guard values.count % 3 == 0 else {
+      throw Fault(reason: "\(values.count) numbers are no list of keypoints")
+    }
+    images[images.count - 1].pixels = stride(from: 0, to: values.count, by: 3).map {
+      [values[$0], values[$0 + 1]]
+    }
+  }
+
+  mutating func addPoint(_ line: Substring) throws {
+    let words = line.split(separator: " ")
+    guard words.count >= 8, words.count % 2 == 0, let id = Int(words[0]) else {
+      throw Fault(reason: "no point with position, colour, error and track")
+    }
+    let p = try numbers(words[1...7])
+    let color = p[3..<6].map { UInt8(min(255, max(0, $0))) }
+    var track: [(image: Int, keypoint: Int)] = []
+    for index in stride(from: 8, to: words.count, by: 2) {
+      guard let image = Int(words[index]), let keypoint = Int(words[index + 1]) else {
+        throw Fault(reason: "'\(words[index]) \(words[index + 1])' is no observation")
+      }
+      track.append((image, keypoint))
+    }
+    let point = ScenePoint(
+      position: [p[0], p[1], p[2]], color: [color[0], color[1], color[2]], error: p[6])
+    points.append(Point(id: id, point: point, track: track))
+  }
+
+  private func numbers(_ words: some Sequence<Substring>) throws -> [Double] {
+    try words.map { word in
+      guard let number = Double(word), number.isFinite else {
+        throw Fault(reason: "'\(word)' is no number")
+      }
+      return number
+    }
+  }
+
+  /// The values with ids of ours; what refers to something that is not there is left out.
+  func reconstruction() -> Reconstruction {
+    let cameras = self.cameras.sorted { $0.id < $1.id }
+    let cameraIDs = Dictionary(
+      cameras.enumerated().map { ($1.id, ID<Camera>($0)) }, uniquingKeysWith: { first, _ in first })
+    let images = self.images.sorted { $0.id < $1.id }.filter { cameraIDs[$0.camera] != nil }
+    let places = Dictionary(
+      images.enumerated().map { ($1.id, $0) }, uniquingKeysWith: { first, _ in first })
+    var photos: [Photo] = []
+    for (index, image) in images.enumerated() {
+      guard let camera = cameraIDs[image.camera] else { continue }
+      let size = cameras[camera.index].camera
+      photos.append(
+        Photo(
+          id: ID(index), sampleID: index, name: image.name,
+          url: imageFolder.appendingPathComponent(image.name), width: size.width,
+          height: size.height, orientation: 1, camera: camera))
+    }
+    let points = self.points.sorted { $0.id < $1.id }.map { entry in
+      var point = entry.point
+      point.track = entry.track.compactMap { observation in
+        guard let place = places[observation.image],
+          images[place].pixels.indices.contains(observation.keypoint)
+        else { return nil }
+        return Observation(
+          photo: ID(place), feature: Int32(observation.keypoint),
+          pixel: images[place].pixels[observation.keypoint])
+      }.sorted { $0.photo < $1.photo }
+      return point
+    }
+    return Reconstruction(
+      cameras: cameras.map(\.camera), photos: photos, poses: images.map(\.pose), points: points)
+  }
+}

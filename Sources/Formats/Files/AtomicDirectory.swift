@@ -1,0 +1,48 @@
+import Foundation
+
+/// Folders whose files appear together, after the last of them is complete.
+package enum AtomicDirectory {
+  /// Calls `body` with a new temporary folder and gives what it wrote the name `url`.
+  ///
+  /// Where `url` is a folder already, files of the same name in it are replaced one by one and all
+  /// others stay. Throws `OutputError`, or what `body` throws; then nothing is left behind.
+  package static func write(to url: URL, _ body: (URL) throws -> Void) throws {
+    let destination = URL(fileURLWithPath: url.path, isDirectory: false)
+    try AtomicFile.checkParent(of: destination)
+    let exists = FileManager.default.fileExists(atPath: destination.path)
+    if exists, !AtomicFile.isDirectory(destination) {
+      throw OutputError.notAFolder(path: destination.path)
+    }
+    let temporary = AtomicFile.temporaryURL(for: destination)
+    defer { try? FileManager.default.removeItem(at: temporary) }
+    do {
+      try FileManager.default.createDirectory(at: temporary, withIntermediateDirectories: false)
+    } catch {
+      throw AtomicFile.outputError(error, path: destination.path)
+    }
+    try body(temporary)
+    do {
+      if exists {
+        try merge(temporary, into: destination)
+      } else {
+        try AtomicFile.rename(temporary, to: destination)
+      }
+    } catch {
+      throw AtomicFile.outputError(error, path: destination.path)
+    }
+  }
+
+  /// Moves every file of `source` to the same place below `destination`.
+  private static func merge(_ source: URL, into destination: URL) throws {
+    for name in try FileManager.default.contentsOfDirectory(atPath: source.path).sorted() {
+      let from = source.appendingPathComponent(name)
+      let to = destination.appendingPathComponent(name)
+      if AtomicFile.isDirectory(from) {
+        try FileManager.default.createDirectory(at: to, withIntermediateDirectories: true)
+        try merge(from, into: to)
+      } else {
+        try AtomicFile.rename(from, to: to)
+      }
+    }
+  }
+}

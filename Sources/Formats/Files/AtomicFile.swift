@@ -1,0 +1,82 @@
+import Foundation
+
+/// Files that appear complete or not at all: written under a temporary name in the same folder,
+/// then renamed.
+package enum AtomicFile {
+  /// Writes `bytes`, replacing a file of that name. Throws `OutputError`.
+  package static func write(_ bytes: [UInt8], to url: URL) throws {
+    try write(Data(bytes), to: url)
+  }
+
+  /// Writes `data`, replacing a file of that name. Throws `OutputError`.
+  package static func write(_ data: Data, to url: URL) throws {
+    try checkParent(of: url)
+    if isDirectory(url) { throw OutputError.isAFolder(path: url.path) }
+    let temporary = temporaryURL(for: url)
+    do {
+      try data.write(to: temporary)
+      try rename(temporary, to: url)
+    } catch {
+      try? FileManager.default.removeItem(at: temporary)
+      throw outputError(error, path: url.path)
+    }
+  }
+
+  /// Throws an `OutputError` unless the folder that is to hold `url` exists and is writable.
+  package static func checkParent(of url: URL) throws {
+    let parent = url.absoluteURL.deletingLastPathComponent()
+    guard FileManager.default.fileExists(atPath: parent.path) else {
+      throw OutputError.missingFolder(path: url.path, folder: parent.path)
+    }
+    guard isDirectory(parent) else { throw OutputError.notAFolder(path: parent.path) }
+    guard FileManager.default.isWritableFile(atPath: parent.path) else {
+      throw OutputError.notWritable(path: url.path)
+    }
+  }
+
+  static func isDirectory(_ url: URL) -> Bool {
+    var isDirectory: ObjCBool = false
+    let exists = FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
+    return exists && isDirectory.boolValue
+  }
+
+  /// A name in the same folder that nobody else uses.
+  static func temporaryURL(for url: URL) -> URL {
+    url.absoluteURL.deletingLastPathComponent()
+      .appendingPathComponent(".\(url.lastPathComponent).\(UUID().uuidString).partial")
+  }
+
+  static func rename(_ source: URL, to destination: URL) throws {
+    guard Foundation.rename(source.path, destination.path) == 0 else {
+      throw POSIXError(POSIXErrorCode(rawValue: errno) ?? .EIO)
+    }
+  }
+
+  /// Puts an error of the system in a sentence of ours.
+  static func outputError(_ error: any Error, path: String) -> any Error {
+    if error is OutputError { return error }
+    if let code = (error as? POSIXError)?.code ?? underlyingCode(of: error) {
+      switch code {
+      case .ENOSPC, .EDQUOT: return OutputError.diskFull(path: path)
+      case .EACCES, .EPERM, .EROFS: return OutputError.notWritable(path: path)
+      case .EISDIR: return OutputError.isAFolder(path: path)
+      case .ENOTDIR: return OutputError.notAFolder(path: path)
+      default: break
+      }
+    }
+    switch (error as? CocoaError)?.code {
+    case .fileWriteOutOfSpace: return OutputError.diskFull(path: path)
+    case .fileWriteNoPermission, .fileWriteVolumeReadOnly:
+      return OutputError.notWritable(path: path)
+    default: return OutputError.failed(path: path, reason: error.localizedDescription)
+    }
+  }
+
+  private static func underlyingCode(of error: any Error) -> POSIXErrorCode? {
+    let underlying = (error as NSError).userInfo[NSUnderlyingErrorKey] as? any Error
+    if let code = (underlying as? POSIXError)?.code { return code }
+    guard let number = underlying.map({ $0 as NSError }), number.domain == NSPOSIXErrorDomain
+    else { return nil }
+    return POSIXErrorCode(rawValue: Int32(truncatingIfNeeded: number.code))
+  }
+}

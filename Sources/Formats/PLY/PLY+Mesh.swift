@@ -1,0 +1,78 @@
+import Foundation
+import SceneModel
+
+extension PLY {
+  /// Writes a mesh, normals and colours where it has them; throws `OutputError`.
+  package static func write(_ mesh: Mesh, to url: URL) throws {
+    try AtomicFile.write(encode(mesh), to: url)
+  }
+
+  /// The bytes that `write` writes.
+  package static func encode(_ mesh: Mesh) -> [UInt8] {
+    let count = mesh.positions.count
+    let hasNormals = mesh.normals.count == count && count > 0
+    let hasColors = mesh.colors.count == count && count > 0
+    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(count)\n"
+    header += "property float x\nproperty float y\nproperty float z\n"
+    if hasNormals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
+    if hasColors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    header += "element face \(mesh.triangles.count)\n"
+    header += "property list uchar int vertex_indices\nend_header\n"
+    var writer = ByteWriter(
+      capacity: header.utf8.count + count * 27 + mesh.triangles.count * 13)
+    writer.append(header)
+    for index in 0..<count {
+      writer.append(mesh.positions[index])
+      if hasNormals { writer.append(mesh.normals[index]) }
+      if hasColors { writer.append(mesh.colors[index]) }
+    }
+    for triangle in mesh.triangles {
+      writer.append(UInt8(3))
+      writer.append(triangle.a)
+      writer.append(triangle.b)
+      writer.append(triangle.c)
+    }
+    return writer.bytes
+  }
+
+  /// Reads a mesh; faces of more than three corners become fans. Throws `FormatError`.
+  package static func readMesh(_ url: URL) throws -> Mesh {
+    try read(url) { reader in
+      guard let vertex = reader.header.elements.first(where: { $0.name == "vertex" }),
+        let position = triple(vertex, "x", "y", "z")
+      else { throw PLYFault("it has no vertices with x, y and z") }
+      let normal = triple(vertex, "nx", "ny", "nz")
+      let color = triple(vertex, "red", "green", "blue")
+      var mesh = Mesh()
+      try reader.forEachRow { element, row in
+        if element.name == "vertex" {
+          let point = vector(row, position)
+          guard isFinite(point) else { throw PLYFault("a vertex is not finite") }
+          mesh.positions.append(point)
+          if let normal { mesh.normals.append(vector(row, normal)) }
+          if let color { mesh.colors.append(Self.color(row, color, in: element)) }
+        } else if element.name == "face",
+          let corners = element.listIndex(of: "vertex_indices", "vertex_index")
+        {
+          try appendFan(row.lists[corners], vertices: vertex.count, to: &mesh)
+        }
+      }
+      return mesh
+    }
+  }
+
+  private static func appendFan(
+    _ corners: [Double], vertices: Int, to mesh: inout Mesh
+  ) throws {
+    let indices = try corners.map { corner in
+      guard let index = UInt32(exactly: corner), index < vertices else {
+        throw PLYFault("a face names vertex \(corner) of \(vertices)")
+      }
+      return index
+    }
+    guard indices.count >= 3 else { return }
+    for corner in 1..<(indices.count - 1) {
+      mesh.triangles.append(Triangle(indices[0], indices[corner], indices[corner + 1]))
+    }
+  }
+}

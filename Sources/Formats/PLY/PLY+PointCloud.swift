@@ -1,0 +1,102 @@
+import Foundation
+import SceneModel
+
+extension PLY {
+  /// Writes a cloud; throws `OutputError`.
+  ///
+  /// Properties: x y z, nx ny nz, red green blue, consistency, footprint and the list photos (16-bit
+  /// indices). A part that the cloud lacks is left out.
+  package static func write(_ cloud: PointCloud, to url: URL) throws {
+    try AtomicFile.write(encode(cloud), to: url)
+  }
+
+  /// The bytes that `write` writes.
+  package static func encode(_ cloud: PointCloud) -> [UInt8] {
+    let count = cloud.count
+    let hasNormals = cloud.normals.count == count && count > 0
+    let hasColors = cloud.colors.count == count && count > 0
+    let hasConsistency = cloud.consistency.count == count && count > 0
+    let hasFootprints = cloud.footprints.count == count && count > 0
+    let hasPhotos = cloud.photoOffsets.count == count + 1 && count > 0
+    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(count)\n"
+    header += "property float x\nproperty float y\nproperty float z\n"
+    if hasNormals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
+    if hasColors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    if hasConsistency { header += "property float consistency\n" }
+    if hasFootprints { header += "property float footprint\n" }
+    if hasPhotos { header += "property list ushort ushort photos\n" }
+    header += "end_header\n"
+    var writer = ByteWriter(capacity: header.utf8.count + count * 48)
+    writer.append(header)
+    for index in 0..<count {
+      writer.append(cloud.positions[index])
+      if hasNormals { writer.append(cloud.normals[index]) }
+      if hasColors { writer.append(cloud.colors[index]) }
+      if hasConsistency { writer.append(cloud.consistency[index]) }
+      if hasFootprints { writer.append(cloud.footprints[index]) }
+      if hasPhotos {
+        let photos = cloud.visiblePhotos(of: index).prefix(Int(UInt16.max))
+        writer.append(UInt16(photos.count))
+        for photo in photos { writer.append(photo) }
+      }
+    }
+    return writer.bytes
+  }
+
+  /// Reads a cloud; points that are not finite are left out. Throws `FormatError`.
+  package static func readPointCloud(_ url: URL) throws -> PointCloud {
+    try read(url) { reader in
+      guard let vertex = reader.header.elements.first(where: { $0.name == "vertex" }),
+        let columns = CloudColumns(vertex)
+      else { throw PLYFault("it has no vertices with x, y and z") }
+      var cloud = PointCloud()
+      try reader.forEachRow { element, row in
+        if element.name == "vertex" { try columns.append(row, of: element, to: &cloud) }
+      }
+      return cloud
+    }
+  }
+}
+
+/// Where the parts of a cloud are in a vertex row.
+private struct CloudColumns {
+  let position: SIMD3<Int>
+  let normal: SIMD3<Int>?
+  let color: SIMD3<Int>?
+  let consistency: Int?
+  let footprint: Int?
+  let photos: Int?
+
+  init?(_ element: PLYHeader.Element) {
+    guard let position = PLY.triple(element, "x", "y", "z") else { return nil }
+    self.position = position
+    normal = PLY.triple(element, "nx", "ny", "nz")
+    color =
+      PLY.triple(element, "red", "green", "blue")
+      ?? PLY.triple(element, "diffuse_red", "diffuse_green", "diffuse_blue")
+    consistency = element.index(of: "consistency")
+    footprint = element.index(of: "footprint")
+    photos = element.listIndex(of: "photos")
+  }
+
+  func append(
+    _ row: PLYRow, of element: PLYHeader.Element, to cloud: inout PointCloud
+  ) throws {
+    let point = PLY.vector(row, position)
+    guard PLY.isFinite(point) else { return }
+    cloud.positions.append(point)
+    if let normal { cloud.normals.append(PLY.vector(row, normal)) }
+    if let color { cloud.colors.append(PLY.color(row, color, in: element)) }
+    if let consistency { cloud.consistency.append(Float(row.scalars[consistency])) }
+    if let footprint { cloud.footprints.append(Float(row.scalars[footprint])) }
+    if let photos {
+      for value in row.lists[photos] {
+        guard let index = UInt16(exactly: value) else {
+          throw PLYFault("\(value) is no index of a photo")
+        }
+        cloud.photoIndices.append(index)
+      }
+      cloud.photoOffsets.append(UInt32(cloud.photoIndices.count))
+    }
+  }
+}

@@ -1,0 +1,51 @@
+import Foundation
+import SceneModel
+
+/// Point clouds and meshes as PLY files, binary little endian.
+///
+/// Reading takes ascii and both byte orders, skips properties it does not know and answers damaged
+/// files with `FormatError`.
+package enum PLY {
+  /// Reads `url` with `body` and names the file in what goes wrong.
+  static func read<Result>(
+    _ url: URL, _ body: (inout PLYReader) throws -> Result
+  ) throws -> Result {
+    do {
+      var reader = try PLYReader(try contents(of: url))
+      return try body(&reader)
+    } catch let fault as PLYFault {
+      throw FormatError.malformed(path: url.path, reason: fault.reason)
+    }
+  }
+
+  /// The indices of three properties of an element, nil unless it has all of them.
+  static func triple(
+    _ element: PLYHeader.Element, _ x: String, _ y: String, _ z: String
+  ) -> SIMD3<Int>? {
+    guard let x = element.index(of: x), let y = element.index(of: y), let z = element.index(of: z)
+    else { return nil }
+    return [x, y, z]
+  }
+
+  static func vector(_ row: PLYRow, _ index: SIMD3<Int>) -> SIMD3<Float> {
+    [
+      Float(row.scalars[index.x]), Float(row.scalars[index.y]), Float(row.scalars[index.z]),
+    ]
+  }
+
+  /// A colour of bytes; floating-point colours run from 0 to 1.
+  static func color(
+    _ row: PLYRow, _ index: SIMD3<Int>, in element: PLYHeader.Element
+  ) -> SIMD3<UInt8> {
+    let isFloat = [.float32, .float64].contains(element.properties[index.x].type)
+    func channel(_ place: Int) -> UInt8 {
+      let value = row.scalars[place] * (isFloat ? 255 : 1)
+      return value.isFinite ? UInt8(min(255, max(0, value.rounded()))) : 0
+    }
+    return [channel(index.x), channel(index.y), channel(index.z)]
+  }
+
+  static func isFinite(_ v: SIMD3<Float>) -> Bool {
+    v.x.isFinite && v.y.isFinite && v.z.isFinite
+  }
+}

@@ -1,0 +1,109 @@
+import SceneModel
+
+/// A texture image as it goes into a file.
+package struct EncodedTexture: Equatable, Sendable {
+  package var map: TextureMap
+  /// `png` or `jpg`.
+  package var fileExtension: String
+  package var bytes: [UInt8]
+
+  package init(map: TextureMap, fileExtension: String, bytes: [UInt8]) {
+    self.map = map
+    self.fileExtension = fileExtension
+    self.bytes = bytes
+  }
+
+  /// The name of the image of atlas `atlas`, without a folder.
+  package func fileName(atlas: Int) -> String {
+    let stem =
+      switch map {
+      case .diffuseColor: "tex"
+      case .normal: "norm"
+      case .ambientOcclusion: "ao"
+      case .roughness: "roughness"
+      case .displacement: "disp"
+      }
+    return "baked_mesh_\(stem)\(atlas).\(fileExtension)"
+  }
+}
+
+/// What an exported model consists of: a mesh and the encoded images of its atlases.
+package struct ModelContent: Sendable {
+  package var mesh: TexturedMesh
+  /// For every atlas of the mesh its images; the images in `mesh.atlases` are not looked at.
+  package var textures: [[EncodedTexture]]
+  /// Who made the model, for the metadata.
+  package var creator: String
+
+  package init(mesh: TexturedMesh, textures: [[EncodedTexture]], creator: String) {
+    self.mesh = mesh
+    self.textures = textures.map { $0.sorted { $0.map < $1.map } }
+    self.creator = creator
+  }
+
+  /// The parts of the mesh, one an atlas; without atlases all of it.
+  package var parts: [MeshPart] {
+    let ranges = mesh.atlases.isEmpty
+      ? [0..<mesh.mesh.triangles.count] : mesh.atlases.map(\.triangles)
+    guard ranges.count > 1 else { return [MeshPart(whole: mesh)] }
+    return ranges.map { MeshPart(mesh, triangles: $0) }
+  }
+
+  /// The images of part `index`, none where there are fewer sets than parts.
+  package func textures(ofPart index: Int) -> [EncodedTexture] {
+    textures.indices.contains(index) ? textures[index] : []
+  }
+}
+
+/// A mesh of its own with the triangles of one atlas.
+package struct MeshPart: Equatable, Sendable {
+  package var positions: [SIMD3<Float>] = []
+  package var normals: [SIMD3<Float>] = []
+  package var textureCoordinates: [SIMD2<Float>] = []
+  package var triangles: [Triangle] = []
+  package var textureTriangles: [Triangle] = []
+
+  /// All of `mesh` as it is.
+  init(whole mesh: TexturedMesh) {
+    positions = mesh.mesh.positions
+    normals = mesh.mesh.normals
+    textureCoordinates = mesh.textureCoordinates
+    triangles = mesh.mesh.triangles
+    textureTriangles = mesh.textureTriangles
+  }
+
+  /// The triangles of `range` and what they use, numbered in the order of first use.
+  init(_ mesh: TexturedMesh, triangles range: Range<Int>) {
+    var vertices = Renumbering(count: mesh.mesh.positions.count)
+    var coordinates = Renumbering(count: mesh.textureCoordinates.count)
+    for index in range {
+      triangles.append(vertices.triangle(mesh.mesh.triangles[index]))
+      textureTriangles.append(coordinates.triangle(mesh.textureTriangles[index]))
+    }
+    positions = vertices.order.map { mesh.mesh.positions[$0] }
+    if mesh.mesh.normals.count == mesh.mesh.positions.count {
+      normals = vertices.order.map { mesh.mesh.normals[$0] }
+    }
+    textureCoordinates = coordinates.order.map { mesh.textureCoordinates[$0] }
+  }
+}
+
+/// Gives indices new numbers in the order of their first use.
+private struct Renumbering {
+  private(set) var order: [Int] = []
+  private var numbers: [UInt32]
+
+  init(count: Int) { numbers = [UInt32](repeating: .max, count: count) }
+
+  mutating func triangle(_ t: Triangle) -> Triangle {
+    Triangle(number(t.a), number(t.b), number(t.c))
+  }
+
+  private mutating func number(_ index: UInt32) -> UInt32 {
+    if numbers[Int(index)] == .max {
+      numbers[Int(index)] = UInt32(order.count)
+      order.append(Int(index))
+    }
+    return numbers[Int(index)]
+  }
+}

@@ -1,0 +1,37 @@
+import SceneModel
+
+/// A value of a USD attribute or metadata field, in the storage types that our layers use.
+///
+/// The role of a value (colour, point, texture coordinate) is in the type name of its attribute.
+package indirect enum USDValue: Equatable, Sendable {
+  case bool(Bool)
+  case int(Int32)
+  case float(Float)
+  case double(Double)
+  case token(String)
+  case string(String)
+  /// A path relative to the layer.
+  case asset(String)
+  case float2(SIMD2<Float>)
+  case float3(SIMD3<Float>)
+  case float4(SIMD4<Float>)
+  case tokenArray([String])
+  case intArray([Int32])
+  case floatArray([Float])
+  case float2Array([SIMD2<Float>])
+  case float3Array([SIMD3<Float>])
+  case float4Array([SIMD4<Float>])
+  /// Entries in the order of their keys.
+  case dictionary([USDField])
+}
+
+/// A name and a value: an entry of a dictionary or of a spec's metadata.
+package struct USDField: Equatable, Sendable {
+  package var name: String
+  package var value: USDValue
+
+  package init(_ name: String, _ value: USDValue) {
+    self.name = name
+    self.value = value
+  }
+}

@@ -1,0 +1,92 @@
+/// A zip archive without compression, every entry's data at a multiple of 64 bytes.
+package struct StoredZip {
+  private struct Entry {
+    var name: [UInt8]
+    var checksum: UInt32
+    var size: UInt32
+    var offset: UInt32
+  }
+
+  private static let alignment = 64
+  /// 1980-01-01 00:00, the beginning of zip's time.
+  private static let date: UInt16 = 1 << 5 | 1
+  private static let version: UInt16 = 10
+
+  private var writer = ByteWriter()
+  private var entries: [Entry] = []
+
+  package init() {}
+
+  /// Bytes so far, with the directory that `finish` adds.
+  package var size: Int {
+    writer.count + entries.reduce(22) { $0 + 46 + $1.name.count }
+  }
+
+  /// Adds an entry. The archive must stay below 4 GiB: see `size`.
+  package mutating func append(_ name: String, _ bytes: [UInt8]) {
+    let name = Array(name.utf8)
+    let entry = Entry(
+      name: name, checksum: CRC32.checksum(bytes), size: UInt32(truncatingIfNeeded: bytes.count),
+      offset: UInt32(truncatingIfNeeded: writer.count))
+    entries.append(entry)
+    writer.append(UInt32(0x0403_4B50))
+    writer.append(Self.version)
+    appendDescription(of: entry)
+    let padding = Self.padding(at: writer.count + 4 + name.count)
+    writer.append(UInt16(name.count))
+    writer.append(UInt16(padding))
+    writer.append(contentsOf: name)
+    appendExtraField(length: padding)
+    writer.append(contentsOf: bytes)
+  }
+
+  /// Adds the directory and returns the archive.
+  package mutating func finish() -> [UInt8] {
+    let start = writer.count
+    for entry in entries {
+      writer.append(UInt32(0x0201_4B50))
+      writer.append(Self.version)
+      writer.append(Self.version)
+      appendDescription(of: entry)
+      writer.append(UInt16(entry.name.count))
+      for _ in 0..<4 { writer.append(UInt16(0)) }
+      writer.append(UInt32(0))
+      writer.append(entry.offset)
+      writer.append(contentsOf: entry.name)
+    }
+    let length = writer.count - start
+    writer.append(UInt32(0x0605_4B50))
+    writer.append(UInt32(0))
+    writer.append(UInt16(entries.count))
+    writer.append(UInt16(entries.count))
+    writer.append(UInt32(length))
+    writer.append(UInt32(start))
+    writer.append(UInt16(0))
+    return writer.bytes
+  }
+
+  /// Flags, method, time and date, checksum and both sizes.
+  private mutating func appendDescription(of entry: Entry) {
+    writer.append(UInt16(0))
+    writer.append(UInt16(0))
+    writer.append(UInt16(0))
+    writer.append(Self.date)
+    writer.append(entry.checksum)
+    writer.append(entry.size)
+    writer.append(entry.size)
+  }
+
+  /// The length of an extra field at `offset` that brings its end to a multiple of 64: none, or at
+  /// least the four bytes of its header.
+  private static func padding(at offset: Int) -> Int {
+    let gap = (alignment - offset % alignment) % alignment
+    return gap == 0 || gap >= 4 ? gap : gap + alignment
+  }
+
+  private mutating func appendExtraField(length: Int) {
+    guard length > 0 else { return }
+    writer.append(UInt16(0x1986))
+    writer.append(UInt16(length - 4))
+    writer.append(contentsOf: [UInt8](repeating: 0, count: length - 4))
+  }
+}

@@ -1,0 +1,27 @@
+import Foundation
+import SceneModel
+
+/// Models as one USDZ file: a stored zip whose data starts at multiples of 64 bytes, the crate layer
+/// first (USDZ File Format Specification 1.3). The same model gives the same bytes.
+package enum USDZPackage {
+  /// Writes `model`; throws `OutputError`.
+  package static func write(_ model: ModelContent, to url: URL) throws {
+    try AtomicFile.write(try encode(model, path: url.path), to: url)
+  }
+
+  /// The bytes that `write` writes; `path` names the file in errors.
+  package static func encode(_ model: ModelContent, path: String = "model.usdz") throws -> [UInt8] {
+    let layer = USDModelLayer().layer(model)
+    var archive = StoredZip()
+    archive.append("\(USDModelLayer.rootName).usdc", USDCrate.encode(layer))
+    for index in model.parts.indices {
+      for texture in model.textures(ofPart: index) {
+        archive.append("0/" + texture.fileName(atlas: index), texture.bytes)
+      }
+    }
+    guard archive.size <= Int(UInt32.max) else {
+      throw OutputError.tooLarge(path: path, bytes: archive.size)
+    }
+    return archive.finish()
+  }
+}
