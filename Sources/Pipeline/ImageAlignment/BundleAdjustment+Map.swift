@@ -1,0 +1,154 @@
+import Kernels
+import SceneModel
+
+/// Adjusts a map: a few photos with what they see, or all of it.
+struct MapAdjustment: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Photos adjusted together after a new one came in, itself included.
+    var localPhotoCount = 6
+    var localIterations = 15
+    var globalIterations = 30
+    /// Where the loss turns from square to linear, in pixels.
+    var huberWidth = 1.0
+    /// Standard deviation of a focal length from EXIF, relative.
+    var exifFocalDeviation = 0.15
+    /// Standard deviation of an assumed focal length, relative.
+    var assumedFocalDeviation = 0.5
+    /// Standard deviation of the principal point relative to the longer side of the photo.
+    var principalPointDeviation = 0.02
+    /// Standard deviation of k1 and k2.
+    var radialDeviation = 0.3
+    /// Registered photos of a camera from which on k1, k2 and the principal point are freed.
+    var photosForFocalLength = 3
+    var photosForK1 = 3
+    var photosForK2 = 5
+    var photosForPrincipalPoint = 6
+  }
+
+  var options = Options()
+  /// The cameras before any adjustment: what the priors rest on.
+  var initialCameras: [Camera]
+
+  /// Adjusts `photo`, the photos that share most points with it, and the points it sees. The other
+  /// points of these photos hold them in place, and cameras keep their intrinsics.
+  func adjustLocally(
+    around photo: Int, _ map: inout SparseMap, _ control: KernelControl
+  ) throws {
+    var shared = [Int](repeating: 0, count: map.photos.poses.count)
+    var points: [Int] = []
+    for index in map.tracks.observationsOfPhoto[photo] where map.isActive[Int(index)] {
+      let track = Int(map.tracks.trackOfObservation[Int(index)])
+      points.append(track)
+      for other in map.activeObservations(of: track) { shared[Int(map.tracks.photos[other])] += 1 }
+    }
+    guard points.count >= 3 else { return }
+    // The first photo carries the world: it stays.
+    let neighbours = map.registered.dropFirst().filter { $0 != photo && shared[$0] > 0 }
+      .sorted { (-shared[$0], $0) < (-shared[$1], $1) }.prefix(options.localPhotoCount - 1)
+    var poses = map.photos.poses.map { _ in BundleAdjustment.PoseFreedom.constant }
+    for index in [photo] + neighbours { poses[index] = .free }
+    let free = Set(points)
+    var anchors = Set<Int>()
+    for neighbour in neighbours {
+      for index in map.tracks.observationsOfPhoto[neighbour] where map.isActive[Int(index)] {
+        let track = Int(map.tracks.trackOfObservation[Int(index)])
+        if !free.contains(track) { anchors.insert(track) }
+      }
+    }
+    try adjust(
+      points, anchors: anchors.sorted(), poses: poses,
+      cameras: map.photos.cameras.map { _ in [] }, &map, iterations: options.localIterations,
+      tolerance: 1e-4, control)
+  }
+
+  /// Adjusts all poses and points, and what the data supports of the intrinsics.
+  func adjustGlobally(
+    _ map: inout SparseMap, isFinal: Bool = false, _ control: KernelControl
+  ) throws {
+    let before = map
+    let points = map.isTriangulated.indices.filter { map.isTriangulated[$0] }
+    var poses = map.photos.poses.map { _ in BundleAdjustment.PoseFreedom.free }
+    if let first = map.registered.first { poses[first] = .constant }
+    if map.registered.count > 1 { poses[map.registered[1]] = .scaleFixed }
+    let (iterations, tolerance) =
+      isFinal ? (options.globalIterations * 2, 1e-7) : (options.globalIterations, 1e-4)
+    try adjust(
+      points, poses: poses, cameras: freedom(map), &map, iterations: iterations,
+      tolerance: tolerance, control)
+    guard !map.photos.cameras.allSatisfy(\.isPlausible) else { return }
+    // Weak geometry can bend a camera out of shape; the same without the intrinsics can't.
+    map = before
+    try adjust(
+      points, poses: poses, cameras: map.photos.cameras.map { _ in [] }, &map,
+      iterations: iterations, tolerance: tolerance, control)
+  }
+
+  /// The parameters of each camera that its photos determine.
+  private func freedom(_ map: SparseMap) -> [BundleAdjustment.CameraFreedom] {
+    var photos = [Int](repeating: 0, count: map.photos.cameras.count)
+    for photo in map.registered { photos[Int(map.photos.cameraOfPhoto[photo])] += 1 }
+    return photos.map { count in
+      var freedom: BundleAdjustment.CameraFreedom = []
+      if count >= options.photosForFocalLength { freedom.insert(.focalLength) }
+      if count >= options.photosForK1 { freedom.insert(.k1) }
+      if count >= options.photosForK2 { freedom.insert(.k2) }
+      if count >= options.photosForPrincipalPoint { freedom.insert(.principalPoint) }
+      return freedom
+    }
+  }
+
+  private func prior(of camera: Camera) -> BundleAdjustment.CameraPrior {
+    var prior = BundleAdjustment.CameraPrior()
+    prior.focalLength = camera.focalLength.x
+    prior.principalPoint = camera.principalPoint
+    prior.focalLengthDeviation =
+      camera.calibration == .assumed ? options.assumedFocalDeviation : options.exifFocalDeviation
+    prior.principalPointDeviation =
+      options.principalPointDeviation * Double(max(camera.width, camera.height))
+    prior.radialDeviation = options.radialDeviation
+    return prior
+  }
+
+  private func adjust(
+    _ points: [Int], anchors: [Int] = [], poses: [BundleAdjustment.PoseFreedom],
+    cameras: [BundleAdjustment.CameraFreedom], _ map: inout SparseMap, iterations: Int,
+    tolerance: Double, _ control: KernelControl
+  ) throws {
+    var observations: [PointObservation] = []
+    for (point, track) in points.enumerated() {
+      for index in map.tracks.observations(of: track) where map.isActive[index] {
+        observations.append(map.pointObservation(index, point: point))
+      }
+    }
+    for (anchor, track) in anchors.enumerated() {
+      for index in map.tracks.observations(of: track)
+      where map.isActive[index] && poses[Int(map.tracks.photos[index])] != .constant {
+        observations.append(map.pointObservation(index, point: points.count + anchor))
+      }
+    }
+    var problem = BundleAdjustment.Problem(
+      photos: map.photos, points: (points + anchors).map { map.positions[$0] },
+      observations: observations)
+    for anchor in anchors.indices { problem.isPointFree[points.count + anchor] = false }
+    problem.poseFreedom = poses
+    problem.cameraFreedom = cameras
+    problem.cameraPriors = initialCameras.map(prior)
+    var kernel = BundleAdjustment.Options()
+    kernel.maximumIterations = iterations
+    kernel.functionTolerance = tolerance
+    kernel.huberWidth = options.huberWidth
+    try BundleAdjustment(kernel).run(&problem, control: control)
+    map.photos = problem.photos
+    for (track, position) in zip(points, problem.points) { map.positions[track] = position }
+  }
+}
+
+extension Camera {
+  /// False for a focal length or distortion that no lens has.
+  var isPlausible: Bool {
+    let ratio = focalLength.x / Double(max(width, height))
+    let center = principalPoint / SIMD2(Double(width), Double(height))
+    return ratio > 0.1 && ratio < 15 && abs(distortion.x) < 1 && abs(distortion.y) < 3
+      && center.x > 0.2 && center.x < 0.8 && center.y > 0.2 && center.y < 0.8
+  }
+}

@@ -1,0 +1,40 @@
+import SceneModel
+
+/// Features of several photos that are taken for the same point, as parallel arrays.
+///
+/// The observations of track i are `observations(of: i)`, sorted by photo, at most one a photo.
+package struct FeatureTracks: Sendable {
+  package private(set) var offsets: [Int32] = [0]
+  package private(set) var photos: [Int32] = []
+  package private(set) var features: [Int32] = []
+  /// Pixels of the upright photo, origin at the top-left corner.
+  package private(set) var pixels: [SIMD2<Double>] = []
+  package private(set) var trackOfObservation: [Int32] = []
+  /// The observations of each photo, ascending.
+  package private(set) var observationsOfPhoto: [[Int32]]
+
+  package init(photoCount: Int) {
+    observationsOfPhoto = Array(repeating: [], count: photoCount)
+  }
+
+  package var count: Int { offsets.count - 1 }
+
+  package func observations(of track: Int) -> Range<Int> {
+    Int(offsets[track])..<Int(offsets[track + 1])
+  }
+
+  /// Adds a track; `members` are sorted by photo.
+  package mutating func append(
+    _ members: some Sequence<(photo: Int32, feature: Int32, pixel: SIMD2<Double>)>
+  ) {
+    let track = Int32(count)
+    for member in members {
+      observationsOfPhoto[Int(member.photo)].append(Int32(photos.count))
+      photos.append(member.photo)
+      features.append(member.feature)
+      pixels.append(member.pixel)
+      trackOfObservation.append(track)
+    }
+    offsets.append(Int32(photos.count))
+  }
+}

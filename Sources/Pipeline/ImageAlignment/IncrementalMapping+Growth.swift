@@ -1,0 +1,182 @@
+import Kernels
+import SceneModel
+
+/// The verbs of incremental mapping on one view graph.
+struct MapGrowth: Sendable {
+  let mapping: IncrementalMapping
+  let graph: ViewGraph
+  let photos: [Photo]
+  /// The map without any photo.
+  let empty: SparseMap
+  let context: StageContext
+
+  var options: IncrementalMapping.Options { mapping.options }
+
+  private var adjustment: MapAdjustment {
+    MapAdjustment(options: mapping.adjustment, initialCameras: empty.photos.cameras)
+  }
+
+  private var growthPoints: PointTriangulation {
+    PointTriangulation(
+      options: .init(
+        maximumError: options.growthError, minimumAngleDegrees: options.minimumAngleDegrees))
+  }
+
+  /// The control of a kernel inside the loop: cancels, and leaves the progress where it is.
+  func control(_ map: SparseMap) -> KernelControl {
+    let done = Double(map.registered.count) / Double(max(1, photos.count))
+    return context.control.part(from: done, to: done)
+  }
+
+  /// All maps that share no photo, the largest first.
+  func run() throws -> [SparseMap] {
+    var maps: [SparseMap] = []
+    var isTaken = [Bool](repeating: false, count: photos.count)
+    for group in connectedGroups() where group.count >= 2 {
+      while let map = try bestMap(within: group, isTaken) {
+        for photo in map.registered { isTaken[photo] = true }
+        maps.append(map)
+        if group.count(where: { !isTaken[$0] }) < 3 { break }
+      }
+    }
+    return maps.enumerated().sorted {
+      (-$0.element.registered.count, -$0.element.pointCount, $0.offset)
+        < (-$1.element.registered.count, -$1.element.pointCount, $1.offset)
+    }.map(\.element)
+  }
+
+  /// The best map from a few first pairs among the photos that are not taken.
+  private func bestMap(within group: [Int], _ isTaken: [Bool]) throws -> SparseMap? {
+    var best: SparseMap?
+    var used = Set<PhotoPair>()
+    let free = group.count { !isTaken[$0] }
+    for _ in 0...options.restarts {
+      guard let start = try initialMap(within: group, isTaken, &used) else { break }
+      let map = try grown(start, isTaken)
+      let isBetter = map.registered.count > (best?.registered.count ?? 1)
+      if isBetter { best = map }
+      if let best, 2 * best.registered.count >= free { break }
+    }
+    return best
+  }
+
+  /// Registers photo after photo until none can be added, then settles the whole.
+  private func grown(_ start: SparseMap, _ isTaken: [Bool]) throws -> SparseMap {
+    var map = start
+    var failures = [Int](repeating: 0, count: photos.count)
+    var (lastPhotos, lastPoints) = (map.registered.count, map.pointCount)
+    var isRelaxed = false
+    while true {
+      try context.step(map.registered.count, of: photos.count)
+      guard try registerNext(&map, isTaken, isRelaxed, &failures) else {
+        if isRelaxed { break }
+        try settle(&map, rounds: 1)
+        (isRelaxed, failures) = (true, failures.map { _ in 0 })
+        continue
+      }
+      let isGrown =
+        Double(map.registered.count) >= options.globalGrowth * Double(lastPhotos)
+        || Double(map.pointCount) >= options.globalGrowth * Double(lastPoints)
+      if isGrown {
+        try settle(&map, rounds: 1)
+        (lastPhotos, lastPoints) = (map.registered.count, map.pointCount)
+      }
+    }
+    try finish(&map)
+    return map
+  }
+
+  /// Registers the photo that sees the most of the map; false when none can be.
+  private func registerNext(
+    _ map: inout SparseMap, _ isTaken: [Bool], _ isRelaxed: Bool, _ failures: inout [Int]
+  ) throws -> Bool {
+    for photo in nextPhotos(map, isTaken, failures) {
+      if try register(photo, &map, isRelaxed) { return true }
+      failures[photo] += 1
+    }
+    return false
+  }
+
+  /// Finds a photo's pose from the points it sees, then the points that it adds.
+  private func register(
+    _ photo: Int, _ map: inout SparseMap, _ isRelaxed: Bool
+  ) throws -> Bool {
+    let seen = map.tracks.observationsOfPhoto[photo].map(Int.init)
+      .filter { map.isTriangulated[Int(map.tracks.trackOfObservation[$0])] }
+    var kernel = Resection.Options()
+    kernel.maximumError = options.resectionError
+    kernel.minimumInliers = isRelaxed ? options.relaxedMinimumInliers : options.minimumInliers
+    kernel.seed = UInt64(photo) &* 1_000_003 &+ 1
+    guard seen.count >= kernel.minimumInliers else { return false }
+    let camera = map.photos.cameras[Int(map.photos.cameraOfPhoto[photo])]
+    let found: Resection.Result
+    do {
+      found = try Resection(kernel).run(
+        pixels: seen.map { map.tracks.pixels[$0] },
+        points: seen.map { map.positions[Int(map.tracks.trackOfObservation[$0])] },
+        camera: camera, control: control(map))
+    } catch is KernelError {
+      return false
+    }
+    guard Double(found.inlierCount) >= options.minimumInlierRatio * Double(seen.count) else {
+      return false
+    }
+    map.register(photo, found.cameraFromWorld)
+    for (index, isInlier) in zip(seen, found.isInlier) where isInlier { map.isActive[index] = true }
+    let tracks = map.tracks(ofPhoto: photo)
+    try adjustment.adjustLocally(around: photo, &map, control(map))
+    try growthPoints.filter(tracks, in: &map, control(map))
+    try growthPoints.triangulate(tracks, in: &map, control(map))
+    try growthPoints.complete(tracks, in: &map, control(map))
+    try adjustment.adjustLocally(around: photo, &map, control(map))
+    try growthPoints.filter(tracks, in: &map, control(map))
+    return dropWeakPhotos(&map, only: photo) == 0
+  }
+
+  /// Adjusts everything and brings the points up to date.
+  private func settle(_ map: inout SparseMap, rounds: Int) throws {
+    let all = Array(map.isTriangulated.indices)
+    for _ in 0..<rounds {
+      try adjustment.adjustGlobally(&map, control(map))
+      try growthPoints.filter(all, in: &map, control(map))
+      try growthPoints.complete(all, in: &map, control(map))
+      try growthPoints.triangulate(all, in: &map, control(map))
+      dropWeakPhotos(&map)
+    }
+  }
+
+  /// Adjusts, splits, completes and filters until little changes.
+  private func finish(_ map: inout SparseMap) throws {
+    try settle(&map, rounds: 1)
+    map.splitTracks()
+    let all = Array(map.isTriangulated.indices)
+    var strict = growthPoints
+    for round in 0..<options.finalRounds {
+      try adjustment.adjustGlobally(&map, isFinal: round > 0, control(map))
+      if round > 0 { strict.options.maximumError = options.finalError }
+      var changes = try strict.filter(all, in: &map, control(map))
+      changes += try strict.complete(all, in: &map, control(map))
+      changes += try strict.triangulate(all, in: &map, control(map))
+      dropWeakPhotos(&map)
+      if round > 1, 1000 * changes < map.isActive.count(where: { $0 }) { break }
+    }
+    try adjustment.adjustGlobally(&map, isFinal: true, control(map))
+    try strict.filter(all, in: &map, control(map))
+    dropWeakPhotos(&map)
+  }
+
+  /// Takes out photos that hardly any point holds any more; returns how many.
+  @discardableResult
+  private func dropWeakPhotos(_ map: inout SparseMap, only photo: Int? = nil) -> Int {
+    let weak = (photo.map { [$0] } ?? map.registered)
+      .filter { map.activeCount(ofPhoto: $0) < options.minimumObservations }
+    for photo in weak {
+      let tracks = map.tracks(ofPhoto: photo)
+      map.unregister(photo)
+      for track in tracks where map.isTriangulated[track] {
+        if map.activeObservations(of: track).count < 2 { map.dropPoint(track) }
+      }
+    }
+    return weak.count
+  }
+}

@@ -1,0 +1,96 @@
+import Kernels
+import SceneModel
+
+/// A reconstruction while it grows: poses of some photos, and points of some tracks.
+struct SparseMap: Sendable {
+  var photos: PosedPhotos
+  private(set) var tracks: FeatureTracks
+  /// The point of each track; valid where `isTriangulated`.
+  var positions: [SIMD3<Double>]
+  var isTriangulated: [Bool]
+  /// Whether each observation of the tracks supports its track's point.
+  var isActive: [Bool]
+  /// In the order of registration.
+  var registered: [Int] = []
+
+  init(cameras: [Camera], photos: [Photo], tracks: FeatureTracks) {
+    self.photos = PosedPhotos(
+      cameras: cameras, poses: photos.map { _ in nil },
+      cameraOfPhoto: photos.map { $0.camera.rawValue })
+    self.tracks = tracks
+    positions = Array(repeating: .zero, count: tracks.count)
+    isTriangulated = Array(repeating: false, count: tracks.count)
+    isActive = Array(repeating: false, count: tracks.photos.count)
+  }
+
+  func isRegistered(_ photo: Int) -> Bool { photos.poses[photo] != nil }
+
+  var pointCount: Int { isTriangulated.count { $0 } }
+
+  mutating func register(_ photo: Int, _ cameraFromWorld: RigidTransform) {
+    if photos.poses[photo] == nil { registered.append(photo) }
+    photos.poses[photo] = cameraFromWorld
+  }
+
+  /// Takes a photo out again, with its observations.
+  mutating func unregister(_ photo: Int) {
+    photos.poses[photo] = nil
+    registered.removeAll { $0 == photo }
+    for index in tracks.observationsOfPhoto[photo] { isActive[Int(index)] = false }
+  }
+
+  mutating func dropPoint(_ track: Int) {
+    isTriangulated[track] = false
+    for index in tracks.observations(of: track) { isActive[index] = false }
+  }
+
+  func activeObservations(of track: Int) -> [Int] {
+    tracks.observations(of: track).filter { isActive[$0] }
+  }
+
+  func activeCount(ofPhoto photo: Int) -> Int {
+    tracks.observationsOfPhoto[photo].count { isActive[Int($0)] }
+  }
+
+  func pointObservation(_ index: Int, point: Int) -> PointObservation {
+    PointObservation(
+      photo: tracks.photos[index], point: Int32(point), pixel: tracks.pixels[index])
+  }
+
+  /// Tracks without a point, or with it, that `photo` has an observation of, ascending.
+  func tracks(ofPhoto photo: Int) -> [Int] {
+    tracks.observationsOfPhoto[photo].map { Int(tracks.trackOfObservation[Int($0)]) }
+  }
+
+  /// Moves observations of registered photos that contradict their track's point to a track of
+  /// their own, two or more at a time.
+  mutating func splitTracks() {
+    var result = FeatureTracks(photoCount: photos.poses.count)
+    var newPositions: [SIMD3<Double>] = []
+    var newTriangulated: [Bool] = []
+    var newActive: [Bool] = []
+    func member(_ index: Int) -> (photo: Int32, feature: Int32, pixel: SIMD2<Double>) {
+      (tracks.photos[index], tracks.features[index], tracks.pixels[index])
+    }
+    for track in 0..<tracks.count {
+      let all = Array(tracks.observations(of: track))
+      let strays =
+        isTriangulated[track]
+        ? all.filter { !isActive[$0] && isRegistered(Int(tracks.photos[$0])) } : []
+      let kept = strays.count >= 2 ? all.filter { !strays.contains($0) } : all
+      result.append(kept.map(member))
+      newPositions.append(positions[track])
+      newTriangulated.append(isTriangulated[track])
+      newActive += kept.map { isActive[$0] }
+      if strays.count >= 2 {
+        result.append(strays.map(member))
+        newPositions.append(.zero)
+        newTriangulated.append(false)
+        newActive += strays.map { _ in false }
+      }
+    }
+    (tracks, positions, isTriangulated, isActive) = (
+      result, newPositions, newTriangulated, newActive
+    )
+  }
+}

@@ -1,0 +1,193 @@
+import SceneModel
+
+/// Joins matches of pairs into tracks over many photos: union–find that never joins two features of
+/// one photo (Moulon and Monasse, "Unordered feature tracking made fast and easy", CVMP 2012).
+///
+/// Matches that third photos confirm are joined first, so that a wrong match is the one that is
+/// refused.
+package struct TrackBuilding: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Shorter tracks are dropped.
+    package var minimumLength = 2
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  package func run(
+    _ graph: ViewGraph, features: [FeatureSet], _ context: StageContext
+  ) throws -> FeatureTracks {
+    let nodes = Nodes(features)
+    let edges = edges(of: graph, nodes)
+    try context.control.step(0.2)
+    let supports = supports(of: edges, nodeCount: nodes.count)
+    try context.control.step(0.5)
+    // A stable sort by descending support: buckets keep the order of the pairs.
+    var buckets = [[Int]](repeating: [], count: Int(supports.max() ?? 0) + 1)
+    for (index, support) in supports.enumerated() { buckets[Int(support)].append(index) }
+    var forest = ConsistentForest(photoOfNode: nodes.photos)
+    for bucket in buckets.reversed() {
+      for index in bucket { forest.join(edges[index].0, edges[index].1) }
+    }
+    try context.control.step(0.9)
+    return tracks(forest, nodes, features)
+  }
+
+  private func tracks(
+    _ forest: ConsistentForest, _ nodes: Nodes, _ features: [FeatureSet]
+  ) -> FeatureTracks {
+    var tracks = FeatureTracks(photoCount: features.count)
+    for members in forest.components(minimumSize: max(2, options.minimumLength)) {
+      tracks.append(
+        members.map { node in
+          let photo = Int(nodes.photos[Int(node)])
+          let feature = Int(node) - nodes.offsets[photo]
+          return (
+            photo: Int32(photo), feature: Int32(feature),
+            pixel: SIMD2<Double>(features[photo].positions[feature])
+          )
+        })
+    }
+    return tracks
+  }
+
+  /// The matches as pairs of nodes; matches that name features that aren't there are left out.
+  private func edges(of graph: ViewGraph, _ nodes: Nodes) -> [(Int32, Int32)] {
+    var edges: [(Int32, Int32)] = []
+    for pair in graph.pairs {
+      for match in pair.matches {
+        guard
+          let a = nodes.node(pair.pair.first.index, Int(match.first)),
+          let b = nodes.node(pair.pair.second.index, Int(match.second))
+        else { continue }
+        edges.append((a, b))
+      }
+    }
+    return edges
+  }
+
+  /// How many other nodes are matched with both ends of each edge.
+  private func supports(of edges: [(Int32, Int32)], nodeCount: Int) -> [Int32] {
+    var offsets = [Int](repeating: 0, count: nodeCount + 1)
+    for edge in edges {
+      offsets[Int(edge.0) + 1] += 1
+      offsets[Int(edge.1) + 1] += 1
+    }
+    for node in 0..<nodeCount { offsets[node + 1] += offsets[node] }
+    var neighbours = [Int32](repeating: 0, count: 2 * edges.count)
+    var next = offsets
+    for (a, b) in edges {
+      neighbours[next[Int(a)]] = b
+      next[Int(a)] += 1
+      neighbours[next[Int(b)]] = a
+      next[Int(b)] += 1
+    }
+    for node in 0..<nodeCount { neighbours[offsets[node]..<offsets[node + 1]].sort() }
+    return edges.map { a, b in
+      var (i, j) = (offsets[Int(a)], offsets[Int(b)])
+      let (endI, endJ) = (offsets[Int(a) + 1], offsets[Int(b) + 1])
+      var common: Int32 = 0
+      while i < endI, j < endJ {
+        if neighbours[i] == neighbours[j] { common += 1 }
+        if neighbours[i] <= neighbours[j] { i += 1 } else { j += 1 }
+      }
+      return common
+    }
+  }
+}
+
+/// Numbers the features of all photos; features at the same place of a photo share one node.
+private struct Nodes {
+  var offsets = [0]
+  var photos: [Int32] = []
+  /// The first feature at the same place as each feature.
+  var representatives: [Int32] = []
+
+  var count: Int { photos.count }
+
+  init(_ features: [FeatureSet]) {
+    for (photo, set) in features.enumerated() {
+      var first: [SIMD2<Float>: Int32] = [:]
+      let start = photos.count
+      for (index, position) in set.positions.enumerated() {
+        let node = Int32(start + index)
+        photos.append(Int32(photo))
+        if let known = first[position] {
+          representatives.append(known)
+        } else {
+          first[position] = node
+          representatives.append(node)
+        }
+      }
+      offsets.append(photos.count)
+    }
+  }
+
+  func node(_ photo: Int, _ feature: Int) -> Int32? {
+    guard photo >= 0, photo + 1 < offsets.count, feature >= 0 else { return nil }
+    let node = offsets[photo] + feature
+    return node < offsets[photo + 1] ? representatives[node] : nil
+  }
+}
+
+/// Union–find whose components hold at most one node a photo.
+private struct ConsistentForest {
+  private var parents: [Int32]
+  /// The nodes of each root's component sorted by photo; empty for a single node.
+  private var members: [[Int32]]
+  private let photoOfNode: [Int32]
+
+  init(photoOfNode: [Int32]) {
+    self.photoOfNode = photoOfNode
+    parents = photoOfNode.indices.map(Int32.init)
+    members = Array(repeating: [], count: photoOfNode.count)
+  }
+
+  private mutating func root(_ node: Int32) -> Int32 {
+    var node = node
+    while parents[Int(node)] != node {
+      parents[Int(node)] = parents[Int(parents[Int(node)])]
+      node = parents[Int(node)]
+    }
+    return node
+  }
+
+  /// Joins the components of two nodes unless they have a photo in common.
+  mutating func join(_ a: Int32, _ b: Int32) {
+    let (rootA, rootB) = (root(a), root(b))
+    guard rootA != rootB else { return }
+    let (listA, listB) = (membersOrSelf(rootA), membersOrSelf(rootB))
+    var merged: [Int32] = []
+    merged.reserveCapacity(listA.count + listB.count)
+    var (i, j) = (0, 0)
+    while i < listA.count, j < listB.count {
+      let (photoA, photoB) = (photoOfNode[Int(listA[i])], photoOfNode[Int(listB[j])])
+      if photoA == photoB { return }
+      if photoA < photoB {
+        merged.append(listA[i])
+        i += 1
+      } else {
+        merged.append(listB[j])
+        j += 1
+      }
+    }
+    merged += listA[i...]
+    merged += listB[j...]
+    let (kept, gone) = listA.count >= listB.count ? (rootA, rootB) : (rootB, rootA)
+    parents[Int(gone)] = kept
+    members[Int(gone)] = []
+    members[Int(kept)] = merged
+  }
+
+  private func membersOrSelf(_ root: Int32) -> [Int32] {
+    members[Int(root)].isEmpty ? [root] : members[Int(root)]
+  }
+
+  /// The nodes of each large enough component, in order of the components' first nodes.
+  func components(minimumSize: Int) -> [[Int32]] {
+    members.filter { $0.count >= minimumSize }.sorted { $0[0] < $1[0] }
+  }
+}
