@@ -4,9 +4,9 @@ enum OutputLocation: Hashable {
   case folder(URL)
 
   /// Takes a URL as Apple's session does: by the suffix `usdz`, or else as a folder.
-  init(_ url: URL, additionalFormats: Set<String> = []) throws(PhotogrammetrySession.Error) {
+  init(_ url: URL, additionalFormats: Set<String> = []) throws {
     if Self.fault(of: url, additionalFormats: additionalFormats) != nil {
-      throw .invalidOutput(url)
+      throw PhotogrammetrySession.Error.invalidOutput(url)
     }
     self = Self.namesFile(url, additionalFormats) ? .file(url) : .folder(url)
   }
@@ -45,7 +45,11 @@ enum OutputLocation: Hashable {
       && isDirectory.boolValue
   }
 
-  private static func isWritable(_ url: URL) -> Bool {
-    FileManager.default.isWritableFile(atPath: url.path)
+  /// Tries it out: permissions alone do not tell for file systems that are read-only or special.
+  private static func isWritable(_ folder: URL) -> Bool {
+    guard FileManager.default.isWritableFile(atPath: folder.path) else { return false }
+    let probe = folder.appendingPathComponent(".\(UUID().uuidString)")
+    defer { try? FileManager.default.removeItem(at: probe) }
+    return FileManager.default.createFile(atPath: probe.path, contents: nil)
   }
 }

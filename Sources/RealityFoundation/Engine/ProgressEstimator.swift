@@ -67,8 +67,8 @@ struct ProgressEstimator: Sendable {
     let usual = measured.reduce(0) { $0 + $1.prior * $1.fraction }
     let open = steps.reduce(0) { $0 + $1.prior * (1 - $1.fraction) }
     guard usual > 0, usual > 0.01 * (usual + open) else { return nil }
-    // A little work may be out of the ordinary: hold on to the prior by 2 % of everything.
-    let weight = 0.02 * (usual + open)
+    // Little work may be out of the ordinary: until a fifth is measured, the prior has a say.
+    let weight = 0.02 * max(0, usual + open - 5 * usual)
     let seconds = measured.reduce(0) { $0 + $1.seconds }
     return (seconds + weight) / (usual + weight)
   }

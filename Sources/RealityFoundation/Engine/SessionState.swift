@@ -25,6 +25,7 @@ struct SessionState: Sendable {
   private var known: Set<WorkUnit> = []
   private var toldSamples: Set<Int> = []
   private var hasDownsampled = false
+  private var hasToldOfStitching = false
   private var told: [Request: (fraction: Double, stage: PipelineStage)] = [:]
 
   /// Whether requests are being worked on.
@@ -84,7 +85,11 @@ struct SessionState: Sendable {
   }
 
   /// Only some of the photos could be put together.
-  func stitchingIncomplete() -> [Output] { isWorking ? [.stitchingIncomplete] : [] }
+  mutating func stitchingIncomplete() -> [Output] {
+    guard isWorking, !hasToldOfStitching else { return [] }
+    hasToldOfStitching = true
+    return [.stitchingIncomplete]
+  }
 
   /// The work for one of the requests begins.
   mutating func began(_ entry: RunPlan.Entry) { specification = entry.specification }
@@ -136,7 +141,10 @@ struct SessionState: Sendable {
   }
 
   /// The engine was given up, so that nothing is known of earlier calls' work.
-  mutating func forgetWork() { known = [] }
+  mutating func forgetWork() {
+    known = []
+    hasToldOfStitching = false
+  }
 
   private var isWorking: Bool { phase == .ingesting || phase == .processing }
 

@@ -1,0 +1,82 @@
+import Foundation
+import Testing
+
+@testable import RealityFoundation
+
+@Suite struct RequestValidationTests {
+  typealias Session = PhotogrammetrySession
+
+  private func check(
+    _ requests: [Session.Request], in folder: URL, checkpoint: URL? = nil, free: Int64 = .max
+  ) throws {
+    var configuration = Session.Configuration()
+    configuration.checkpointDirectory = checkpoint
+    let validation = RequestValidation(
+      input: .folder(folder), configuration: configuration, options: EngineOptions(),
+      freeBytes: { _ in free })
+    try validation.check(requests)
+  }
+
+  private func isInvalidOutput(_ error: any Error) -> Bool {
+    if case Session.Error.invalidOutput = error { true } else { false }
+  }
+
+  @Test func theURLDecidesAboutTheKindOfOutput() throws {
+    try withTemporaryFolder { folder in
+      let file = folder.appendingPathComponent("model.usdz")
+      #expect((try? OutputLocation(file)) == .file(file))
+      let upper = folder.appendingPathComponent("MODEL.USDZ")
+      #expect((try? OutputLocation(upper)) == .file(upper))
+      #expect((try? OutputLocation(folder)) == .folder(folder))
+      let new = folder.appendingPathComponent("a/b", isDirectory: true)
+      #expect((try? OutputLocation(new)) == .folder(new))
+      let glb = folder.appendingPathComponent("model.glb")
+      #expect(throws: Session.Error.self) { try OutputLocation(glb) }
+      #expect((try? OutputLocation(glb, additionalFormats: ["glb"])) == .file(glb))
+    }
+  }
+
+  @Test func outputsThatCannotBeWrittenAreRefused() throws {
+    try withTemporaryFolder { folder in
+      try Data().write(to: folder.appendingPathComponent("file"))
+      let wrong = [
+        folder.appendingPathComponent("model.obj"),
+        folder.appendingPathComponent("missing/model.usdz"),
+        folder.appendingPathComponent("file/model.usdz"),
+        folder.appendingPathComponent("file/x", isDirectory: true),
+        URL(fileURLWithPath: "/proc/model.usdz"),
+        try #require(URL(string: "https://example.com/model.usdz")),
+      ]
+      for url in wrong {
+        do {
+          try check([.modelFile(url: url)], in: folder)
+          Issue.record("\(url) was accepted")
+        } catch {
+          #expect(isInvalidOutput(error) && sentence(of: error).count > 40, "\(url): \(error)")
+        }
+      }
+    }
+  }
+
+  @Test func requestsAreChecked() throws {
+    try withTemporaryFolder { folder in
+      try Data().write(to: folder.appendingPathComponent("photo.jpg"))
+      let url = folder.appendingPathComponent("model.usdz")
+      try check([.modelFile(url: url), .poses], in: folder)
+      #expect(throws: ProcessingError.self) { try check([], in: folder) }
+      #expect(throws: ProcessingError.self) {
+        try check([.modelFile(url: url), .modelFile(url: url, detail: .full)], in: folder)
+      }
+      #expect(throws: Session.Error.self) {
+        try check([.modelFile(url: url)], in: folder, free: 9_999_999)
+      }
+      #expect(throws: Session.Error.self) {
+        try check([.poses], in: folder.appendingPathComponent("gone"))
+      }
+      #expect(throws: ProcessingError.self) {
+        try check([.poses], in: folder, checkpoint: folder.appendingPathComponent("photo.jpg"))
+      }
+      try check([.poses], in: folder, checkpoint: folder.appendingPathComponent("new/checkpoint"))
+    }
+  }
+}

@@ -1,0 +1,53 @@
+import Foundation
+import Testing
+
+@testable import Pipeline
+@testable import RealityFoundation
+
+@Suite struct RunPlanTests {
+  typealias Session = PhotogrammetrySession
+
+  private func model(_ name: String, _ detail: Session.Request.Detail) -> Session.Request {
+    .modelFile(url: URL(fileURLWithPath: "/tmp/\(name).usdz"), detail: detail)
+  }
+
+  @Test func whatNeedsLeastComesFirst() {
+    let requests = [
+      model("m", .medium), .bounds, model("p", .preview), .pointCloud, .poses, .poses,
+    ]
+    let plan = RunPlan(requests, configuration: .init())
+    #expect(
+      plan.entries.map(\.request)
+        == [.poses, .pointCloud, .bounds, model("p", .preview), model("m", .medium)])
+    #expect(plan.requests == Array(requests.dropLast()))
+    #expect(plan.finest == DetailSpecification(.medium))
+  }
+
+  @Test func posesStopAfterAlignment() {
+    let plan = RunPlan([.poses], configuration: .init())
+    #expect(plan.units == [.preProcessing, .alignment])
+    #expect(RunPlan([.pointCloud], configuration: .init()).units.last == .densification)
+  }
+
+  @Test func sharedStagesAreDoneOnce() {
+    let plan = RunPlan([model("a", .reduced), model("b", .preview)], configuration: .init())
+    #expect(plan.units.count == 3 + 2 * 3)
+    #expect(plan.units.prefix(3) == [.preProcessing, .alignment, .densification])
+  }
+
+  @Test func customDetailFollowsTheConfiguration() {
+    var configuration = Session.Configuration()
+    configuration.customDetailSpecification.maximumPolygonCount = 60_000
+    configuration.customDetailSpecification.maximumTextureDimension = .eightK
+    configuration.customDetailSpecification.outputTextureMaps = [.diffuseColor, .displacement]
+    configuration.customDetailSpecification.textureFormat = .jpeg(compressionQuality: 7)
+    let plan = RunPlan([model("c", .custom)], configuration: configuration)
+    let expected = DetailSpecification(
+      maximumTriangles: 60_000, textureSide: 8192, maps: [.diffuseColor, .displacement],
+      textureFormat: .jpeg(quality: 1), viewPixels: DetailSpecification(.medium).viewPixels)
+    #expect(plan.entries.first?.specification == expected)
+    configuration.customDetailSpecification.maximumPolygonCount = .max
+    let largest = RunPlan([model("c", .custom)], configuration: configuration)
+    #expect(largest.finest.viewPixels == DetailSpecification(.raw).viewPixels)
+  }
+}

@@ -1,0 +1,116 @@
+import Foundation
+import Kernels
+import SceneModel
+import Synchronization
+
+@testable import Pipeline
+@testable import RealityFoundation
+
+/// An engine that does what a test tells it, in no time.
+final class ScriptedEngine: SessionEngine {
+  /// What the engine does and what was asked of it.
+  struct Script: Sendable {
+    var photos = 12
+    var refused: [RefusedPhoto] = []
+    var ingestError: PipelineError?
+    var alignmentError: PipelineError?
+    var isDownsampled = false
+    var registered: Int?
+    /// Works on the alignment until it is cancelled.
+    var worksForever = false
+  }
+
+  /// What engines were made and asked for, from any thread.
+  final class Journal: Sendable {
+    private let entries = Mutex<[String]>([])
+
+    func add(_ entry: String) { entries.withLock { $0.append(entry) } }
+    func count(of entry: String) -> Int { entries.withLock { $0.filter { $0 == entry }.count } }
+  }
+
+  private let script: Script
+  private let flag: CancellationFlag
+  private let journal: Journal
+  private let onEvent: SessionCore.EventHandler
+
+  init(
+    _ script: Script, _ flag: CancellationFlag, _ journal: Journal,
+    _ onEvent: @escaping SessionCore.EventHandler
+  ) {
+    self.script = script
+    self.flag = flag
+    self.journal = journal
+    self.onEvent = onEvent
+    journal.add("made")
+  }
+
+  deinit { journal.add("gone") }
+
+  private func work(_ stage: PipelineStage) throws {
+    for step in 1...10 {
+      if flag.isCancelled { throw CancellationError() }
+      onEvent(.progress(stage, fraction: Double(step) / 10))
+    }
+  }
+
+  private func align() throws {
+    journal.add("align")
+    while script.worksForever {
+      try work(.imageAlignment)
+      Thread.sleep(forTimeInterval: 0.001)
+    }
+    try work(.imageAlignment)
+    if let error = script.alignmentError { throw error }
+    if let registered = script.registered {
+      onEvent(.stitchingIncomplete(registered: registered, of: script.photos))
+    }
+  }
+
+  func ingest() throws -> Int {
+    journal.add("ingest")
+    for photo in script.refused { onEvent(.refused(photo)) }
+    if let error = script.ingestError { throw error }
+    if script.isDownsampled { onEvent(.downsampled) }
+    try work(.preProcessing)
+    return script.photos
+  }
+
+  func poses() throws -> PhotogrammetrySession.Poses {
+    try align()
+    return PhotogrammetrySession.Poses(posesBySample: [:], urlsBySample: [:])
+  }
+
+  func pointCloud(
+    _ specification: DetailSpecification
+  ) throws -> PhotogrammetrySession.PointCloud {
+    try align()
+    try work(.pointCloudGeneration)
+    return PhotogrammetrySession.PointCloud(PointCloud())
+  }
+
+  func bounds(_ specification: DetailSpecification) throws -> BoundingBox {
+    try align()
+    try work(.meshGeneration)
+    return BoundingBox(min: .zero, max: .one)
+  }
+
+  func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+    try align()
+    for stage in PipelineStage.allCases.dropFirst(2) { try work(stage) }
+    try Data("model".utf8).write(to: url)
+  }
+
+  var report: RunReport? { RunReport(configuration: PipelineConfiguration()) }
+}
+
+extension PhotogrammetrySession {
+  /// A session on a folder with an engine of the test's.
+  convenience init(
+    folder: URL, _ script: ScriptedEngine.Script = .init(),
+    journal: ScriptedEngine.Journal = .init(), configuration: Configuration = .init()
+  ) {
+    self.init(.folder(folder), configuration: configuration) { _, flag, onEvent in
+      ScriptedEngine(script, flag, journal, onEvent)
+    }
+  }
+}

@@ -1,0 +1,205 @@
+import Foundation
+import SceneModel
+import Testing
+
+@testable import Pipeline
+@testable import RealityFoundation
+
+/// The behaviour of a session, on an engine that does what the test tells it.
+@Suite(.timeLimit(.minutes(1))) struct SessionTests {
+  typealias Session = PhotogrammetrySession
+  typealias Output = Session.Output
+
+  /// Reads outputs up to and including the end of processing.
+  private func run(_ session: Session, _ requests: [Session.Request]) async throws -> [Output] {
+    try session.process(requests: requests)
+    return try await untilTheEnd(session.outputs)
+  }
+
+  private func untilTheEnd(_ sequence: Session.Outputs) async throws -> [Output] {
+    var outputs: [Output] = []
+    for try await output in sequence {
+      outputs.append(output)
+      if ["processingComplete", "processingCancelled"].contains(name(of: output)) { break }
+    }
+    return outputs
+  }
+
+  private func withPhotos(_ body: (URL) async throws -> Void) async throws {
+    try await withTemporaryFolder { folder in
+      try Data("photo".utf8).write(to: folder.appendingPathComponent("a.jpg"))
+      try await body(folder)
+    }
+  }
+
+  @Test func ordersItsOutputs() async throws {
+    try await withPhotos { folder in
+      let script = ScriptedEngine.Script(
+        refused: [
+          RefusedPhoto(sampleID: 1, name: "b", fault: .unreadable, reason: "It can't be decoded.")
+        ], isDownsampled: true, registered: 11)
+      let session = Session(folder: folder, script)
+      let model = Session.Request.modelFile(url: folder.appendingPathComponent("m.usdz"))
+      let outputs = try await run(session, [model, .poses])
+      let names = outputs.map(name(of:))
+      #expect(names.first == "invalidSample" && names.last == "processingComplete")
+      let input = try #require(names.firstIndex(of: "inputComplete"))
+      #expect(try #require(names.firstIndex(of: "automaticDownsampling")) < input)
+      #expect(names.contains("stitchingIncomplete") && names.contains("requestProgressInfo"))
+      let completed = outputs.filter { name(of: $0) == "requestComplete" }
+      #expect(completed.compactMap(request(of:)) == [.poses, model])
+      #expect(!session.isProcessing && session.activeRequests.isEmpty && session.report != nil)
+      for wanted in [model, .poses] {
+        let fractions = outputs.compactMap { output -> Double? in
+          if case .requestProgress(wanted, let fraction) = output { fraction } else { nil }
+        }
+        #expect(fractions == fractions.sorted() && fractions.last == 1)
+      }
+    }
+  }
+
+  @Test func usesTheEngineAgain() async throws {
+    try await withPhotos { folder in
+      let journal = ScriptedEngine.Journal()
+      let session = Session(folder: folder, journal: journal)
+      _ = try await run(session, [.poses])
+      let names = try await run(session, [.bounds, .pointCloud]).map(name(of:))
+      #expect(journal.count(of: "made") == 1)
+      #expect(!names.contains("inputComplete"))
+      #expect(names.filter { $0 == "requestComplete" }.count == 2)
+    }
+  }
+
+  @Test func aFailedRequestStopsNoOther() async throws {
+    try await withPhotos { folder in
+      let session = Session(folder: folder)
+      let outputs = try await run(session, [.modelEntity(), .poses])
+      let names = outputs.map(name(of:))
+      #expect(names.contains("requestError") && names.contains("requestComplete"))
+      #expect(names.last == "processingComplete")
+      let error = try #require(firstError(in: outputs) as? ProcessingError)
+      #expect(error.code == .notAvailable && !error.remedy.isEmpty)
+    }
+  }
+
+  @Test func everyRequestHearsOfBadInput() async throws {
+    try await withPhotos { folder in
+      let session = Session(
+        folder: folder, .init(ingestError: .tooFewPhotos(found: 2, needed: 3)))
+      let outputs = try await run(session, [.bounds, .poses])
+      let names = outputs.map(name(of:))
+      #expect(names == ["requestError", "requestError", "processingComplete"])
+      let error = try #require(firstError(in: outputs))
+      #expect((error as NSError).code == ProcessingError.Code.tooFewPhotos.rawValue)
+      #expect(sentence(of: error).contains("2 usable photos"))
+    }
+  }
+
+  @Test func failedAlignmentHasCodeSix() async throws {
+    try await withPhotos { folder in
+      let session = Session(
+        folder: folder, .init(alignmentError: .alignmentFailed(reason: "no overlap.")))
+      let error = try #require(firstError(in: try await run(session, [.poses])))
+      #expect((error as NSError).code == 6)
+      #expect(error.localizedDescription.contains("no overlap."))
+    }
+  }
+
+  @Test func cancels() async throws {
+    try await withPhotos { folder in
+      let journal = ScriptedEngine.Journal()
+      let session = Session(folder: folder, .init(worksForever: true), journal: journal)
+      session.cancel()
+      try session.process(requests: [.poses])
+      #expect(session.isProcessing && session.activeRequests == [.poses])
+      #expect(throws: ProcessingError.alreadyProcessing) {
+        try session.process(requests: [.bounds])
+      }
+      for try await output in session.outputs where name(of: output) == "requestProgress" { break }
+      session.cancel()
+      let names = try await untilTheEnd(session.outputs).map(name(of:))
+      #expect(names.last == "processingCancelled" && !names.contains("requestComplete"))
+      #expect(!session.isProcessing)
+      // The session can go on, with an engine that has not been told to stop.
+      try session.process(requests: [.poses])
+      for try await output in session.outputs where name(of: output) == "requestProgress" { break }
+      session.cancel()
+      let last = try await untilTheEnd(session.outputs).last
+      #expect(last.map(name(of:)) == "processingCancelled")
+      #expect(journal.count(of: "made") == 2)
+    }
+  }
+
+  @Test func cancellingAtOnceIsNotLost() async throws {
+    try await withPhotos { folder in
+      let session = Session(folder: folder, .init(worksForever: true))
+      for _ in 0..<20 {
+        try session.process(requests: [.poses])
+        session.cancel()
+        let last = try await untilTheEnd(session.outputs).last
+        #expect(last.map(name(of:)) == "processingCancelled")
+      }
+    }
+  }
+
+  @Test func outputsEndWithTheSession() async throws {
+    try await withPhotos { folder in
+      let journal = ScriptedEngine.Journal()
+      var session: Session? = Session(folder: folder, journal: journal)
+      weak let reference = session
+      let outputs = try #require(session?.outputs)
+      try session?.process(requests: [.poses])
+      // Nobody refers to the session any more, and yet the work is done.
+      session = nil
+      var names: [String] = []
+      for try await output in outputs { names.append(name(of: output)) }
+      #expect(names.contains("requestComplete") && names.last == "processingComplete")
+      #expect(reference == nil)
+      while journal.count(of: "gone") < 1 { await Task.yield() }
+    }
+  }
+
+  @Test func idleSessionGoesAway() async throws {
+    try await withPhotos { folder in
+      weak var reference: Session?
+      do {
+        let session = Session(folder: folder)
+        reference = session
+        _ = try await run(session, [.poses])
+        _ = try await run(session, [.bounds])
+      }
+      for _ in 0..<1000 where reference != nil { try await Task.sleep(for: .milliseconds(1)) }
+      #expect(reference == nil)
+    }
+  }
+
+  private func firstError(in outputs: [Output]) -> (any Error)? {
+    outputs.lazy.compactMap { output -> (any Error)? in
+      if case .requestError(_, let error) = output { error } else { nil }
+    }.first
+  }
+}
+
+@Suite struct SessionInputTests {
+  private func expectInvalid(_ url: URL, says text: String) {
+    do {
+      _ = try PhotogrammetrySession(input: url)
+      Issue.record("\(url.path) was accepted")
+    } catch {
+      #expect(sentence(of: error).contains(text), "\(error)")
+      #expect((error as NSError).code == 0)
+    }
+  }
+
+  @Test func foldersThatCannotBeUsedAreRefused() throws {
+    try withTemporaryFolder { folder in
+      expectInvalid(folder, says: "is empty")
+      expectInvalid(folder.appendingPathComponent("missing"), says: "does not exist")
+      let file = folder.appendingPathComponent("file.jpg")
+      try Data().write(to: file)
+      expectInvalid(file, says: "is a file")
+      expectInvalid(try #require(URL(string: "https://example.com/photos")), says: "not on a disk")
+      #expect(try !PhotogrammetrySession(input: folder).isProcessing)
+    }
+  }
+}
