@@ -10,5 +10,6 @@
 #include "ck_matching.h"
 #include "ck_resection.h"
 #include "ck_two_view.h"
+#include "ck_texture.h"
 
 #endif

@@ -1,0 +1,115 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "texture/atlas.h"
+
+namespace ck {
+namespace {
+
+/// A unit vector as three bytes; flat (0, 0, 1) is 128, 128, 255.
+void encode(Vec3 n, uint8_t* pixel) {
+  const auto byte = [](float v) {
+    return static_cast<uint8_t>(std::clamp(std::lround(127.5f * v + 127.5f), 0L, 255L));
+  };
+  pixel[0] = byte(n.x + 1e-6f);
+  pixel[1] = byte(n.y + 1e-6f);
+  pixel[2] = byte(n.z);
+}
+
+Vec3 at(const float* p) { return {p[0], p[1], p[2]}; }
+
+/// The dense surface's point nearest along the normal, inwards or outwards, that faces the same
+/// way.
+bool nearest_along(const ck_bake_source& source, Vec3 position, Vec3 normal, Hit* best,
+                   float* height) {
+  bool found = false;
+  const float reach = source.maximum_distance;
+  // From outside inwards: the first surface that is met is the one that is seen.
+  for (const float sign : {1.0f, -1.0f}) {
+    Hit hit;
+    // A little overlap, so that a surface at distance 0 isn't missed by both.
+    const Vec3 origin = position - normal * (sign * reach * 1e-3f);
+    if (!intersect(*source.dense, origin, normal * sign, 0, reach, &hit)) continue;
+    if (dot(source.dense->face_normals[hit.triangle], normal) <= 0.1f) continue;
+    const float h = sign * (hit.distance - reach * 1e-3f);
+    if (!found || std::fabs(h) < std::fabs(*height)) {
+      *best = hit;
+      *height = h;
+      found = true;
+    }
+  }
+  return found;
+}
+
+Vec3 dense_normal(const ck_bake_source& source, const Hit& hit) {
+  const auto& t = source.dense->triangles[hit.triangle];
+  const auto n = [&](size_t i) {
+    return vec_at(source.dense_normals, source.dense_normals_stride, t[i]);
+  };
+  return normalized(n(0) * (1 - hit.u - hit.v) + n(1) * hit.u + n(2) * hit.v);
+}
+
+class FaceBaker {
+ public:
+  FaceBaker(const ck_atlas& atlas, const ck_bake_source& source, size_t face)
+      : atlas_(atlas), source_(source), face_(face), map_(atlas.corners.data() + 6 * face) {}
+
+  void run(uint8_t* rgb, uint8_t* displacement) const {
+    if (!map_.is_valid) return;
+    atlas_.for_each_texel(face_, [&](int x, int y, size_t texel) {
+      const Vec3 w = TexelMap::clamped(
+          map_.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+      const float* n = source_.corner_normals + 9 * face_;
+      const Vec3 normal = normalized(at(n) * w.x + at(n + 3) * w.y + at(n + 6) * w.z);
+      const Vec3 position = atlas_.scene.corner(face_, 0) * w.x +
+                            atlas_.scene.corner(face_, 1) * w.y +
+                            atlas_.scene.corner(face_, 2) * w.z;
+      Hit hit;
+      float height = 0;
+      Vec3 local = {0, 0, 1};
+      if (nearest_along(source_, position, normal, &hit, &height)) {
+        local = in_tangent_frame(dense_normal(source_, hit), normal, w);
+      }
+      encode(local, rgb + 3 * texel);
+      if (displacement) {
+        const float share = height / source_.maximum_distance;
+        displacement[texel] =
+            static_cast<uint8_t>(std::clamp(std::lround(127.5f + 127.5f * share), 0L, 255L));
+      }
+    });
+  }
+
+ private:
+  Vec3 in_tangent_frame(Vec3 dense, Vec3 normal, Vec3 w) const {
+    const float* t = source_.corner_tangents + 12 * face_;
+    Vec3 tangent = at(t) * w.x + at(t + 4) * w.y + at(t + 8) * w.z;
+    tangent = normalized(tangent - normal * dot(normal, tangent));
+    const Vec3 bitangent = cross(normal, tangent) * t[3];
+    const Vec3 local = {dot(dense, tangent), dot(dense, bitangent), dot(dense, normal)};
+    return local.z > 0.05f ? normalized(local) : Vec3{0, 0, 1};
+  }
+
+  const ck_atlas& atlas_;
+  const ck_bake_source& source_;
+  size_t face_;
+  TexelMap map_;
+};
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_atlas_bake(const ck_atlas* atlas, const ck_bake_source* source,
+                        const ck_control* control, uint8_t* rgb, uint8_t* displacement) {
+  return ck::guarded([&] {
+    ck::require(atlas && source && source->dense && rgb, "an argument is missing");
+    const size_t texels = atlas->faces.size();
+    for (size_t i = 0; i < texels; ++i) ck::encode({0, 0, 1}, rgb + 3 * i);
+    if (displacement) std::memset(displacement, 128, texels);
+    ck::for_each_face(*atlas, control, [&](size_t face) {
+      ck::FaceBaker(*atlas, *source, face).run(rgb, displacement);
+    });
+    ck::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
+    if (displacement) ck::fill_uncovered(atlas->faces, atlas->side, 1, control, displacement);
+  });
+}

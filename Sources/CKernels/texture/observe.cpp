@@ -1,0 +1,250 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/parallel.h"
+#include "texture/pinhole.h"
+#include "texture/ray_scene.h"
+
+namespace ck {
+namespace {
+
+constexpr float kFar = std::numeric_limits<float>::max();
+
+struct Corner {
+  Vec2 pixel;
+  float depth = 0;
+};
+
+std::vector<float> luminance_of(const uint8_t* rgb, size_t pixels) {
+  std::vector<float> gray(pixels);
+  for (size_t i = 0; i < pixels; ++i) {
+    gray[i] = 0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2];
+  }
+  return gray;
+}
+
+/// Calls `visit(x, y, w1, w2)` for all pixels whose centre lies in the triangle.
+template <typename Visit>
+void rasterize(const std::array<Vec2, 3>& p, int width, int height, Visit&& visit) {
+  const float doubled = cross(p[1] - p[0], p[2] - p[0]);
+  if (!(std::fabs(doubled) > 1e-12f)) return;
+  const auto clamp_to = [](float v, int limit) {
+    return static_cast<int>(std::clamp(v, 0.0f, static_cast<float>(limit)));
+  };
+  const int x0 = clamp_to(std::floor(std::min({p[0].x, p[1].x, p[2].x}) - 0.5f), width);
+  const int x1 = clamp_to(std::ceil(std::max({p[0].x, p[1].x, p[2].x}) + 0.5f), width);
+  const int y0 = clamp_to(std::floor(std::min({p[0].y, p[1].y, p[2].y}) - 0.5f), height);
+  const int y1 = clamp_to(std::ceil(std::max({p[0].y, p[1].y, p[2].y}) + 0.5f), height);
+  for (int y = y0; y < y1; ++y) {
+    for (int x = x0; x < x1; ++x) {
+      const Vec2 q = Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} - p[0];
+      const float w1 = cross(q, p[2] - p[0]) / doubled;
+      const float w2 = cross(p[1] - p[0], q) / doubled;
+      if (w1 >= 0 && w2 >= 0 && w1 + w2 <= 1) visit(x, y, w1, w2);
+    }
+  }
+}
+
+/// A small depth buffer in which every pixel holds the nearest depth of its neighbourhood.
+struct NearestDepth {
+  static constexpr int kShrink = 2;
+  int width, height;
+  std::vector<float> depth;
+
+  NearestDepth(const ck_ray_scene& scene, const std::vector<Corner>& corners,
+               const ck_pinhole& view)
+      : width(view.width / kShrink + 1),
+        height(view.height / kShrink + 1),
+        depth(static_cast<size_t>(width) * static_cast<size_t>(height), kFar) {
+    for (const auto& t : scene.triangles) {
+      const Corner &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
+      if (a.depth <= 0 || b.depth <= 0 || c.depth <= 0) continue;
+      const std::array<Vec2, 3> p = {a.pixel * (1.0f / kShrink), b.pixel * (1.0f / kShrink),
+                                     c.pixel * (1.0f / kShrink)};
+      rasterize(p, width, height, [&](int x, int y, float w1, float w2) {
+        float& slot = at(x, y);
+        slot = std::min(slot, a.depth * (1 - w1 - w2) + b.depth * w1 + c.depth * w2);
+      });
+    }
+  }
+
+  float& at(int x, int y) {
+    return depth[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+  }
+
+  void spread(int radius) {
+    std::vector<float> rows = depth;
+    for (int pass = 0; pass < 2; ++pass) {
+      const std::vector<float>& from = pass == 0 ? depth : rows;
+      std::vector<float> to(from.size());
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          float nearest = kFar;
+          for (int d = -radius; d <= radius; ++d) {
+            const int sx = pass == 0 ? std::clamp(x + d, 0, width - 1) : x;
+            const int sy = pass == 0 ? y : std::clamp(y + d, 0, height - 1);
+            nearest = std::min(nearest, from[static_cast<size_t>(sy) * static_cast<size_t>(width) +
+                                             static_cast<size_t>(sx)]);
+          }
+          to[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] =
+              nearest;
+        }
+      }
+      (pass == 0 ? rows : depth) = std::move(to);
+    }
+  }
+};
+
+class Observer {
+ public:
+  Observer(const ck_ray_scene& scene, const ck_pinhole& view, const uint8_t* rgb,
+           const ck_observe_options& options)
+      : scene_(scene),
+        view_(view),
+        rgb_(rgb),
+        options_(options),
+        projection_(view),
+        corners_(project(scene, projection_)),
+        gray_(
+            luminance_of(rgb, static_cast<size_t>(view.width) * static_cast<size_t>(view.height))),
+        nearest_(scene, corners_, view) {
+    radius_ = std::max(1, static_cast<int>(std::ceil(options.margin / NearestDepth::kShrink)));
+    nearest_.spread(radius_);
+  }
+
+  ck_face_observation observe(size_t t) const {
+    ck_face_observation result{};
+    const Vec3 centroid = scene_.centroid(t);
+    const Vec3 to_camera = projection_.center - centroid;
+    const float distance = length(to_camera);
+    if (!(distance > 0)) return result;
+    const float cosine = dot(scene_.face_normals[t], to_camera) / distance;
+    if (!(cosine >= options_.minimum_cosine)) return result;
+    std::array<Corner, 3> corners;
+    for (size_t i = 0; i < 3; ++i) {
+      corners[i] = corners_[scene_.triangles[t][i]];
+      if (!is_inside(corners[i])) return result;
+    }
+    if (is_hidden(t, centroid, distance)) return result;
+    const std::array<Vec2, 3> p = {corners[0].pixel, corners[1].pixel, corners[2].pixel};
+    result.area = std::fabs(cross(p[1] - p[0], p[2] - p[0])) / 2;
+    result.cosine = cosine;
+    result.clearance = is_clear(corners, cosine) ? 1.0f : 0.0f;
+    measure(p, &result);
+    return result;
+  }
+
+ private:
+  static std::vector<Corner> project(const ck_ray_scene& scene, const Projection& projection) {
+    std::vector<Corner> corners(scene.positions.size());
+    for (size_t i = 0; i < corners.size(); ++i) {
+      const Vec3 h = projection.homogeneous(scene.positions[i]);
+      if (h.z > 0) corners[i] = {{h.x / h.z, h.y / h.z}, h.z};
+    }
+    return corners;
+  }
+
+  bool is_inside(const Corner& c) const {
+    const float margin = options_.margin;
+    return c.depth > 0 && c.pixel.x >= margin && c.pixel.y >= margin &&
+           c.pixel.x <= static_cast<float>(view_.width) - margin &&
+           c.pixel.y <= static_cast<float>(view_.height) - margin;
+  }
+
+  bool is_hidden(size_t t, Vec3 centroid, float distance) const {
+    const float near = std::min(0.5f, 2e-4f * scene_.diagonal / distance);
+    for (int i = 0; i < 4; ++i) {
+      // Corners are moved inwards, so that the neighbours' edges don't decide.
+      const Vec3 p = i == 3 ? centroid : centroid + (scene_.corner(t, i) - centroid) * 0.95f;
+      if (is_occluded(scene_, p, projection_.center - p, near, 1)) return true;
+    }
+    return false;
+  }
+
+  bool is_clear(const std::array<Corner, 3>& corners, float cosine) const {
+    const float slope = std::sqrt(std::max(0.0f, 1 - cosine * cosine)) / cosine;
+    for (const Corner& c : corners) {
+      const float pixel = c.depth / static_cast<float>(view_.focal[0]);
+      const float reach = static_cast<float>((radius_ + 1) * NearestDepth::kShrink) * pixel;
+      const int x =
+          std::clamp(static_cast<int>(c.pixel.x) / NearestDepth::kShrink, 0, nearest_.width - 1);
+      const int y =
+          std::clamp(static_cast<int>(c.pixel.y) / NearestDepth::kShrink, 0, nearest_.height - 1);
+      const float nearest =
+          nearest_.depth[static_cast<size_t>(y) * static_cast<size_t>(nearest_.width) +
+                         static_cast<size_t>(x)];
+      if (nearest < c.depth - reach * (2 * slope + 2) - 0.004f * scene_.diagonal) return false;
+    }
+    return true;
+  }
+
+  void measure(const std::array<Vec2, 3>& p, ck_face_observation* result) const {
+    Vec3 sum;
+    float gradient = 0;
+    int count = 0;
+    rasterize(p, view_.width, view_.height, [&](int x, int y, float, float) {
+      const uint8_t* pixel = rgb_ + 3 * index(x, y);
+      sum += {static_cast<float>(pixel[0]), static_cast<float>(pixel[1]),
+              static_cast<float>(pixel[2])};
+      gradient += gradient_at(x, y);
+      ++count;
+    });
+    if (count < 2) {
+      const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0f / 3);
+      sum = sample_rgb(rgb_, view_.width, view_.height, middle.x, middle.y);
+      gradient = gradient_at(static_cast<int>(middle.x), static_cast<int>(middle.y));
+      count = 1;
+    }
+    const float share = 1 / static_cast<float>(count);
+    result->color[0] = sum.x * share;
+    result->color[1] = sum.y * share;
+    result->color[2] = sum.z * share;
+    result->gradient = gradient * share;
+  }
+
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(std::clamp(y, 0, view_.height - 1)) *
+               static_cast<size_t>(view_.width) +
+           static_cast<size_t>(std::clamp(x, 0, view_.width - 1));
+  }
+
+  float gradient_at(int x, int y) const {
+    const float dx = gray_[index(x + 1, y)] - gray_[index(x - 1, y)];
+    const float dy = gray_[index(x, y + 1)] - gray_[index(x, y - 1)];
+    return std::sqrt(dx * dx + dy * dy) / 2;
+  }
+
+  const ck_ray_scene& scene_;
+  const ck_pinhole& view_;
+  const uint8_t* rgb_;
+  const ck_observe_options& options_;
+  Projection projection_;
+  std::vector<Corner> corners_;
+  std::vector<float> gray_;
+  NearestDepth nearest_;
+  int radius_ = 1;
+};
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
+                           const ck_observe_options* options, const ck_control* control,
+                           ck_face_observation* observations) {
+  return ck::guarded([&] {
+    ck::require(scene && view && rgb && options && observations, "an argument is missing");
+    ck::require(view->width > 1 && view->height > 1 && view->focal[0] > 0 && view->focal[1] > 0,
+                "a view has no pixels or no focal length");
+    ck::step(control, 0);
+    const ck::Observer observer(*scene, *view, rgb, *options);
+    constexpr size_t kChunk = 4096;
+    const size_t count = scene->triangles.size();
+    ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
+      const size_t end = std::min(count, (chunk + 1) * kChunk);
+      for (size_t t = chunk * kChunk; t < end; ++t) observations[t] = observer.observe(t);
+    });
+  });
+}

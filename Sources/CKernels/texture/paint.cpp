@@ -1,0 +1,146 @@
+#include <algorithm>
+#include <cmath>
+
+#include "texture/atlas.h"
+#include "texture/pinhole.h"
+
+namespace ck {
+namespace {
+
+constexpr float kSteps = 64;
+
+int16_t quantized(float value) {
+  return static_cast<int16_t>(std::lround(std::clamp(value * kSteps, -32000.0f, 32000.0f)));
+}
+
+Vec3 mix(Vec3 weights, Vec3 a, Vec3 b, Vec3 c) {
+  return a * weights.x + b * weights.y + c * weights.z;
+}
+
+/// Takes one triangle's colours from a photo. Homogeneous pixels are affine in texels.
+class FacePainter {
+ public:
+  FacePainter(const ck_atlas& atlas, const ck_pinhole& view, const Projection& projection,
+              const uint8_t* rgb, const TexelMap& map, size_t face)
+      : view_(view), rgb_(rgb), map_(map) {
+    for (int i = 0; i < 3; ++i) corners_[i] = projection.homogeneous(atlas.scene.corner(face, i));
+    const float* c = atlas.corners.data() + 6 * face;
+    const float x = (c[0] + c[2] + c[4]) / 3, y = (c[1] + c[3] + c[5]) / 3;
+    const Vec2 p = pixel(x, y), right = pixel(x + 1, y) - p, down = pixel(x, y + 1) - p;
+    const float reach = std::max(std::sqrt(right.x * right.x + right.y * right.y),
+                                 std::sqrt(down.x * down.x + down.y * down.y));
+    // A texel that spans several pixels averages as many samples.
+    samples_ =
+        std::isfinite(reach) ? std::clamp(static_cast<int>(std::ceil(reach - 0.25f)), 1, 4) : 1;
+  }
+
+  Vec3 color(int x, int y) const {
+    Vec3 sum;
+    const float share = 1 / static_cast<float>(samples_);
+    for (int j = 0; j < samples_; ++j) {
+      for (int i = 0; i < samples_; ++i) {
+        const Vec2 p = pixel(static_cast<float>(x) + (static_cast<float>(i) + 0.5f) * share,
+                             static_cast<float>(y) + (static_cast<float>(j) + 0.5f) * share);
+        sum += sample_rgb(rgb_, view_.width, view_.height, p.x, p.y);
+      }
+    }
+    return sum * (share * share);
+  }
+
+ private:
+  Vec2 pixel(float x, float y) const {
+    Vec3 h = mix(map_.weights(x, y), corners_[0], corners_[1], corners_[2]);
+    // Beside a triangle seen edge on, the plane may run behind the camera.
+    if (!(h.z > 0)) h = mix({1, 1, 1}, corners_[0], corners_[1], corners_[2]);
+    return {h.x / h.z, h.y / h.z};
+  }
+
+  const ck_pinhole& view_;
+  const uint8_t* rgb_;
+  const TexelMap& map_;
+  Vec3 corners_[3];
+  int samples_ = 1;
+};
+
+Vec3 offset_at(const ck_paint& paint, int corner) {
+  const float* o = paint.offsets + 3 * corner;
+  return {o[0], o[1], o[2]};
+}
+
+void add(ck_atlas& atlas, size_t texel, Vec3 color) {
+  int16_t* slot = atlas.colors.data() + 3 * texel;
+  const int16_t values[3] = {quantized(color.x), quantized(color.y), quantized(color.z)};
+  for (int c = 0; c < 3; ++c) {
+    slot[c] = static_cast<int16_t>(std::clamp(slot[c] + values[c], -32000, 32000));
+  }
+}
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_atlas_paint(ck_atlas* atlas, const ck_pinhole* view, const uint8_t* rgb,
+                         const float* gain, const ck_paint* paints, size_t paint_count,
+                         const ck_control* control) {
+  return ck::guarded([&] {
+    using ck::Vec3;
+    ck::require(atlas && (!rgb || (view && gain)), "an argument is missing");
+    const ck_pinhole no_view{};
+    const ck_pinhole& source = view ? *view : no_view;
+    const ck::Projection projection(source);
+    constexpr size_t kChunk = 512;
+    ck::parallel_for(control, (paint_count + kChunk - 1) / kChunk, [&](size_t chunk) {
+      const size_t end = std::min(paint_count, (chunk + 1) * kChunk);
+      for (size_t k = chunk * kChunk; k < end; ++k) {
+        const ck_paint& paint = paints[k];
+        ck::require(paint.face < atlas->scene.triangles.size(), "a paint names no triangle");
+        const ck::TexelMap map(atlas->corners.data() + 6 * static_cast<size_t>(paint.face));
+        if (!map.is_valid) continue;
+        const ck::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
+        atlas->for_each_texel(paint.face, [&](int x, int y, size_t texel) {
+          const Vec3 w = ck::TexelMap::clamped(
+              map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+          const float weight =
+              w.x * paint.weights[0] + w.y * paint.weights[1] + w.z * paint.weights[2];
+          if (weight <= 0) return;
+          Vec3 color =
+              ck::mix(w, ck::offset_at(paint, 0), ck::offset_at(paint, 1), ck::offset_at(paint, 2));
+          if (rgb) {
+            const Vec3 c = painter.color(x, y);
+            color += Vec3{c.x * gain[0], c.y * gain[1], c.z * gain[2]};
+          }
+          ck::add(*atlas, texel, color * weight);
+        });
+      }
+    });
+  });
+}
+
+ck_status ck_atlas_copy_colors(const ck_atlas* atlas, const ck_control* control, uint8_t* rgb) {
+  return ck::guarded([&] {
+    ck::require(atlas && rgb, "an argument is missing");
+    const size_t count = atlas->colors.size();
+    for (size_t i = 0; i < count; ++i) {
+      rgb[i] = static_cast<uint8_t>(std::clamp((atlas->colors[i] + 32) >> 6, 0, 255));
+    }
+    ck::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
+  });
+}
+
+ck_status ck_atlas_copy_corner_values(const ck_atlas* atlas, const float* values,
+                                      const ck_control* control, uint8_t* gray) {
+  return ck::guarded([&] {
+    ck::require(atlas && values && gray, "an argument is missing");
+    ck::for_each_face(*atlas, control, [&](size_t face) {
+      const ck::TexelMap map(atlas->corners.data() + 6 * face);
+      const float* v = values + 3 * face;
+      if (!map.is_valid) return;
+      atlas->for_each_texel(face, [&](int x, int y, size_t texel) {
+        const ck::Vec3 w = ck::TexelMap::clamped(
+            map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const float value = w.x * v[0] + w.y * v[1] + w.z * v[2];
+        gray[texel] = static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+      });
+    });
+    ck::fill_uncovered(atlas->faces, atlas->side, 1, control, gray);
+  });
+}

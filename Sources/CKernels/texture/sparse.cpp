@@ -1,0 +1,42 @@
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "ck_texture.h"
+#include "core/guard.h"
+
+ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, const uint32_t* rows,
+                          const uint32_t* columns, const double* entries, double tolerance,
+                          size_t iterations, const ck_control* control, double* values) {
+  return ck::guarded([&] {
+    using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+    if (size == 0) return;
+    std::vector<Eigen::Triplet<double>> triplets;
+    triplets.reserve(2 * entry_count);
+    for (size_t i = 0; i < entry_count; ++i) {
+      ck::require(rows[i] < size && columns[i] < size, "an entry lies outside the matrix");
+      const auto r = static_cast<int>(rows[i]), c = static_cast<int>(columns[i]);
+      triplets.emplace_back(r, c, entries[i]);
+      if (r != c) triplets.emplace_back(c, r, entries[i]);
+    }
+    const auto n = static_cast<Eigen::Index>(size);
+    Matrix matrix(n, n);
+    matrix.setFromTriplets(triplets.begin(), triplets.end());
+    Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper,
+                             Eigen::DiagonalPreconditioner<double>>
+        solver;
+    solver.setTolerance(tolerance);
+    solver.setMaxIterations(static_cast<Eigen::Index>(iterations));
+    solver.compute(matrix);
+    if (solver.info() != Eigen::Success) throw ck::Degenerate("the system can't be solved");
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> block(
+        values, n, static_cast<Eigen::Index>(channels));
+    for (Eigen::Index c = 0; c < block.cols(); ++c) {
+      ck::step(control, static_cast<double>(c) / static_cast<double>(channels));
+      const Eigen::VectorXd right = block.col(c);
+      const Eigen::VectorXd solution = solver.solve(right);
+      if (!solution.allFinite()) throw ck::Degenerate("the system has no finite solution");
+      block.col(c) = solution;
+    }
+  });
+}

@@ -1,0 +1,157 @@
+import CKernels
+import SceneModel
+
+/// How much of a view goes into one triangle.
+package struct FacePaint: Sendable {
+  package var face: Int32
+  /// At each corner; over all views they add up to 1.
+  package var weights: SIMD3<Float>
+  /// RGB that is added to the photo's, at each corner.
+  package var offsets: (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)
+
+  package init(
+    face: Int32, weights: SIMD3<Float>, offsets: (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)
+  ) {
+    self.face = face
+    self.weights = weights
+    self.offsets = offsets
+  }
+}
+
+/// A texture atlas that is painted view by view.
+///
+/// Not for use from several threads; kernels use the control's threads inside.
+package final class TextureCanvas {
+  package let side: Int
+  /// The surface that carries the texture; the kernel reads it as long as the canvas lives.
+  private let scene: RayScene
+  private let handle: OpaquePointer
+
+  /// `corners` are the texel coordinates, y down, of each triangle's three corners. Texels up to
+  /// `gutter` beside a chart belong to it as well.
+  package init(
+    _ scene: RayScene, corners: [SIMD2<Float>], side: Int, gutter: Int = 2,
+    _ control: KernelControl
+  ) throws {
+    guard corners.count == 3 * scene.triangleCount else {
+      throw KernelError.invalidArgument("corners and triangles differ in number")
+    }
+    var handle: OpaquePointer?
+    try withKernel(control) { control in
+      corners.withUnsafeFloats { corners in
+        ck_atlas_create(
+          scene.handle, corners, scene.triangleCount, Int32(clamping: side),
+          Int32(clamping: gutter), control, &handle)
+      }
+    }
+    guard let handle else { throw KernelError.failed("the texture can't be made") }
+    (self.scene, self.side, self.handle) = (scene, side, handle)
+  }
+
+  deinit { ck_atlas_free(handle) }
+
+  /// The share of the texels that triangles cover.
+  package var usage: Double {
+    Double(ck_atlas_covered_count(handle)) / Double(side * side)
+  }
+
+  /// Texels that several triangles claim.
+  package var overlapCount: Int { ck_atlas_overlap_count(handle) }
+
+  /// Adds a view's colours, times `gain`; without a view the offsets alone.
+  package func paint(
+    _ paints: [FacePaint], from view: PinholeView?, gain: SIMD3<Float> = .one,
+    _ control: KernelControl
+  ) throws {
+    let raw = paints.map { paint in
+      let (a, b, c) = paint.offsets
+      return ck_paint(
+        face: UInt32(bitPattern: paint.face),
+        weights: (paint.weights.x, paint.weights.y, paint.weights.z),
+        offsets: (a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z))
+    }
+    try withKernel(control) { control in
+      if let view {
+        var pinhole = ck_pinhole(view)
+        return ck_atlas_paint(
+          handle, &pinhole, view.image.pixels, [gain.x, gain.y, gain.z], raw, raw.count, control)
+      }
+      return ck_atlas_paint(handle, nil, nil, nil, raw, raw.count, control)
+    }
+  }
+
+  /// The colours painted so far, the space between charts filled from their rims.
+  package func colors(_ control: KernelControl) throws -> RasterImage {
+    var result = RasterImage(width: side, height: side, channels: 3)
+    try withKernel(control) { ck_atlas_copy_colors(handle, $0, &result.pixels) }
+    return result
+  }
+
+  /// Values, 0…1, of each triangle's corners, interpolated.
+  package func gray(cornerValues: [Float], _ control: KernelControl) throws -> RasterImage {
+    guard cornerValues.count == 3 * scene.triangleCount else {
+      throw KernelError.invalidArgument("values and corners differ in number")
+    }
+    var result = RasterImage(width: side, height: side, channels: 1)
+    try withKernel(control) {
+      ck_atlas_copy_corner_values(handle, cornerValues, $0, &result.pixels)
+    }
+    return result
+  }
+
+  /// The dense surface's normals and its distance, as seen from the surface that is textured.
+  package func bake(
+    _ source: BakeSource, displacement: Bool, _ control: KernelControl
+  ) throws -> (normals: RasterImage, displacement: RasterImage?) {
+    guard source.cornerNormals.count == 3 * scene.triangleCount,
+      source.cornerTangents.count == 3 * scene.triangleCount
+    else { throw KernelError.invalidArgument("corner normals and corners differ in number") }
+    let normals = source.cornerNormals.flatMap { [$0.x, $0.y, $0.z] }
+    let tangents = source.cornerTangents.flatMap { [$0.x, $0.y, $0.z, $0.w] }
+    var image = RasterImage(width: side, height: side, channels: 3)
+    var heights = displacement ? RasterImage(width: side, height: side, channels: 1) : nil
+    try withKernel(control) { control in
+      normals.withUnsafeBufferPointer { normals in
+        tangents.withUnsafeBufferPointer { tangents in
+          source.denseNormals.withUnsafeFloats { denseNormals in
+            var raw = ck_bake_source(
+              maximum_distance: source.maximumDistance, corner_normals: normals.baseAddress,
+              corner_tangents: tangents.baseAddress, dense: source.dense.handle,
+              dense_normals: denseNormals, dense_normals_stride: MemoryLayout<SIMD3<Float>>.stride)
+            guard heights != nil else {
+              return ck_atlas_bake(handle, &raw, control, &image.pixels, nil)
+            }
+            var pixels = [UInt8](repeating: 0, count: side * side)
+            defer { heights?.pixels = pixels }
+            return ck_atlas_bake(handle, &raw, control, &image.pixels, &pixels)
+          }
+        }
+      }
+    }
+    return (image, heights)
+  }
+}
+
+/// What normals and heights are baked from.
+package struct BakeSource: Sendable {
+  /// How far from the textured surface the dense one is looked for, in world units.
+  package var maximumDistance: Float
+  /// Unit normals of the textured surface, three a triangle.
+  package var cornerNormals: [SIMD3<Float>]
+  /// Unit tangents along u and the sign of the bitangent, three a triangle.
+  package var cornerTangents: [SIMD4<Float>]
+  package var dense: RayScene
+  /// The dense surface's normals, one for each of its positions.
+  package var denseNormals: [SIMD3<Float>]
+
+  package init(
+    maximumDistance: Float, cornerNormals: [SIMD3<Float>], cornerTangents: [SIMD4<Float>],
+    dense: RayScene, denseNormals: [SIMD3<Float>]
+  ) {
+    self.maximumDistance = maximumDistance
+    self.cornerNormals = cornerNormals
+    self.cornerTangents = cornerTangents
+    self.dense = dense
+    self.denseNormals = denseNormals
+  }
+}

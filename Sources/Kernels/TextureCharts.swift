@@ -1,0 +1,95 @@
+import CKernels
+import SceneModel
+
+/// Groups triangles into charts that can be laid flat without folding.
+///
+/// Hierarchical face clustering (Garland, Willmott and Heckbert, I3D 2001) on cones of normals.
+package struct ChartClustering: Hashable, Codable, Sendable {
+  /// Half the opening of the cone that holds the normals of a chart, in radians.
+  package var maximumAngle: Float = 1
+  /// Charts with fewer triangles are joined to a neighbour where that does not fold it.
+  package var minimumFaces = 16
+
+  package init() {}
+
+  /// The chart of each triangle, dense from 0, and the unit direction to project each chart along.
+  package func run(
+    _ mesh: Mesh, _ control: KernelControl
+  ) throws -> (charts: [Int32], axes: [SIMD3<Float>]) {
+    var charts = [Int32](repeating: 0, count: mesh.triangles.count)
+    var axes = [Float](repeating: 0, count: 3 * mesh.triangles.count)
+    var count = 0
+    var options = ck_chart_options(
+      maximum_angle: maximumAngle, minimum_faces: Int32(clamping: minimumFaces))
+    try withKernel(control) { control in
+      mesh.positions.withUnsafeFloats { positions in
+        mesh.triangles.withUnsafeIndices { triangles in
+          ck_cluster_faces(
+            positions, mesh.positions.count, MemoryLayout<SIMD3<Float>>.stride, triangles,
+            mesh.triangles.count, &options, control, &charts, &axes, &count)
+        }
+      }
+    }
+    return (charts, (0..<count).map { SIMD3(axes[3 * $0], axes[3 * $0 + 1], axes[3 * $0 + 2]) })
+  }
+}
+
+/// Where the packer put a chart: `texel = scale · R · plane + offset`, y down.
+package struct ChartPlacement: Hashable, Sendable {
+  package var scale: Float
+  /// Turns by 90° from x to y.
+  package var quarterTurns: Int
+  package var offset: SIMD2<Float>
+
+  /// The texel position of a point of the chart's plane.
+  package func texel(_ p: SIMD2<Float>) -> SIMD2<Float> {
+    let q = scale * p
+    let turned: SIMD2<Float> =
+      switch quarterTurns & 3 {
+      case 1: [-q.y, q.x]
+      case 2: [-q.x, -q.y]
+      case 3: [q.y, -q.x]
+      default: q
+      }
+    return turned + offset
+  }
+}
+
+/// Packs charts by their shape into a square at the largest common scale.
+package struct ChartPacking: Hashable, Codable, Sendable {
+  /// Side of the square in texels.
+  package var side: Int
+  /// Empty texels around each chart.
+  package var padding: Int
+  /// Upper bound of the texels a unit of length at density 1.
+  package var maximumScale: Float
+
+  package init(side: Int, padding: Int, maximumScale: Float) {
+    self.side = side
+    self.padding = padding
+    self.maximumScale = maximumScale
+  }
+
+  /// `corners` are the plane coordinates of each triangle's three corners, `density` scales the
+  /// charts relative to each other.
+  package func run(
+    corners: [SIMD2<Float>], charts: [Int32], density: [Float], _ control: KernelControl
+  ) throws -> [ChartPlacement] {
+    guard corners.count == 3 * charts.count else {
+      throw KernelError.invalidArgument("corners and triangles differ in number")
+    }
+    var raw = [ck_chart_placement](repeating: ck_chart_placement(), count: density.count)
+    var options = ck_pack_options(
+      side: Int32(clamping: side), padding: Int32(clamping: padding), maximum_scale: maximumScale)
+    try withKernel(control) { control in
+      corners.withUnsafeFloats { corners in
+        ck_pack_charts(
+          corners, charts, charts.count, density, density.count, &options, control, &raw)
+      }
+    }
+    return raw.map {
+      ChartPlacement(
+        scale: $0.scale, quarterTurns: Int($0.quarter_turns), offset: [$0.offset.0, $0.offset.1])
+    }
+  }
+}

@@ -1,0 +1,150 @@
+import CKernels
+import SceneModel
+
+/// What one view shows of one triangle.
+package struct FaceObservation: Hashable, Sendable {
+  /// The triangle.
+  package var face: Int32
+  /// Index of the view, set by the caller.
+  package var view: Int32 = 0
+  /// Pixels that the triangle covers.
+  package var area: Float
+  /// Cosine of the angle between the triangle's normal and the direction to the camera.
+  package var cosine: Float
+  /// Mean length of the luminance gradient, 0…255 a pixel.
+  package var gradient: Float
+  /// Whether nothing in front of the triangle ends close to it in the image.
+  package var isClear: Bool
+  /// Mean RGB, 0…255.
+  package var color: SIMD3<Float>
+
+  package init(
+    face: Int32, view: Int32 = 0, area: Float, cosine: Float, gradient: Float,
+    isClear: Bool = true, color: SIMD3<Float>
+  ) {
+    self.face = face
+    self.view = view
+    self.area = area
+    self.cosine = cosine
+    self.gradient = gradient
+    self.isClear = isClear
+    self.color = color
+  }
+}
+
+/// A mesh made ready for ray casting with Embree.
+package final class RayScene: Sendable {
+  /// How views are tested for what they see.
+  package struct ObservationOptions: Hashable, Codable, Sendable {
+    /// Triangles seen at a smaller cosine count as not seen.
+    package var minimumCosine: Float = 0.15
+    /// Pixels to the rim of the image and to whatever is in front.
+    package var margin: Float = 4
+
+    package init() {}
+  }
+
+  /// Immutable after `init`, so that threads may share it.
+  nonisolated(unsafe) let handle: OpaquePointer
+  package let triangleCount: Int
+
+  /// Throws `KernelError.invalidArgument` for a mesh without triangles or with bad values.
+  package init(_ mesh: Mesh, _ control: KernelControl) throws {
+    var handle: OpaquePointer?
+    try withKernel(control) { control in
+      mesh.positions.withUnsafeFloats { positions in
+        mesh.triangles.withUnsafeIndices { triangles in
+          ck_ray_scene_create(
+            positions, mesh.positions.count, MemoryLayout<SIMD3<Float>>.stride, triangles,
+            mesh.triangles.count, control, &handle)
+        }
+      }
+    }
+    guard let handle else { throw KernelError.failed("the mesh can't be prepared") }
+    self.handle = handle
+    triangleCount = mesh.triangles.count
+  }
+
+  deinit { ck_ray_scene_free(handle) }
+
+  /// The triangles that a view sees whole, in ascending order.
+  package func observations(
+    in view: PinholeView, options: ObservationOptions = ObservationOptions(),
+    _ control: KernelControl
+  ) throws -> [FaceObservation] {
+    var raw = [ck_face_observation](repeating: ck_face_observation(), count: triangleCount)
+    var pinhole = ck_pinhole(view)
+    var rawOptions = ck_observe_options(
+      minimum_cosine: options.minimumCosine, margin: options.margin)
+    try withKernel(control) { control in
+      ck_observe_faces(handle, &pinhole, view.image.pixels, &rawOptions, control, &raw)
+    }
+    var result: [FaceObservation] = []
+    for (face, value) in raw.enumerated() where value.area > 0 {
+      result.append(
+        FaceObservation(
+          face: Int32(face), area: value.area, cosine: value.cosine, gradient: value.gradient,
+          isClear: value.clearance > 0,
+          color: SIMD3(value.color.0, value.color.1, value.color.2)))
+    }
+    return result
+  }
+
+  /// The share of the sky, 0…1, that each position sees above its normal within
+  /// `maximumDistance`; cosine-weighted, by a fixed set of `rays`.
+  package func openness(
+    at positions: [SIMD3<Float>], normals: [SIMD3<Float>], rays: Int, maximumDistance: Float,
+    _ control: KernelControl
+  ) throws -> [Float] {
+    guard positions.count == normals.count else {
+      throw KernelError.invalidArgument("positions and normals differ in number")
+    }
+    var openness = [Float](repeating: 1, count: positions.count)
+    let stride = MemoryLayout<SIMD3<Float>>.stride
+    try withKernel(control) { control in
+      positions.withUnsafeFloats { positions in
+        normals.withUnsafeFloats { normals in
+          ck_occlusion(
+            handle, positions, stride, normals, stride, openness.count, rays, maximumDistance,
+            control, &openness)
+        }
+      }
+    }
+    return openness
+  }
+}
+
+extension ck_pinhole {
+  init(_ view: PinholeView) {
+    let (camera, pose) = (view.camera, view.cameraFromWorld)
+    // The columns are the images of the axes.
+    let x = pose.rotation * SIMD3<Double>(1, 0, 0)
+    let y = pose.rotation * SIMD3<Double>(0, 1, 0)
+    let z = pose.rotation * SIMD3<Double>(0, 0, 1)
+    let t = pose.translation
+    self.init(
+      focal: (camera.focalLength.x, camera.focalLength.y),
+      center: (camera.principalPoint.x, camera.principalPoint.y),
+      rotation: (x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z),
+      translation: (t.x, t.y, t.z), width: Int32(view.image.width),
+      height: Int32(view.image.height))
+  }
+}
+
+extension Array where Element == SIMD3<Float> {
+  func withUnsafeFloats<Result>(_ body: (UnsafePointer<Float>?) -> Result) -> Result {
+    withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: Float.self)) }
+  }
+}
+
+extension Array where Element == SIMD2<Float> {
+  func withUnsafeFloats<Result>(_ body: (UnsafePointer<Float>?) -> Result) -> Result {
+    withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: Float.self)) }
+  }
+}
+
+extension Array where Element == Triangle {
+  func withUnsafeIndices<Result>(_ body: (UnsafePointer<UInt32>?) -> Result) -> Result {
+    withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: UInt32.self)) }
+  }
+}

@@ -1,0 +1,30 @@
+import CKernels
+import SceneModel
+
+extension Mesh {
+  /// The mesh with at most `maximumTriangles`: quadric edge collapse (Garland and Heckbert,
+  /// SIGGRAPH 1997) that keeps the topology, outlines and sides of the surface.
+  ///
+  /// Duplicate and degenerate triangles are dropped in any case. Colours and normals are not
+  /// carried over. Where the topology forbids enough collapses, the smallest pieces go.
+  package func simplified(
+    maximumTriangles: Int, _ control: KernelControl
+  ) throws -> Mesh {
+    var result = Mesh(positions: positions, triangles: triangles)
+    var (vertexCount, triangleCount) = (positions.count, triangles.count)
+    try withKernel(control) { control in
+      result.positions.withUnsafeMutableBytes { positions in
+        result.triangles.withUnsafeMutableBytes { triangles in
+          ck_simplify(
+            positions.baseAddress?.assumingMemoryBound(to: Float.self), &vertexCount,
+            MemoryLayout<SIMD3<Float>>.stride,
+            triangles.baseAddress?.assumingMemoryBound(to: UInt32.self), &triangleCount,
+            max(0, maximumTriangles), control)
+        }
+      }
+    }
+    result.positions.removeLast(result.positions.count - vertexCount)
+    result.triangles.removeLast(result.triangles.count - triangleCount)
+    return result
+  }
+}

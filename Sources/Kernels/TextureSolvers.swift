@@ -1,0 +1,107 @@
+import CKernels
+
+/// A choice of one label for each node of a graph in which neighbours should agree.
+///
+/// Potts model, minimised by sequential tree-reweighted message passing (Kolmogorov, PAMI 2006).
+package struct LabelSelection: Sendable {
+  package struct Edge: Hashable, Sendable {
+    package var a: UInt32
+    package var b: UInt32
+    /// What it costs when both ends have different labels.
+    package var weight: Float
+
+    package init(_ a: UInt32, _ b: UInt32, weight: Float) {
+      (self.a, self.b, self.weight) = (a, b, weight)
+    }
+  }
+
+  /// Candidates of node i are `offsets[i]..<offsets[i + 1]`.
+  private var offsets: [UInt32] = [0]
+  private var labels: [Int32] = []
+  private var costs: [Float] = []
+  package var edges: [Edge] = []
+
+  package init() {}
+
+  /// Adds the next node; labels must be in ascending order.
+  package mutating func addNode(_ candidates: some Sequence<(label: Int32, cost: Float)>) {
+    for candidate in candidates {
+      labels.append(candidate.label)
+      costs.append(candidate.cost)
+    }
+    offsets.append(UInt32(labels.count))
+  }
+
+  /// The chosen label of each node; −1 for nodes without candidates.
+  package func run(iterations: Int, _ control: KernelControl) throws -> [Int32] {
+    let count = offsets.count - 1
+    var choices = [Int32](repeating: -1, count: count)
+    let pairs = edges.flatMap { [$0.a, $0.b] }
+    let weights = edges.map(\.weight)
+    try withKernel(control) { control in
+      ck_select_labels(
+        count, offsets, labels, costs, weights.count, pairs, weights, iterations, control,
+        &choices)
+    }
+    return choices.enumerated().map { node, choice in
+      choice < 0 ? -1 : labels[Int(offsets[node]) + Int(choice)]
+    }
+  }
+}
+
+/// Linear least squares with three right sides and few unknowns in each equation.
+///
+/// Collects the normal equations; solves them by conjugate gradients from zero.
+package struct SparseLeastSquares: Sendable {
+  package let unknownCount: Int
+  private var rows: [UInt32] = []
+  private var columns: [UInt32] = []
+  private var entries: [Double] = []
+  private var diagonal: [Double]
+  private var rightSides: [SIMD3<Double>]
+
+  package init(unknownCount: Int) {
+    self.unknownCount = unknownCount
+    diagonal = Array(repeating: 0, count: unknownCount)
+    rightSides = Array(repeating: .zero, count: unknownCount)
+  }
+
+  /// Adds `weight · |x[i] − value|²`.
+  package mutating func add(_ i: Int, value: SIMD3<Double>, weight: Double) {
+    diagonal[i] += weight
+    rightSides[i] += weight * value
+  }
+
+  /// Adds `weight · |x[i] − x[j] − value|²`.
+  package mutating func add(
+    _ i: Int, minus j: Int, value: SIMD3<Double> = .zero, weight: Double
+  ) {
+    guard i != j else { return }
+    diagonal[i] += weight
+    diagonal[j] += weight
+    rightSides[i] += weight * value
+    rightSides[j] -= weight * value
+    rows.append(UInt32(max(i, j)))
+    columns.append(UInt32(min(i, j)))
+    entries.append(-weight)
+  }
+
+  /// The unknowns. Every connected part needs one `add` with a value of its own.
+  package func solve(
+    tolerance: Double = 1e-5, iterations: Int = 2000, _ control: KernelControl
+  ) throws -> [SIMD3<Double>] {
+    var values = rightSides.flatMap { [$0.x, $0.y, $0.z] }
+    let indices = (0..<UInt32(unknownCount)).map { $0 }
+    let (allRows, allColumns) = (rows + indices, columns + indices)
+    // A tiny weight keeps unknowns that no equation names at zero.
+    let allEntries = entries + diagonal.map { max($0, 1e-12) }
+    try withKernel(control) { control in
+      ck_solve_sparse(
+        unknownCount, 3, allEntries.count, allRows, allColumns, allEntries, tolerance, iterations,
+        control, &values)
+    }
+    return (0..<unknownCount).map {
+      SIMD3(values[3 * $0], values[3 * $0 + 1], values[3 * $0 + 2])
+    }
+  }
+}

@@ -1,0 +1,178 @@
+import Kernels
+import SceneModel
+
+/// What is added to the photos' colours at each corner, so that they meet without a seam.
+struct LevelingOffsets: Sendable {
+  /// By share of the corners' weights, RGB.
+  var offsets: [SIMD3<Float>]
+  /// A colour for each vertex: the photos' agreed one, interpolated where no photo sees it.
+  var vertexColors: [SIMD3<Float>]
+}
+
+/// Global colour adjustment at the vertices (Waechter, Moehrle and Goesele, ECCV 2014).
+///
+/// Unknown is an offset for every vertex and photo that colours it. Photos that meet at a vertex
+/// shall agree there; along edges the offset of a photo shall not change; and, beyond the paper,
+/// it leads to the mean colour of all photos, so that no photo's shading is spread over others.
+struct ColorLeveling: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Weight of the agreement of two photos at a vertex.
+    var seam = 4.0
+    /// Weight of equal offsets at both ends of an edge.
+    var smoothness = 1.0
+    /// Weight of the mean colour of all photos.
+    var consensus = 0.02
+  }
+
+  var options = Options()
+
+  func run(
+    _ rated: RatedViews, weights: CornerWeights, mesh: Mesh, topology: MeshTopology,
+    _ context: StageContext
+  ) throws -> LevelingOffsets {
+    let nodes = Nodes(weights, mesh)
+    let vertexColors = try VertexColors(rated, mesh, topology).filled(context.control)
+    let areas = mesh.triangleAreas()
+    let colors = nodes.items.map { node -> SIMD3<Float>? in
+      node.view < 0
+        ? vertexColors[node.vertex]
+        : Self.color(of: node.vertex, in: node.view, rated, topology, areas)
+    }
+    var system = SparseLeastSquares(unknownCount: nodes.items.count)
+    for vertex in mesh.positions.indices {
+      addSeams(nodes.range(of: vertex), colors, nodes, vertexColors[vertex], to: &system)
+    }
+    for edge in topology.edges {
+      for low in nodes.range(of: Int(edge.low)) {
+        guard let high = nodes.index(of: Int(edge.high), view: nodes.items[low].view)
+        else { continue }
+        system.add(low, minus: high, weight: options.smoothness)
+      }
+    }
+    let solution = try system.solve(context.control)
+    var result = LevelingOffsets(
+      offsets: Array(repeating: .zero, count: weights.shares.count), vertexColors: vertexColors)
+    for corner in 0..<(3 * mesh.triangles.count) {
+      let vertex = mesh.triangles[corner / 3].vertices[corner % 3]
+      for index in weights.shares(of: corner).indices {
+        let view = weights.shares[index].view
+        if view < 0 {
+          result.offsets[index] = vertexColors[vertex]
+        } else if let node = nodes.index(of: vertex, view: view) {
+          result.offsets[index] = SIMD3<Float>(solution[node])
+        }
+      }
+    }
+    return result
+  }
+
+  private func addSeams(
+    _ range: Range<Int>, _ colors: [SIMD3<Float>?], _ nodes: Nodes, _ agreed: SIMD3<Float>,
+    to system: inout SparseLeastSquares
+  ) {
+    for a in range {
+      let view = nodes.items[a].view
+      guard let color = colors[a] else {
+        system.add(a, value: .zero, weight: options.consensus)
+        continue
+      }
+      // The interpolated colour stays as it is; photos come to it.
+      let weight = view < 0 ? 1000 : options.consensus
+      system.add(a, value: SIMD3<Double>(agreed - color), weight: weight)
+      for b in range.lowerBound..<a {
+        guard let other = colors[b] else { continue }
+        system.add(a, minus: b, value: SIMD3<Double>(other - color), weight: options.seam)
+      }
+    }
+  }
+
+  /// A vertex's colour in a view: the mean of the triangles around it.
+  private static func color(
+    of vertex: Int, in view: Int32, _ rated: RatedViews, _ topology: MeshTopology,
+    _ areas: [Float]
+  ) -> SIMD3<Float>? {
+    var (sum, weight) = (SIMD3<Float>.zero, Float(0))
+    for face in topology.triangles(around: vertex) {
+      guard let index = rated.views.index(of: Int(face), in: view) else { continue }
+      sum += rated.views.entries[index].color * areas[Int(face)]
+      weight += areas[Int(face)]
+    }
+    return weight > 0 ? sum / weight : nil
+  }
+}
+
+/// The unknowns: every view that colours a corner at a vertex.
+private struct Nodes {
+  private(set) var items: [(vertex: Int, view: Int32)] = []
+  private var offsets: [Int32] = [0]
+
+  init(_ weights: CornerWeights, _ mesh: Mesh) {
+    var views = [[Int32]](repeating: [], count: mesh.positions.count)
+    for (face, triangle) in mesh.triangles.enumerated() {
+      for (corner, vertex) in triangle.vertices.enumerated() {
+        for share in weights.shares(of: 3 * face + corner)
+        where !views[vertex].contains(share.view) {
+          views[vertex].append(share.view)
+        }
+      }
+    }
+    for (vertex, list) in views.enumerated() {
+      items += list.sorted().map { (vertex, $0) }
+      offsets.append(Int32(items.count))
+    }
+  }
+
+  func range(of vertex: Int) -> Range<Int> { Int(offsets[vertex])..<Int(offsets[vertex + 1]) }
+
+  func index(of vertex: Int, view: Int32) -> Int? {
+    range(of: vertex).first { items[$0].view == view }
+  }
+}
+
+/// The agreed colours of the triangles, at the vertices.
+struct VertexColors: Sendable {
+  private var colors: [SIMD3<Float>?]
+  private let topology: MeshTopology
+
+  init(_ rated: RatedViews, _ mesh: Mesh, _ topology: MeshTopology) {
+    self.topology = topology
+    let areas = mesh.triangleAreas()
+    colors = mesh.positions.indices.map { vertex in
+      var (sum, weight) = (SIMD3<Float>.zero, Float(0))
+      for face in topology.triangles(around: vertex) {
+        guard let color = rated.colors[Int(face)] else { continue }
+        sum += color * areas[Int(face)]
+        weight += areas[Int(face)]
+      }
+      return weight > 0 ? sum / weight : nil
+    }
+  }
+
+  /// Vertices without colour get the smoothest continuation of those around them; pieces without
+  /// any colour the mean of all.
+  func filled(_ control: KernelControl) throws -> [SIMD3<Float>] {
+    let known = colors.compactMap { $0 }
+    let mean =
+      known.isEmpty
+      ? SIMD3<Float>(repeating: 128) : known.reduce(.zero, +) / Float(known.count)
+    let missing = colors.indices.filter { colors[$0] == nil }
+    guard !missing.isEmpty else { return known }
+    var unknownOf = [Int](repeating: -1, count: colors.count)
+    for (unknown, vertex) in missing.enumerated() { unknownOf[vertex] = unknown }
+    var system = SparseLeastSquares(unknownCount: missing.count)
+    for unknown in missing.indices {
+      system.add(unknown, value: SIMD3<Double>(mean), weight: 1e-6)
+    }
+    for edge in topology.edges {
+      let (low, high) = (Int(edge.low), Int(edge.high))
+      switch (colors[low], colors[high]) {
+      case (nil, nil): system.add(unknownOf[low], minus: unknownOf[high], weight: 1)
+      case (nil, let color?): system.add(unknownOf[low], value: SIMD3(color), weight: 1)
+      case (let color?, nil): system.add(unknownOf[high], value: SIMD3(color), weight: 1)
+      default: break
+      }
+    }
+    let solution = try system.solve(control)
+    return colors.indices.map { colors[$0] ?? SIMD3<Float>(solution[unknownOf[$0]]) }
+  }
+}

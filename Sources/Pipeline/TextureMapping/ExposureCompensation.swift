@@ -1,0 +1,108 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Gains of the photos' channels, so that triangles seen by several photos have one colour in all.
+///
+/// Least squares on logarithms with Huber weights; the triangles' colours are eliminated.
+struct ExposureCompensation: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Residuals beyond this, in natural logarithms, count less.
+    var huber = 0.1
+    var rounds = 3
+    /// How strongly gains are held at 1, as a share of the observations' weight.
+    var prior = 0.02
+    /// Gains stay within 1 / maximum … maximum.
+    var maximumGain: Float = 2.5
+    /// Observations more oblique than this cosine don't count.
+    var minimumCosine: Float = 0.35
+  }
+
+  var options = Options()
+
+  /// RGB gains by view.
+  func run(_ views: FaceViews, viewCount: Int, _ context: StageContext) throws -> [SIMD3<Float>] {
+    var logGains = [SIMD3<Double>](repeating: .zero, count: viewCount)
+    for round in 0..<options.rounds {
+      try context.step(round, of: options.rounds)
+      for channel in 0..<3 {
+        var system = PairwiseDifferences(count: viewCount)
+        for face in 0..<views.faceCount {
+          add(face, channel, of: views, logGains, to: &system)
+        }
+        let solution = try system.solve(prior: options.prior, context.control)
+        for view in 0..<viewCount { logGains[view][channel] = solution[view] }
+      }
+    }
+    let limit = options.maximumGain
+    return logGains.map { gain in
+      let value = SIMD3<Float>(Float(exp(gain.x)), Float(exp(gain.y)), Float(exp(gain.z)))
+      return value.clamped(
+        lowerBound: SIMD3(repeating: 1 / limit), upperBound: SIMD3(repeating: limit))
+    }
+  }
+
+  private func add(
+    _ face: Int, _ channel: Int, of views: FaceViews, _ gains: [SIMD3<Double>],
+    to system: inout PairwiseDifferences
+  ) {
+    var items: [(view: Int, log: Double, weight: Double)] = []
+    for index in views.range(of: face) {
+      let entry = views.entries[index]
+      let value = entry.color[channel]
+      // Near black and white the sensor no longer follows the light.
+      guard entry.cosine >= options.minimumCosine, value > 6, value < 246 else { continue }
+      items.append((Int(entry.view), log(Double(value)), Double(entry.cosine)))
+    }
+    guard items.count >= 2 else { return }
+    let corrected = items.map { $0.log + gains[$0.view][channel] }.sorted()
+    let median = corrected[corrected.count / 2]
+    for index in items.indices {
+      let residual = abs(items[index].log + gains[items[index].view][channel] - median)
+      if residual > options.huber { items[index].weight *= options.huber / residual }
+    }
+    system.add(items)
+  }
+}
+
+/// What pairs of views say about the difference of their logarithmic gains in one channel.
+private struct PairwiseDifferences {
+  let count: Int
+  private var weights: [Double]
+  private var sums: [Double]
+
+  init(count: Int) {
+    self.count = count
+    weights = Array(repeating: 0, count: count * count)
+    sums = weights
+  }
+
+  /// Adds `Σ w (log + gain − mean)²` with the weighted mean eliminated, which leaves pairs.
+  mutating func add(_ items: [(view: Int, log: Double, weight: Double)]) {
+    let total = items.reduce(0) { $0 + $1.weight }
+    guard total > 0 else { return }
+    for (index, b) in items.enumerated() {
+      for a in items[..<index] {
+        let weight = a.weight * b.weight / total
+        weights[b.view * count + a.view] += weight
+        sums[b.view * count + a.view] += weight * (a.log - b.log)
+      }
+    }
+  }
+
+  /// The gains' logarithms; `prior` holds them at 0, relative to a view's mean weight.
+  func solve(prior: Double, _ control: KernelControl) throws -> [Double] {
+    let total = weights.reduce(0, +)
+    guard total > 0 else { return Array(repeating: 0, count: count) }
+    var system = SparseLeastSquares(unknownCount: count)
+    for b in 0..<count {
+      system.add(b, value: .zero, weight: prior * 2 * total / Double(count))
+      for a in 0..<b where weights[b * count + a] > 0 {
+        let weight = weights[b * count + a]
+        let value = sums[b * count + a] / weight
+        system.add(b, minus: a, value: SIMD3(repeating: value), weight: weight)
+      }
+    }
+    return try system.solve(tolerance: 1e-9, control).map(\.x)
+  }
+}

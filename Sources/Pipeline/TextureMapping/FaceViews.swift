@@ -1,0 +1,111 @@
+import Kernels
+import SceneModel
+
+/// What the views show of each triangle.
+struct FaceViews: Sendable {
+  /// Observations of triangle i: `entries[offsets[i]..<offsets[i + 1]]`, ascending by view.
+  private(set) var offsets: [Int32]
+  var entries: [FaceObservation]
+
+  var faceCount: Int { offsets.count - 1 }
+
+  /// Groups observations, given view by view, by triangle.
+  init(faceCount: Int, observationsByView: [[FaceObservation]]) {
+    offsets = Array(repeating: 0, count: faceCount + 1)
+    for observations in observationsByView {
+      for observation in observations { offsets[Int(observation.face) + 1] += 1 }
+    }
+    for index in 0..<faceCount { offsets[index + 1] += offsets[index] }
+    var next = offsets
+    let empty = FaceObservation(face: 0, area: 0, cosine: 0, gradient: 0, color: .zero)
+    entries = Array(repeating: empty, count: Int(offsets[faceCount]))
+    for (view, observations) in observationsByView.enumerated() {
+      for var observation in observations {
+        observation.view = Int32(view)
+        let face = Int(observation.face)
+        entries[Int(next[face])] = observation
+        next[face] += 1
+      }
+    }
+  }
+
+  func range(of face: Int) -> Range<Int> { Int(offsets[face])..<Int(offsets[face + 1]) }
+
+  /// The place in `entries` of what a view shows of a triangle; nil where it doesn't see it.
+  func index(of face: Int, in view: Int32) -> Int? {
+    range(of: face).first { entries[$0].view == view }
+  }
+
+  /// Keeps the entries that pass.
+  mutating func filter(_ isIncluded: (Int) -> Bool) {
+    var kept: [FaceObservation] = []
+    kept.reserveCapacity(entries.count)
+    var newOffsets: [Int32] = [0]
+    newOffsets.reserveCapacity(offsets.count)
+    for face in 0..<faceCount {
+      for index in range(of: face) where isIncluded(index) { kept.append(entries[index]) }
+      newOffsets.append(Int32(kept.count))
+    }
+    (entries, offsets) = (kept, newOffsets)
+  }
+}
+
+/// Finds which triangles each photo sees, and how: rays to the corners and the middle decide
+/// visibility.
+struct ViewObservation: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    var rays = RayScene.ObservationOptions()
+    /// Pixels of the views that are looked at; triangles' mean colours need no more.
+    var maximumPixels = 2_000_000
+    /// Observations kept of one triangle, those of the largest area.
+    var maximumViews = 24
+  }
+
+  var options = Options()
+
+  /// Observations with areas in pixels of the full photos; views are numbered as `views` lists them.
+  func run(
+    _ scene: RayScene, views: [ID<Photo>], source: ViewSource, _ context: StageContext
+  ) throws -> FaceViews {
+    var byView: [[FaceObservation]] = []
+    for (index, photo) in views.enumerated() {
+      try context.step(index, of: views.count)
+      let view = try source.view(photo, options.maximumPixels)
+      var observations = try scene.observations(
+        in: view, options: options.rays, context.part(from: 0, to: 0).control)
+      let factor = source.areaFactor(of: view)
+      for index in observations.indices { observations[index].area *= factor }
+      byView.append(observations)
+    }
+    var result = FaceViews(faceCount: scene.triangleCount, observationsByView: byView)
+    limit(&result)
+    return result
+  }
+
+  private func limit(_ views: inout FaceViews) {
+    var isKept = [Bool](repeating: true, count: views.entries.count)
+    for face in 0..<views.faceCount {
+      let range = views.range(of: face)
+      guard range.count > options.maximumViews else { continue }
+      let order = range.sorted {
+        (views.entries[$0].area, $1) > (views.entries[$1].area, $0)
+      }
+      for index in order[options.maximumViews...] { isKept[index] = false }
+    }
+    views.filter { isKept[$0] }
+  }
+}
+
+/// Where views come from: the image store, or images in memory.
+struct ViewSource: Sendable {
+  var reconstruction: Reconstruction
+  /// The view of a photo, at most so many pixels large.
+  var view: @Sendable (ID<Photo>, Int) throws -> PinholeView
+
+  /// Pixels of the full photo for one of the view.
+  func areaFactor(of view: PinholeView) -> Float {
+    let full = reconstruction.camera(of: view.photo).focalLength
+    let ratio = full / view.camera.focalLength
+    return Float(ratio.x * ratio.y)
+  }
+}

@@ -1,0 +1,116 @@
+import Kernels
+import SceneModel
+
+/// Makes the maps that are not colour from the dense surface.
+struct MapBaking: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// How far the dense surface may be from the textured one, as a share of the mesh's diagonal.
+    var reach: Float = 0.01
+    /// Rays a vertex for ambient occlusion.
+    var occlusionRays = 96
+    /// Length of these rays, as a share of the mesh's diagonal.
+    var occlusionReach: Float = 0.3
+    /// One value for the whole surface: photos alone don't tell gloss from colour. UsdPreviewSurface
+    /// models of photogrammetry programs commonly use it for unpolished things.
+    var roughness: Float = 0.9
+  }
+
+  var options = Options()
+
+  func run(
+    _ maps: Set<TextureMap>, mesh: Mesh, scene: RayScene, dense: Mesh, layout: AtlasLayout,
+    charts: [Int32], canvas: TextureCanvas, _ context: StageContext
+  ) throws -> [TextureMap: RasterImage] {
+    var images: [TextureMap: RasterImage] = [:]
+    let diagonal = mesh.bounds.map { ($0.max - $0.min).length } ?? 1
+    if maps.contains(.normal) || maps.contains(.displacement) {
+      let part = context.part(from: 0, to: 0.6)
+      let source = try source(mesh, dense, layout, charts, reach: options.reach * diagonal, part)
+      let baked = try canvas.bake(
+        source, displacement: maps.contains(.displacement), part.control)
+      if maps.contains(.normal) { images[.normal] = baked.normals }
+      images[.displacement] = baked.displacement
+    }
+    if maps.contains(.ambientOcclusion) {
+      let control = context.part(from: 0.6, to: 1).control
+      let openness = try scene.openness(
+        at: mesh.positions, normals: mesh.normals, rays: options.occlusionRays,
+        maximumDistance: options.occlusionReach * diagonal, control)
+      let values = mesh.triangles.flatMap { $0.vertices.map { openness[$0] } }
+      images[.ambientOcclusion] = try canvas.gray(cornerValues: values, control)
+    }
+    if maps.contains(.roughness) {
+      images[.roughness] = RasterImage(
+        width: layout.side, height: layout.side, channels: 1,
+        filledWith: UInt8((options.roughness * 255).rounded()))
+    }
+    return images
+  }
+
+  private func source(
+    _ mesh: Mesh, _ dense: Mesh, _ layout: AtlasLayout, _ charts: [Int32], reach: Float,
+    _ context: StageContext
+  ) throws -> BakeSource {
+    let normals = mesh.triangles.flatMap { $0.vertices.map { mesh.normals[$0] } }
+    let denseNormals =
+      dense.normals.count == dense.positions.count ? dense.normals : dense.angleWeightedNormals()
+    return BakeSource(
+      maximumDistance: reach, cornerNormals: normals,
+      cornerTangents: TangentFrames().run(mesh, texels: layout.corners, charts: charts),
+      dense: try RayScene(dense, context.control), denseNormals: denseNormals)
+  }
+}
+
+/// Tangents at the corners as viewers derive them from texture coordinates: those of the triangles,
+/// weighted by the angle at the vertex, joined within a chart (Mikkelsen's tangent space).
+struct TangentFrames: Sendable {
+  /// `texels` are texture coordinates with y down, three a triangle. The fourth component is the
+  /// sign of the bitangent, which points up in the texture.
+  func run(_ mesh: Mesh, texels: [SIMD2<Float>], charts: [Int32]) -> [SIMD4<Float>] {
+    // Around a vertex few charts meet: lists are shorter than dictionaries.
+    var sums = [[(chart: Int32, sum: SIMD3<Float>)]](repeating: [], count: mesh.positions.count)
+    for (face, triangle) in mesh.triangles.enumerated() {
+      let tangent = Self.tangent(mesh, face, texels)
+      for (corner, vertex) in triangle.vertices.enumerated() {
+        let normal = mesh.normals[vertex]
+        let flat = (tangent - normal * normal.dot(tangent)).normalized
+        let weighted = flat * Self.angle(mesh, triangle.vertices, corner)
+        if let place = sums[vertex].firstIndex(where: { $0.chart == charts[face] }) {
+          sums[vertex][place].sum += weighted
+        } else {
+          sums[vertex].append((charts[face], weighted))
+        }
+      }
+    }
+    var result: [SIMD4<Float>] = []
+    result.reserveCapacity(texels.count)
+    for (face, triangle) in mesh.triangles.enumerated() {
+      for vertex in triangle.vertices {
+        let sum = sums[vertex].first { $0.chart == charts[face] }?.sum ?? .zero
+        let unit = sum.normalized
+        // Charts are never mirrored, so the frame is right-handed everywhere.
+        result.append(SIMD4(unit, 1))
+      }
+    }
+    return result
+  }
+
+  /// The direction in space in which u grows.
+  private static func tangent(
+    _ mesh: Mesh, _ face: Int, _ texels: [SIMD2<Float>]
+  ) -> SIMD3<Float> {
+    let (a, b, c) = mesh.corners(of: mesh.triangles[face])
+    let (t, r, s) = (texels[3 * face], texels[3 * face + 1], texels[3 * face + 2])
+    let (e1, e2) = (r - t, s - t)
+    let determinant = e1.x * e2.y - e1.y * e2.x
+    guard abs(determinant) > 1e-12 else { return (b - a).normalized }
+    return (((b - a) * e2.y - (c - a) * e1.y) / determinant).normalized
+  }
+
+  private static func angle(_ mesh: Mesh, _ vertices: [Int], _ corner: Int) -> Float {
+    let p = mesh.positions[vertices[corner]]
+    return Mesh.angle(
+      mesh.positions[vertices[(corner + 1) % 3]] - p,
+      mesh.positions[vertices[(corner + 2) % 3]] - p)
+  }
+}

@@ -1,0 +1,39 @@
+import Foundation
+import SceneModel
+
+extension Mesh {
+  /// The three positions of a triangle.
+  func corners(of triangle: Triangle) -> (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>) {
+    (positions[Int(triangle.a)], positions[Int(triangle.b)], positions[Int(triangle.c)])
+  }
+
+  /// Area of each triangle.
+  func triangleAreas() -> [Float] {
+    triangles.map { triangle in
+      let (a, b, c) = corners(of: triangle)
+      return (b - a).cross(c - a).length / 2
+    }
+  }
+
+  /// Unit vertex normals: face normals weighted by their angle at the vertex (Thürmer and Wüthrich,
+  /// 1998). Vertices without triangles get +y.
+  func angleWeightedNormals() -> [SIMD3<Float>] {
+    var sums = [SIMD3<Float>](repeating: .zero, count: positions.count)
+    for triangle in triangles {
+      let (a, b, c) = corners(of: triangle)
+      let normal = (b - a).cross(c - a).normalized
+      sums[Int(triangle.a)] += normal * Self.angle(b - a, c - a)
+      sums[Int(triangle.b)] += normal * Self.angle(c - b, a - b)
+      sums[Int(triangle.c)] += normal * Self.angle(a - c, b - c)
+    }
+    return sums.map { sum in
+      let unit = sum.normalized
+      return unit.squaredLength > 0.5 ? unit : [0, 1, 0]
+    }
+  }
+
+  /// The angle between two vectors in radians; 0 where one of them is zero.
+  static func angle(_ u: SIMD3<Float>, _ v: SIMD3<Float>) -> Float {
+    atan2(u.cross(v).length, u.dot(v))
+  }
+}

@@ -1,0 +1,33 @@
+import Kernels
+import SceneModel
+
+/// Reduces a surface to the triangle budget of a detail level, before it is textured: quadric edge
+/// collapse (Garland and Heckbert, SIGGRAPH 1997).
+package struct Simplification: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Upper bound of the number of triangles.
+    package var maximumTriangles = 99_999
+
+    package init(maximumTriangles: Int = 99_999) { self.maximumTriangles = maximumTriangles }
+  }
+
+  package var options: Options
+
+  package init(options: Options = Options()) { self.options = options }
+
+  /// The surface with at most the wished number of triangles and new vertex normals.
+  ///
+  /// Has no duplicate or degenerate triangles, and no unused vertices.
+  package func run(_ mesh: Mesh, _ context: StageContext) throws -> Mesh {
+    try context.control.step(0)
+    guard !mesh.triangles.isEmpty else {
+      throw PipelineError.noSurface(reason: "the surface has no triangles")
+    }
+    var result = try mesh.simplified(
+      maximumTriangles: options.maximumTriangles, context.control)
+    result.normals = result.angleWeightedNormals()
+    context.notes.count("triangles", Double(result.triangles.count))
+    context.notes.count("trianglesBeforeSimplification", Double(mesh.triangles.count))
+    return result
+  }
+}

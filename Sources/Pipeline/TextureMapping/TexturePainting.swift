@@ -1,0 +1,87 @@
+import Kernels
+import SceneModel
+
+/// Takes the colours from the photos, one photo after the other.
+struct TexturePainting: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Pixels that a view has at most.
+    var maximumPixels = 8_000_000
+  }
+
+  var options = Options()
+
+  /// Paints the canvas; `views` are the photos by view number.
+  func run(
+    on canvas: TextureCanvas, weights: CornerWeights, leveling: LevelingOffsets,
+    gains: [SIMD3<Float>], views: [ID<Photo>], source: ViewSource, magnification: Float,
+    _ context: StageContext
+  ) throws {
+    var paints = [[FacePaint]](repeating: [], count: views.count + 1)
+    for face in 0..<(weights.offsets.count / 3) {
+      for paint in Self.paints(of: face, weights, leveling) {
+        paints[Int(paint.view) + 1].append(paint.value)
+      }
+    }
+    try canvas.paint(paints[0], from: nil, context.part(from: 0, to: 0).control)
+    for (index, photo) in views.enumerated() {
+      try context.step(index, of: views.count)
+      guard !paints[index + 1].isEmpty else { continue }
+      let view = try source.view(photo, pixels(of: photo, source, magnification))
+      try canvas.paint(
+        paints[index + 1], from: view, gain: gains[index], context.part(from: 0, to: 0).control)
+    }
+  }
+
+  /// A small texture needs no large photos: two pixels a texel are enough.
+  private func pixels(of photo: ID<Photo>, _ source: ViewSource, _ magnification: Float) -> Int {
+    let camera = source.reconstruction.camera(of: photo)
+    let useful = Float(camera.width * camera.height) * 4 * magnification * magnification
+    return min(options.maximumPixels, max(100_000, Int(min(useful, 1e9))))
+  }
+
+  private static func paints(
+    of face: Int, _ weights: CornerWeights, _ leveling: LevelingOffsets
+  ) -> [(view: Int32, value: FacePaint)] {
+    var result: [(view: Int32, value: FacePaint)] = []
+    for corner in 0..<3 {
+      for index in weights.shares(of: 3 * face + corner).indices {
+        let share = weights.shares[index]
+        let place =
+          result.firstIndex { $0.view == share.view }
+          ?? {
+            let none = SIMD3<Float>.zero
+            result.append(
+              (
+                share.view,
+                FacePaint(face: Int32(face), weights: .zero, offsets: (none, none, none))
+              )
+            )
+            return result.count - 1
+          }()
+        result[place].value.weights[corner] = share.weight
+        result[place].value.setOffset(leveling.offsets[index], at: corner)
+      }
+    }
+    for place in result.indices { result[place].value.fillMissingOffsets() }
+    return result
+  }
+}
+
+extension FacePaint {
+  fileprivate mutating func setOffset(_ offset: SIMD3<Float>, at corner: Int) {
+    switch corner {
+    case 0: offsets.0 = offset
+    case 1: offsets.1 = offset
+    default: offsets.2 = offset
+    }
+  }
+
+  /// Corners where a view has no weight take the mean offset of the others.
+  fileprivate mutating func fillMissingOffsets() {
+    let all = [offsets.0, offsets.1, offsets.2]
+    let used = (0..<3).filter { weights[$0] > 0 }
+    guard !used.isEmpty else { return }
+    let mean = used.reduce(SIMD3<Float>.zero) { $0 + all[$1] } / Float(used.count)
+    for corner in 0..<3 where weights[corner] <= 0 { setOffset(mean, at: corner) }
+  }
+}

@@ -1,0 +1,93 @@
+import SceneModel
+
+/// Which views colour a corner of a triangle, and how much of each.
+struct CornerWeights: Sendable {
+  struct Share: Hashable, Sendable {
+    /// −1 stands for the colour that is interpolated where no photo sees the surface.
+    var view: Int32
+    var weight: Float
+  }
+
+  /// Shares of corner i: `shares[offsets[i]..<offsets[i + 1]]`, ascending by view; they add up to 1.
+  fileprivate(set) var offsets: [Int32] = [0]
+  fileprivate(set) var shares: [Share] = []
+
+  /// `corner` is three times the triangle plus 0, 1 or 2.
+  func shares(of corner: Int) -> ArraySlice<Share> {
+    shares[Int(offsets[corner])..<Int(offsets[corner + 1])]
+  }
+}
+
+/// Softens the change from one photo to the next: weights of the photos at the corners, to be
+/// interpolated over the triangles.
+///
+/// A vertex takes the shares of the triangles around it; a triangle uses only photos that see it.
+struct ViewBlending: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// How many rings of triangles the change spreads over, beyond the one at the change.
+    var rings = 0
+  }
+
+  var options = Options()
+
+  func run(
+    _ rated: RatedViews, labels: [Int32], mesh: Mesh, topology: MeshTopology,
+    _ context: StageContext
+  ) throws -> CornerWeights {
+    try context.control.step(0)
+    var vertexShares = mesh.positions.indices.map { vertex in
+      merged(topology.triangles(around: vertex).map { .init(view: labels[Int($0)], weight: 1) })
+    }
+    for ring in 0..<options.rings {
+      try context.step(ring + 1, of: options.rings + 1)
+      vertexShares = spread(vertexShares, topology)
+    }
+    var result = CornerWeights()
+    result.offsets.reserveCapacity(3 * mesh.triangles.count + 1)
+    for (face, triangle) in mesh.triangles.enumerated() {
+      for vertex in triangle.vertices {
+        result.shares += usable(vertexShares[vertex], face, labels[face], rated)
+        result.offsets.append(Int32(result.shares.count))
+      }
+    }
+    return result
+  }
+
+  /// Averages the shares of each vertex with those of its neighbours.
+  private func spread(
+    _ shares: [[CornerWeights.Share]], _ topology: MeshTopology
+  ) -> [[CornerWeights.Share]] {
+    var collected = shares
+    for edge in topology.edges {
+      let (low, high) = (Int(edge.low), Int(edge.high))
+      // Inside of one photo's area there is nothing to average.
+      if shares[low].count == 1, shares[low].map(\.view) == shares[high].map(\.view) { continue }
+      collected[low] += shares[high]
+      collected[high] += shares[low]
+    }
+    return collected.map(merged)
+  }
+
+  /// One share a view, ascending, adding up to 1.
+  private func merged(_ shares: [CornerWeights.Share]) -> [CornerWeights.Share] {
+    var result: [CornerWeights.Share] = []
+    for share in shares.sorted(by: { $0.view < $1.view }) {
+      if result.last?.view == share.view {
+        result[result.count - 1].weight += share.weight
+      } else {
+        result.append(share)
+      }
+    }
+    let total = result.reduce(0) { $0 + $1.weight }
+    return result.map { .init(view: $0.view, weight: $0.weight / total) }
+  }
+
+  private func usable(
+    _ shares: [CornerWeights.Share], _ face: Int, _ label: Int32, _ rated: RatedViews
+  ) -> [CornerWeights.Share] {
+    if label < 0 { return [.init(view: -1, weight: 1)] }
+    if shares.count == 1, shares[0].view == label { return shares }
+    let seen = shares.filter { $0.view >= 0 && rated.views.index(of: face, in: $0.view) != nil }
+    return seen.isEmpty ? [.init(view: label, weight: 1)] : merged(seen)
+  }
+}

@@ -1,0 +1,43 @@
+import Kernels
+import SceneModel
+
+/// Chooses the photo that colours each triangle: a Markov random field with the candidates' quality
+/// as data term and the Potts model as smoothness (Lempitsky and Ivanov, CVPR 2007).
+struct ViewSelection: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Cost of a change of photo along an edge of mean length; a triangle's worst photo costs 1.
+    var smoothness: Float = 0.5
+    var iterations = 20
+  }
+
+  var options = Options()
+
+  /// The view of each triangle; −1 where no photo sees it.
+  func run(
+    _ rated: RatedViews, mesh: Mesh, topology: MeshTopology, _ context: StageContext
+  ) throws -> [Int32] {
+    var selection = LabelSelection()
+    for face in 0..<rated.views.faceCount {
+      let range = rated.views.range(of: face)
+      let best = range.map { rated.qualities[$0] }.max() ?? 0
+      selection.addNode(
+        range.map { index in
+          let share = best > 0 ? rated.qualities[index] / best : 1
+          return (label: rated.views.entries[index].view, cost: 1 - share)
+        })
+    }
+    let lengths = topology.edges.map { edge in
+      (mesh.positions[Int(edge.low)] - mesh.positions[Int(edge.high)]).length
+    }
+    let mean = lengths.reduce(0, +) / Float(max(1, lengths.count))
+    for (edge, length) in zip(topology.edges, lengths) where edge.second >= 0 {
+      let relative = mean > 0 ? min(max(length / mean, 0.2), 3) : 1
+      selection.edges.append(
+        .init(
+          UInt32(edge.first), UInt32(edge.second), weight: options.smoothness * relative))
+    }
+    let labels = try selection.run(iterations: options.iterations, context.control)
+    context.notes.count("unseenTriangles", Double(labels.count { $0 < 0 }))
+    return labels
+  }
+}
