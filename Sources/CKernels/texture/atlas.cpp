@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 /// Gives every texel whose centre lies in a triangle to it; the first triangle keeps it.
@@ -60,7 +60,7 @@ void grow(ck_atlas& atlas) {
 }
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_atlas_create(const ck_ray_scene* scene, const float* corners, size_t triangle_count,
                           int32_t side, int32_t gutter, const ck_control* control,
@@ -79,10 +79,10 @@ ck_status ck_atlas_create(const ck_ray_scene* scene, const float* corners, size_
     std::unique_ptr<ck_atlas> result(new ck_atlas{
         *scene, side, std::vector<float>(corners, corners + 6 * triangle_count),
         std::vector<int32_t>(texels, -1), std::vector<int16_t>(3 * texels, 0), 0, 0, gutter});
-    ck::rasterize(*result);
+    ck::texture::rasterize(*result);
     for (int i = 0; i < gutter; ++i) {
       ck::step(control, 0.5);
-      ck::grow(*result);
+      ck::texture::grow(*result);
     }
     *atlas = result.release();
   });

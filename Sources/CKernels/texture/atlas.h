@@ -10,7 +10,7 @@
 #include "core/parallel.h"
 #include "texture/ray_scene.h"
 
-namespace ck {
+namespace ck::texture {
 
 /// From texels to a triangle's barycentric coordinates: affine, so it continues outside.
 struct TexelMap {
@@ -41,7 +41,7 @@ struct TexelMap {
   }
 };
 
-}  // namespace ck
+}  // namespace ck::texture
 
 struct ck_atlas {
   const ck_ray_scene& scene;
@@ -82,7 +82,7 @@ struct ck_atlas {
   }
 };
 
-namespace ck {
+namespace ck::texture {
 
 /// Calls `body(face)` for all triangles of the atlas, in parallel.
 template <typename Body>
@@ -100,4 +100,4 @@ void for_each_face(const ck_atlas& atlas, const ck_control* control, Body&& body
 void fill_uncovered(const std::vector<int32_t>& faces, int side, int channels,
                     const ck_control* control, uint8_t* pixels);
 
-}  // namespace ck
+}  // namespace ck::texture

@@ -4,7 +4,7 @@
 
 #include "texture/atlas.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 /// A unit vector as three bytes; flat (0, 0, 1) is 128, 128, 255.
@@ -97,19 +97,20 @@ class FaceBaker {
 };
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_atlas_bake(const ck_atlas* atlas, const ck_bake_source* source,
                         const ck_control* control, uint8_t* rgb, uint8_t* displacement) {
   return ck::guarded([&] {
     ck::require(atlas && source && source->dense && rgb, "an argument is missing");
     const size_t texels = atlas->faces.size();
-    for (size_t i = 0; i < texels; ++i) ck::encode({0, 0, 1}, rgb + 3 * i);
+    for (size_t i = 0; i < texels; ++i) ck::texture::encode({0, 0, 1}, rgb + 3 * i);
     if (displacement) std::memset(displacement, 128, texels);
-    ck::for_each_face(*atlas, control, [&](size_t face) {
-      ck::FaceBaker(*atlas, *source, face).run(rgb, displacement);
+    ck::texture::for_each_face(*atlas, control, [&](size_t face) {
+      ck::texture::FaceBaker(*atlas, *source, face).run(rgb, displacement);
     });
-    ck::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
-    if (displacement) ck::fill_uncovered(atlas->faces, atlas->side, 1, control, displacement);
+    ck::texture::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
+    if (displacement)
+      ck::texture::fill_uncovered(atlas->faces, atlas->side, 1, control, displacement);
   });
 }

@@ -4,7 +4,7 @@
 #include "core/guard.h"
 #include "texture/clusters.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 struct HalfEdge {
@@ -72,4 +72,4 @@ Cone joined(const Cone& a, const Cone& b) {
           angle};
 }
 
-}  // namespace ck
+}  // namespace ck::texture

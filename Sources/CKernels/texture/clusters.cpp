@@ -8,7 +8,7 @@
 #include "ck_texture.h"
 #include "core/guard.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 struct Neighbor {
@@ -203,7 +203,7 @@ class Clustering {
 };
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_cluster_faces(const float* positions, size_t position_count, size_t position_stride,
                            const uint32_t* triangles, size_t triangle_count,
@@ -212,17 +212,18 @@ ck_status ck_cluster_faces(const float* positions, size_t position_count, size_t
   return ck::guarded([&] {
     ck::require(options && charts && axes && chart_count, "an argument is missing");
     ck::step(control, 0);
-    const ck::ChartMesh mesh(positions, position_count, position_stride, triangles, triangle_count);
+    const ck::texture::ChartMesh mesh(positions, position_count, position_stride, triangles,
+                                      triangle_count);
     std::vector<int32_t> chart_of_face;
-    std::vector<ck::Vec3> directions;
+    std::vector<ck::texture::Vec3> directions;
     {
-      ck::Clustering clustering(mesh, *options);
+      ck::texture::Clustering clustering(mesh, *options);
       clustering.merge(control);
       clustering.absorb_small();
       clustering.copy(&chart_of_face, &directions);
     }
     ck::step(control, 0.95);
-    ck::separate_overlaps(mesh, &chart_of_face, &directions);
+    ck::texture::separate_overlaps(mesh, &chart_of_face, &directions);
     std::copy(chart_of_face.begin(), chart_of_face.end(), charts);
     for (size_t i = 0; i < directions.size(); ++i) {
       axes[3 * i] = directions[i].x;

@@ -6,7 +6,7 @@
 
 #include "texture/vec.h"
 
-namespace ck {
+namespace ck::texture {
 
 /// Two triangles that share an edge, and its length.
 struct DualEdge {
@@ -42,4 +42,4 @@ Cone joined(const Cone& a, const Cone& b);
 void separate_overlaps(const ChartMesh& mesh, std::vector<int32_t>* charts,
                        std::vector<Vec3>* axes);
 
-}  // namespace ck
+}  // namespace ck::texture

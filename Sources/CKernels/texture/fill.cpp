@@ -4,7 +4,7 @@
 
 #include "texture/atlas.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 struct Level {
@@ -81,4 +81,4 @@ void fill_uncovered(const std::vector<int32_t>& faces, int side, int channels,
   fill_from(levels.front(), covered, side, channels, pixels);
 }
 
-}  // namespace ck
+}  // namespace ck::texture

@@ -6,7 +6,7 @@
 #include "ck_texture.h"
 #include "core/guard.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 /// One direction of an edge of the graph.
@@ -138,7 +138,7 @@ class TreeReweighted {
 };
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_select_labels(size_t node_count, const uint32_t* offsets, const int32_t* labels,
                            const float* costs, size_t edge_count, const uint32_t* edges,
@@ -146,7 +146,8 @@ ck_status ck_select_labels(size_t node_count, const uint32_t* offsets, const int
                            int32_t* choices) {
   return ck::guarded([&] {
     ck::require(offsets && choices, "an argument is missing");
-    ck::TreeReweighted solver(node_count, offsets, labels, costs, edge_count, edges, edge_weights);
+    ck::texture::TreeReweighted solver(node_count, offsets, labels, costs, edge_count, edges,
+                                       edge_weights);
     for (size_t i = 0; i < iterations; ++i) {
       ck::step(control, static_cast<double>(i) / static_cast<double>(iterations));
       solver.pass(true);

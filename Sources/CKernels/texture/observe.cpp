@@ -8,7 +8,7 @@
 #include "texture/pinhole.h"
 #include "texture/ray_scene.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::max();
@@ -229,7 +229,7 @@ class Observer {
 };
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
                            const ck_observe_options* options, const ck_control* control,
@@ -239,7 +239,7 @@ ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, co
     ck::require(view->width > 1 && view->height > 1 && view->focal[0] > 0 && view->focal[1] > 0,
                 "a view has no pixels or no focal length");
     ck::step(control, 0);
-    const ck::Observer observer(*scene, *view, rgb, *options);
+    const ck::texture::Observer observer(*scene, *view, rgb, *options);
     constexpr size_t kChunk = 4096;
     const size_t count = scene->triangles.size();
     ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {

@@ -5,7 +5,7 @@
 #include "core/parallel.h"
 #include "texture/ray_scene.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 /// Directions of the upper hemisphere, denser at the top as the cosine, evenly spread: Hammersley
@@ -25,28 +25,28 @@ std::vector<Vec3> cosine_directions(size_t count) {
 }
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_occlusion(const ck_ray_scene* scene, const float* positions, size_t position_stride,
                        const float* normals, size_t normal_stride, size_t count, size_t rays,
                        float maximum_distance, const ck_control* control, float* openness) {
   return ck::guarded([&] {
-    using ck::Vec3;
+    using ck::texture::Vec3;
     ck::require(scene && positions && normals && openness && rays > 0, "an argument is missing");
-    const std::vector<Vec3> directions = ck::cosine_directions(rays);
+    const std::vector<Vec3> directions = ck::texture::cosine_directions(rays);
     const float lift = 5e-4f * scene->diagonal;
     constexpr size_t kChunk = 256;
     ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
       const size_t end = std::min(count, (chunk + 1) * kChunk);
       for (size_t i = chunk * kChunk; i < end; ++i) {
-        const Vec3 n = ck::normalized(ck::vec_at(normals, normal_stride, i));
+        const Vec3 n = ck::texture::normalized(ck::texture::vec_at(normals, normal_stride, i));
         Vec3 u, v;
-        ck::frame_around(n, &u, &v);
-        const Vec3 origin = ck::vec_at(positions, position_stride, i) + n * lift;
+        ck::texture::frame_around(n, &u, &v);
+        const Vec3 origin = ck::texture::vec_at(positions, position_stride, i) + n * lift;
         size_t open = 0;
         for (const Vec3& d : directions) {
           const Vec3 direction = u * d.x + v * d.y + n * d.z;
-          open += !ck::is_occluded(*scene, origin, direction, lift, maximum_distance);
+          open += !ck::texture::is_occluded(*scene, origin, direction, lift, maximum_distance);
         }
         openness[i] = static_cast<float>(open) / static_cast<float>(rays);
       }

@@ -5,7 +5,7 @@
 
 #include "texture/clusters.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 constexpr int kMaximumRounds = 6;
@@ -172,4 +172,4 @@ void separate_overlaps(const ChartMesh& mesh, std::vector<int32_t>* charts,
   split_components(mesh, charts, axes);
 }
 
-}  // namespace ck
+}  // namespace ck::texture

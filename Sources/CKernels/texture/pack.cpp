@@ -9,7 +9,7 @@
 #include "core/guard.h"
 #include "texture/vec.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 constexpr int kWord = 64;
@@ -277,7 +277,7 @@ class Packer {
 };
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_pack_charts(const float* corners, const int32_t* charts, size_t triangle_count,
                          const float* density, size_t chart_count, const ck_pack_options* options,
@@ -285,7 +285,7 @@ ck_status ck_pack_charts(const float* corners, const int32_t* charts, size_t tri
   return ck::guarded([&] {
     ck::require(corners && charts && density && options && placements, "an argument is missing");
     ck::require(options->side >= 16 && options->padding >= 0, "the texture is too small");
-    ck::Packer packer(corners, charts, triangle_count, density, chart_count, *options);
+    ck::texture::Packer packer(corners, charts, triangle_count, density, chart_count, *options);
     const auto result = packer.run(control);
     std::copy(result.begin(), result.end(), placements);
   });

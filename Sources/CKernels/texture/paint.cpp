@@ -4,7 +4,7 @@
 #include "texture/atlas.h"
 #include "texture/pinhole.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 constexpr float kSteps = 64;
@@ -76,39 +76,41 @@ void add(ck_atlas& atlas, size_t texel, Vec3 color) {
 }
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_atlas_paint(ck_atlas* atlas, const ck_pinhole* view, const uint8_t* rgb,
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control) {
   return ck::guarded([&] {
-    using ck::Vec3;
+    using ck::texture::Vec3;
     ck::require(atlas && (!rgb || (view && gain)), "an argument is missing");
     const ck_pinhole no_view{};
     const ck_pinhole& source = view ? *view : no_view;
-    const ck::Projection projection(source);
+    const ck::texture::Projection projection(source);
     constexpr size_t kChunk = 512;
     ck::parallel_for(control, (paint_count + kChunk - 1) / kChunk, [&](size_t chunk) {
       const size_t end = std::min(paint_count, (chunk + 1) * kChunk);
       for (size_t k = chunk * kChunk; k < end; ++k) {
         const ck_paint& paint = paints[k];
         ck::require(paint.face < atlas->scene.triangles.size(), "a paint names no triangle");
-        const ck::TexelMap map(atlas->corners.data() + 6 * static_cast<size_t>(paint.face));
+        const ck::texture::TexelMap map(atlas->corners.data() +
+                                        6 * static_cast<size_t>(paint.face));
         if (!map.is_valid) continue;
-        const ck::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
+        const ck::texture::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
         atlas->for_each_texel(paint.face, [&](int x, int y, size_t texel) {
-          const Vec3 w = ck::TexelMap::clamped(
+          const Vec3 w = ck::texture::TexelMap::clamped(
               map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
           const float weight =
               w.x * paint.weights[0] + w.y * paint.weights[1] + w.z * paint.weights[2];
           if (weight <= 0) return;
           Vec3 color =
-              ck::mix(w, ck::offset_at(paint, 0), ck::offset_at(paint, 1), ck::offset_at(paint, 2));
+              ck::texture::mix(w, ck::texture::offset_at(paint, 0),
+                               ck::texture::offset_at(paint, 1), ck::texture::offset_at(paint, 2));
           if (rgb) {
             const Vec3 c = painter.color(x, y);
             color += Vec3{c.x * gain[0], c.y * gain[1], c.z * gain[2]};
           }
-          ck::add(*atlas, texel, color * weight);
+          ck::texture::add(*atlas, texel, color * weight);
         });
       }
     });
@@ -122,7 +124,7 @@ ck_status ck_atlas_copy_colors(const ck_atlas* atlas, const ck_control* control,
     for (size_t i = 0; i < count; ++i) {
       rgb[i] = static_cast<uint8_t>(std::clamp((atlas->colors[i] + 32) >> 6, 0, 255));
     }
-    ck::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
+    ck::texture::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
   });
 }
 
@@ -130,17 +132,17 @@ ck_status ck_atlas_copy_corner_values(const ck_atlas* atlas, const float* values
                                       const ck_control* control, uint8_t* gray) {
   return ck::guarded([&] {
     ck::require(atlas && values && gray, "an argument is missing");
-    ck::for_each_face(*atlas, control, [&](size_t face) {
-      const ck::TexelMap map(atlas->corners.data() + 6 * face);
+    ck::texture::for_each_face(*atlas, control, [&](size_t face) {
+      const ck::texture::TexelMap map(atlas->corners.data() + 6 * face);
       const float* v = values + 3 * face;
       if (!map.is_valid) return;
       atlas->for_each_texel(face, [&](int x, int y, size_t texel) {
-        const ck::Vec3 w = ck::TexelMap::clamped(
+        const ck::texture::Vec3 w = ck::texture::TexelMap::clamped(
             map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
         const float value = w.x * v[0] + w.y * v[1] + w.z * v[2];
         gray[texel] = static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
       });
     });
-    ck::fill_uncovered(atlas->faces, atlas->side, 1, control, gray);
+    ck::texture::fill_uncovered(atlas->faces, atlas->side, 1, control, gray);
   });
 }

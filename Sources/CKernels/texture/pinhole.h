@@ -7,7 +7,7 @@
 #include "ck_texture.h"
 #include "texture/vec.h"
 
-namespace ck {
+namespace ck::texture {
 
 /// A view as a 3 × 4 projection: homogeneous pixels are affine in the world.
 struct Projection {
@@ -56,4 +56,4 @@ inline Vec3 sample_rgb(const uint8_t* rgb, int width, int height, float x, float
   return {channel(0), channel(1), channel(2)};
 }
 
-}  // namespace ck
+}  // namespace ck::texture

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace ck {
+namespace ck::texture {
 
 using Point = std::array<double, 3>;
 
@@ -75,4 +75,4 @@ struct Quadric {
   }
 };
 
-}  // namespace ck
+}  // namespace ck::texture

@@ -11,7 +11,7 @@ ck_ray_scene::~ck_ray_scene() {
   if (device) rtcReleaseDevice(device);
 }
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 RTCRay make_ray(Vec3 origin, Vec3 direction, float near, float far) {
@@ -107,7 +107,7 @@ bool intersect(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float nea
   return true;
 }
 
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_ray_scene_create(const float* positions, size_t position_count, size_t position_stride,
                               const uint32_t* triangles, size_t triangle_count,
@@ -118,9 +118,9 @@ ck_status ck_ray_scene_create(const float* positions, size_t position_count, siz
     ck::require(position_count > 0 && triangle_count > 0, "the mesh has no triangles");
     ck::step(control, 0);
     auto result = std::make_unique<ck_ray_scene>();
-    ck::copy_geometry(*result, positions, position_count, position_stride, triangles,
-                      triangle_count);
-    ck::build(*result);
+    ck::texture::copy_geometry(*result, positions, position_count, position_stride, triangles,
+                               triangle_count);
+    ck::texture::build(*result);
     *scene = result.release();
   });
 }

@@ -12,7 +12,7 @@
 #include "texture/quadric.h"
 #include "texture/vec.h"
 
-namespace ck {
+namespace ck::texture {
 namespace {
 
 using Face = std::array<uint32_t, 3>;
@@ -339,7 +339,7 @@ class Simplifier {
 };
 
 }  // namespace
-}  // namespace ck
+}  // namespace ck::texture
 
 ck_status ck_simplify(float* positions, size_t* position_count, size_t position_stride,
                       uint32_t* triangles, size_t* triangle_count, size_t maximum_count,
@@ -348,8 +348,8 @@ ck_status ck_simplify(float* positions, size_t* position_count, size_t position_
     ck::require(positions && position_count && triangles && triangle_count,
                 "an argument is missing");
     ck::step(control, 0);
-    ck::Simplifier simplifier(positions, *position_count, position_stride, triangles,
-                              *triangle_count);
+    ck::texture::Simplifier simplifier(positions, *position_count, position_stride, triangles,
+                                       *triangle_count);
     simplifier.run(maximum_count, true, control);
     simplifier.run(maximum_count, false, control);
     simplifier.drop_components(maximum_count);

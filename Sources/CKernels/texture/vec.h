@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace ck {
+namespace ck::texture {
 
 /// Three floats with the arithmetic that the texture kernels need.
 struct Vec3 {
@@ -52,4 +52,4 @@ inline void frame_around(Vec3 n, Vec3* u, Vec3* v) {
   *v = cross(n, *u);
 }
 
-}  // namespace ck
+}  // namespace ck::texture
