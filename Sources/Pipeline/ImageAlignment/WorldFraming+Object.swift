@@ -1,0 +1,169 @@
+import Foundation
+import SceneModel
+
+/// The part of the scene that most photos look at.
+struct ObjectRegion: Sendable {
+  /// The points that most photos look at.
+  var core: [SIMD3<Double>] = []
+  /// The points within one and a half camera distances of the centre.
+  var surroundings: [SIMD3<Double>] = []
+  /// The component-wise median of the core.
+  var center = SIMD3<Double>.zero
+  /// The median distance of the cameras from the centre.
+  var cameraDistance = 1.0
+
+  init(_ reconstruction: Reconstruction) {
+    let registered = reconstruction.registered
+    let points = reconstruction.points
+    let step = max(1, points.count / 4000)
+    let sample = stride(from: 0, to: points.count, by: step).map { points[$0].position }
+    let views = sample.map { point in
+      registered.count { photo in
+        guard let pose = reconstruction.poses[photo.index] else { return false }
+        let camera = reconstruction.camera(of: photo)
+        let inCamera = pose * point
+        guard inCamera.z > 0 else { return false }
+        let pixel = camera.project(inCamera)
+        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < Double(camera.width)
+          && pixel.y < Double(camera.height)
+      }
+    }
+    let most = views.sorted()[views.count * 9 / 10]
+    core = zip(sample, views).filter { 10 * $1 >= 8 * most }.map(\.0)
+    center = Self.median(core)
+    let distances = reconstruction.poses.compactMap { $0.map { ($0.center - center).length } }
+      .sorted()
+    if !distances.isEmpty { cameraDistance = distances[distances.count / 2] }
+    surroundings = sample.filter { ($0 - center).length < 1.5 * cameraDistance }
+  }
+
+  private static func median(_ points: [SIMD3<Double>]) -> SIMD3<Double> {
+    guard !points.isEmpty else { return .zero }
+    func middle(_ axis: Int) -> Double { points.map { $0[axis] }.sorted()[points.count / 2] }
+    return [middle(0), middle(1), middle(2)]
+  }
+}
+
+/// The up direction that the cameras' attitude suggests.
+struct CameraUp: Sendable {
+  var direction: SIMD3<Double>
+
+  init(_ reconstruction: Reconstruction) {
+    let rotations = reconstruction.poses.compactMap { $0?.rotation.conjugate }
+    let mean = rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, -1, 0] } / Double(rotations.count)
+    let back = rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, 0, -1] } / Double(rotations.count)
+    // Cameras that look straight down have their tops all around: then their backs point up.
+    guard mean.length > 0.3 || mean.length > back.length else {
+      direction = back.length > 0.1 ? back.normalized : [0, 1, 0]
+      return
+    }
+    direction = mean.normalized
+    // Held level, a camera's x axis is horizontal whatever it looks at: more exact than the mean of
+    // tilted tops, where the axes spread enough.
+    var scatter = [SIMD3<Double>](repeating: .zero, count: 3)
+    for rotation in rotations {
+      let x = rotation * SIMD3(1, 0, 0)
+      for axis in 0..<3 { scatter[axis] += x[axis] * x / Double(rotations.count) }
+    }
+    let (values, vectors) = Matrix3(rows: scatter[0], scatter[1], scatter[2]).symmetricEigen
+    let normal = vectors[0].dot(mean) < 0 ? -vectors[0] : vectors[0]
+    if values[0] < 0.02, values[1] > 0.1, normal.dot(direction) > 0.6 { direction = normal }
+  }
+}
+
+/// The dominant plane under the object.
+struct SupportPlane: Sendable {
+  /// Unit length, to the cameras' side.
+  var normal: SIMD3<Double>
+  var offset: Double
+
+  func distance(_ point: SIMD3<Double>) -> Double { normal.dot(point) - offset }
+
+  /// Nil where no plane that fits the cameras' up direction holds enough points.
+  init?(
+    _ object: ObjectRegion, centers: [SIMD3<Double>], up: SIMD3<Double>,
+    _ options: WorldFraming.Options
+  ) {
+    let points = object.surroundings
+    guard points.count >= 50 else { return nil }
+    let thickness = options.planeThickness * object.cameraDistance
+    let tilt = cos(options.planeTiltDegrees * .pi / 180)
+    var random = SplitMix64(state: options.seed)
+    var best = (count: 0, normal: up, offset: 0.0)
+    for _ in 0..<1000 {
+      let triple = (0..<3).map { _ in points[Int(random.next() % UInt64(points.count))] }
+      var normal = (triple[1] - triple[0]).cross(triple[2] - triple[0]).normalized
+      if normal.dot(up) < 0 { normal = -normal }
+      guard normal.dot(up) > tilt else { continue }
+      let offset = normal.dot(triple[0])
+      let count = points.count { abs(normal.dot($0) - offset) < thickness }
+      if count > best.count { best = (count, normal, offset) }
+    }
+    (normal, offset) = (best.normal, best.offset)
+    for _ in 0..<3 { refit(points, thickness, up) }
+    let heights = points.map(distance)
+    let onPlane = heights.count { abs($0) < thickness }
+    let above = heights.count { $0 >= thickness }
+    let below = heights.count { $0 < -3 * thickness }
+    let seeing = centers.count { distance($0) > 0 }
+    guard Double(onPlane) >= options.planeShare * Double(points.count), normal.dot(up) > tilt,
+      // What stands on the plane is above it, and nobody takes photos from below it.
+      10 * below <= above + onPlane, 10 * seeing >= 9 * centers.count,
+      distance(object.center) > -thickness
+    else { return nil }
+  }
+
+  /// Least squares over the points on the plane.
+  private mutating func refit(
+    _ points: [SIMD3<Double>], _ thickness: Double, _ up: SIMD3<Double>
+  ) {
+    let inliers = points.filter { abs(distance($0)) < thickness }
+    guard inliers.count >= 10 else { return }
+    let mean = inliers.reduce(.zero, +) / Double(inliers.count)
+    var rows = [SIMD3<Double>](repeating: .zero, count: 3)
+    for point in inliers {
+      let d = point - mean
+      for axis in 0..<3 { rows[axis] += d[axis] * d / Double(inliers.count) }
+    }
+    let vector = Matrix3(rows: rows[0], rows[1], rows[2]).symmetricEigen.vectors[0]
+    normal = vector.dot(up) < 0 ? -vector : vector
+    offset = normal.dot(mean)
+  }
+}
+
+/// A small generator of random numbers, the same everywhere (Steele et al. 2014).
+struct SplitMix64: Sendable {
+  var state: UInt64
+
+  mutating func next() -> UInt64 {
+    state &+= 0x9E37_79B9_7F4A_7C15
+    var z = state
+    z = (z ^ (z >> 30)) &* 0xBF58_476D_1CE4_E5B9
+    z = (z ^ (z >> 27)) &* 0x94D0_49BB_1331_11EB
+    return z ^ (z >> 31)
+  }
+}
+
+extension Matrix3 {
+  /// Eigenvalues of a symmetric matrix ascending, with unit eigenvectors (Jacobi's cyclic method).
+  var symmetricEigen: (values: [Double], vectors: [SIMD3<Double>]) {
+    var a = [row0, row1, row2]
+    var v: [SIMD3<Double>] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    for _ in 0..<50 {
+      var change = 0.0
+      for (p, q) in [(0, 1), (0, 2), (1, 2)] where a[p][q] != 0 {
+        change = max(change, abs(a[p][q]))
+        let theta = (a[q][q] - a[p][p]) / (2 * a[p][q])
+        let t = (theta < 0 ? -1 : 1) / (abs(theta) + (theta * theta + 1).squareRoot())
+        let c = 1 / (t * t + 1).squareRoot()
+        let s = t * c
+        for k in 0..<3 { (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]) }
+        (a[p], a[q]) = (c * a[p] - s * a[q], s * a[p] + c * a[q])
+        for k in 0..<3 { (v[k][p], v[k][q]) = (c * v[k][p] - s * v[k][q], s * v[k][p] + c * v[k][q]) }
+      }
+      if change < 1e-300 { break }
+    }
+    let order = [0, 1, 2].sorted { (a[$0][$0], $0) < (a[$1][$1], $1) }
+    return (order.map { a[$0][$0] }, order.map { [v[0][$0], v[1][$0], v[2][$0]] })
+  }
+}

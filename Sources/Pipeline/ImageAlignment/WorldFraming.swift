@@ -1,0 +1,127 @@
+import Foundation
+import SceneModel
+
+/// Gives a reconstruction its scale, its up direction and its origin.
+///
+/// +y is up and the object stands on y = 0, centred in x and z on the points that most photos look
+/// at. Scale: GPS, else a known distance, else the median distance from the cameras to the object is
+/// one metre. Up: GPS, else the plane under the object, else the cameras, which people hold upright.
+package struct WorldFraming: Sendable {
+  /// The distance between the standpoints of two photos.
+  package struct KnownDistance: Hashable, Codable, Sendable {
+    package var first: ID<Photo>
+    package var second: ID<Photo>
+    package var meters: Double
+
+    package init(first: ID<Photo>, second: ID<Photo>, meters: Double) {
+      self.first = first
+      self.second = second
+      self.meters = meters
+    }
+  }
+
+  package struct Options: Hashable, Codable, Sendable {
+    package var knownDistance: KnownDistance?
+    /// Expected error of a GPS position in metres.
+    package var gpsNoise = 5.0
+    /// Positions must spread over this many times their error to say something.
+    package var gpsSpreadFactor = 3.0
+    /// Distance from the support plane, relative to the cameras' distance from the object.
+    package var planeThickness = 0.01
+    /// Share of the points near the object that the support plane holds at least.
+    package var planeShare = 0.12
+    /// Largest angle in degrees between the support plane's normal and the cameras' mean up.
+    package var planeTiltDegrees = 30.0
+    package var seed: UInt64 = 1
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The same reconstruction in the new world; unchanged without registered photos.
+  package func run(_ reconstruction: Reconstruction, _ context: StageContext) -> Reconstruction {
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    guard let first = reconstruction.registered.first, !reconstruction.points.isEmpty else {
+      return reconstruction
+    }
+    let object = ObjectRegion(reconstruction)
+    let gps = GPSFit(reconstruction, options)
+    var frame = WorldFrame()
+
+    let cameraUp = CameraUp(reconstruction).direction
+    var up = cameraUp
+    frame.up = .cameras
+    let plane = SupportPlane(object, centers: centers, up: cameraUp, options)
+    if let gpsUp = gps?.up {
+      (up, frame.up) = (gpsUp, .gps)
+    } else if let plane {
+      (up, frame.up) = (plane.normal, .supportPlane)
+    }
+
+    var scale = 1 / max(object.cameraDistance, .leastNormalMagnitude)
+    if let gps {
+      (scale, frame.scale) = (gps.scale, .gps)
+    } else if let known = knownScale(reconstruction) {
+      (scale, frame.scale) = (known, .knownDistance)
+    } else {
+      context.notes.warn(
+        "The photos don't say how large the object is: its scale is arbitrary, with the cameras' "
+          + "median distance from it taken as one metre.")
+    }
+
+    let level = Self.leveling(up)
+    let front = level * ((reconstruction.poses[first.index]?.center ?? .zero) - object.center)
+    let yaw = gps?.yaw(leveling: level) ?? -atan2(front.x, front.z)
+    let rotation = (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+    let ground = ground(object, plane, up)
+    let origin = object.center - up * ((object.center - ground).dot(up))
+    let worldFromOld = SimilarityTransform(
+      scale: scale, rotation: rotation, translation: -scale * (rotation * origin))
+    return reconstruction.moved(by: worldFromOld, frame)
+  }
+
+  private func knownScale(_ reconstruction: Reconstruction) -> Double? {
+    guard let known = options.knownDistance, known.meters > 0,
+      reconstruction.poses.indices.contains(known.first.index),
+      reconstruction.poses.indices.contains(known.second.index),
+      let a = reconstruction.poses[known.first.index]?.center,
+      let b = reconstruction.poses[known.second.index]?.center, (a - b).length > 0
+    else { return nil }
+    return known.meters / (a - b).length
+  }
+
+  /// A point at the height that the object stands on.
+  private func ground(
+    _ object: ObjectRegion, _ plane: SupportPlane?, _ up: SIMD3<Double>
+  ) -> SIMD3<Double> {
+    let heights = object.core.map { ($0 - object.center).dot(up) }.sorted()
+    let lowest = object.center + up * (heights.isEmpty ? 0 : heights[heights.count / 50])
+    // A plane that was found for another up direction, or above the object, is not the ground.
+    guard let plane, plane.normal.dot(up) > 0.96 else { return lowest }
+    let onPlane = object.center - plane.normal * plane.distance(object.center)
+    return onPlane
+  }
+
+  /// The shortest rotation that turns `up` to +y.
+  static func leveling(_ up: SIMD3<Double>) -> Quaternion {
+    let axis = up.cross([0, 1, 0])
+    guard axis.length > 1e-12 else {
+      return up.y > 0 ? .identity : Quaternion(angle: .pi, axis: [1, 0, 0])
+    }
+    return Quaternion(angle: atan2(axis.length, up.y), axis: axis)
+  }
+}
+
+extension Reconstruction {
+  /// The same scene in another world.
+  func moved(by newFromOld: SimilarityTransform, _ frame: WorldFrame) -> Reconstruction {
+    var result = self
+    result.poses = poses.map { $0.map(newFromOld.applied(toCameraFromA:)) }
+    for index in points.indices { result.points[index].position = newFromOld * points[index].position }
+    result.worldFrame = frame
+    return result
+  }
+}

@@ -1,0 +1,134 @@
+import Foundation
+import Pipeline
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct WorldFramingTests {
+  /// A scene with a table under the ball, moved to a random frame as alignment would leave it.
+  private func scene(
+    table: Bool, layout: SyntheticScene.Layout = .ring, seed: UInt64 = 1
+  ) -> Reconstruction {
+    var options = SyntheticScene.Options()
+    options.layout = layout
+    var result = SyntheticScene(options).reconstruction
+    var random = SeededGenerator(seed: seed)
+    if table {
+      for _ in 0..<400 {
+        let x = 4 * random.uniform() - 2
+        result.points.append(ScenePoint(position: [x, -1.1, 4 * random.uniform() - 2]))
+      }
+    }
+    let oldFromScene = SimilarityTransform(
+      scale: 0.37, rotation: Quaternion(angle: 6 * random.uniform(), axis: random.normal3()),
+      translation: random.normal3())
+    result.poses = result.poses.map { $0.map(oldFromScene.applied(toCameraFromA:)) }
+    for index in result.points.indices {
+      result.points[index].position = oldFromScene * result.points[index].position
+    }
+    return result
+  }
+
+  private func lowest(_ reconstruction: Reconstruction) -> Double {
+    reconstruction.points.map(\.position.y).min() ?? .nan
+  }
+
+  private func distances(_ reconstruction: Reconstruction) -> [Double] {
+    reconstruction.poses.compactMap { $0?.center.length }.sorted()
+  }
+
+  @Test(arguments: [1, 2, 3] as [UInt64]) func tableIsTheGround(seed: UInt64) {
+    let notes = StageNotes()
+    let framed = WorldFraming().run(scene(table: true, seed: seed), StageContext(notes: notes))
+    #expect(framed.worldFrame == WorldFrame(scale: .arbitrary, up: .supportPlane))
+    #expect(notes.warnings.count == 1)
+    let table = framed.points.suffix(400).map(\.position.y)
+    #expect(table.allSatisfy { abs($0) < 0.01 })
+    #expect(framed.poses.allSatisfy { ($0?.center.y ?? 0) > 0.1 })
+    let median = distances(framed)[6]
+    #expect(median > 0.9 && median < 1.3)
+    // The ball is on top of the table and over the origin.
+    let ball = framed.points.prefix(700).map(\.position)
+    let mean = ball.reduce(.zero, +) / 700
+    #expect(abs(mean.x) < 0.05 && abs(mean.z) < 0.05 && mean.y > 0.1)
+    #expect(framed.meanReprojectionError < 1e-2 || table.count == 400)
+  }
+
+  @Test func withoutAPlaneTheCamerasSayWhatIsUp() {
+    let before = scene(table: false)
+    let framed = WorldFraming().run(before, StageContext())
+    #expect(framed.worldFrame.up == .cameras)
+    #expect(abs(lowest(framed)) < 0.1)
+    // Cameras without roll: their x axes are horizontal.
+    for pose in framed.poses {
+      let x = (pose ?? .identity).rotation.conjugate * SIMD3(1, 0, 0)
+      #expect(abs(x.y) < 0.01)
+    }
+    #expect(abs(framed.meanReprojectionError - before.meanReprojectionError) < 1e-6)
+  }
+
+  @Test func firstPhotoStandsInFront() throws {
+    let framed = WorldFraming().run(scene(table: true), StageContext())
+    let center = try #require(framed.poses[0]).center
+    #expect(center.z > 0.5 && abs(center.x) < 0.1)
+  }
+
+  /// GPS positions of the true centres, `metersPerUnit` metres to a unit of the scene.
+  private func located(_ metersPerUnit: Double, noise: Double) -> Reconstruction {
+    var random = SeededGenerator(seed: 8)
+    var result = scene(table: true)
+    let truth = SyntheticScene().poses
+    for index in result.photos.indices {
+      let meters = metersPerUnit * truth[index].center + noise * random.normal3()
+      result.photos[index].position = GeographicPosition(
+        latitudeDegrees: 48 - meters.z / 111_198.0,
+        longitudeDegrees: 9 + meters.x / (111_414.0 * cos(48 * Double.pi / 180)),
+        altitude: 300 + meters.y)
+    }
+    return result
+  }
+
+  @Test func gpsGivesScaleUpAndNorth() {
+    let framed = WorldFraming().run(located(20, noise: 1), StageContext())
+    #expect(framed.worldFrame == WorldFrame(scale: .gps, up: .gps))
+    let truth = SyntheticScene().poses.map { 20 * $0.center }
+    // The ground is the table, 22 m below the ball's centre.
+    for (pose, center) in zip(framed.poses, truth) {
+      #expect(((pose ?? .identity).center - center - [0, 22, 0]).length < 5)
+    }
+  }
+
+  @Test func gpsAsWideAsItsNoiseIsNotUsed() {
+    let framed = WorldFraming().run(located(0.5, noise: 4), StageContext())
+    #expect(framed.worldFrame.scale == .arbitrary)
+    #expect(framed.worldFrame.up == .supportPlane)
+  }
+
+  @Test func wrongGPSPositionsDoNotSpoilTheRest() {
+    var input = located(20, noise: 0.5)
+    input.photos[3].position?.latitudeDegrees += 0.01
+    let framed = WorldFraming().run(input, StageContext())
+    #expect(framed.worldFrame.scale == .gps)
+    let distance = ((framed.poses[0]?.center ?? .zero) - (framed.poses[6]?.center ?? .zero)).length
+    let truth = SyntheticScene().poses
+    #expect(abs(distance - 20 * (truth[0].center - truth[6].center).length) < 5)
+  }
+
+  @Test func knownDistanceSetsTheScale() {
+    var options = WorldFraming.Options()
+    options.knownDistance = .init(first: ID(0), second: ID(3), meters: 2.5)
+    let notes = StageNotes()
+    let framed = WorldFraming(options).run(scene(table: true), StageContext(notes: notes))
+    #expect(framed.worldFrame.scale == .knownDistance)
+    #expect(notes.warnings.isEmpty)
+    let distance = ((framed.poses[0]?.center ?? .zero) - (framed.poses[3]?.center ?? .zero)).length
+    #expect(abs(distance - 2.5) < 1e-9)
+  }
+
+  @Test func nothingRegisteredStaysAsItIs() {
+    var empty = scene(table: false)
+    empty.poses = empty.poses.map { _ in nil }
+    empty.points = []
+    #expect(WorldFraming().run(empty, StageContext()).registered.isEmpty)
+  }
+}
