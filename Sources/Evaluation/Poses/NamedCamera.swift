@@ -1,0 +1,89 @@
+import Foundation
+import SceneModel
+
+/// A photo's camera and pose, known by the photo's name.
+package struct NamedCamera: Hashable, Sendable {
+  package var name: String
+  package var camera: Camera
+  package var cameraFromWorld: RigidTransform
+
+  package init(name: String, camera: Camera, cameraFromWorld: RigidTransform) {
+    self.name = name
+    self.camera = camera
+    self.cameraFromWorld = cameraFromWorld
+  }
+}
+
+extension NamedCamera {
+  /// The registered photos of a reconstruction.
+  package static func cameras(of reconstruction: Reconstruction) -> [NamedCamera] {
+    reconstruction.registered.compactMap { id in
+      reconstruction.poses[id.index].map {
+        NamedCamera(
+          name: reconstruction.photos[id.index].name, camera: reconstruction.camera(of: id),
+          cameraFromWorld: $0)
+      }
+    }
+  }
+
+  /// Reads a list of `{"name", "K", "R", "t"}`: calibration matrix, rotation and translation of
+  /// `x_camera = R x_world + t`. Photos marked as held out are left out.
+  ///
+  /// The file does not tell image sizes: they are taken to be twice the principal point.
+  package static func cameras(json data: Data) throws -> [NamedCamera] {
+    struct Entry: Decodable {
+      var name: String
+      var K: [[Double]]
+      var R: [[Double]]
+      var t: [Double]
+      var holdout: Bool?
+    }
+    func isMatrix(_ rows: [[Double]]) -> Bool {
+      rows.count == 3 && rows.allSatisfy { $0.count == 3 && $0.allSatisfy(\.isFinite) }
+    }
+    let entries: [Entry]
+    do {
+      entries = try JSONDecoder().decode([Entry].self, from: data)
+    } catch {
+      throw EvaluationError.invalidReference(
+        "it is no list of cameras with name, K, R and t")
+    }
+    return try entries.filter { $0.holdout != true }.map { entry in
+      guard isMatrix(entry.K), isMatrix(entry.R), entry.t.count == 3,
+        entry.t.allSatisfy(\.isFinite)
+      else {
+        throw EvaluationError.invalidReference("the matrices of \(entry.name) are not 3 × 3")
+      }
+      let (k, r) = (entry.K, entry.R.map { SIMD3($0[0], $0[1], $0[2]) })
+      return NamedCamera(
+        name: entry.name,
+        camera: Camera(
+          width: Int((2 * k[0][2]).rounded()), height: Int((2 * k[1][2]).rounded()),
+          focalLength: [k[0][0], k[1][1]], principalPoint: [k[0][2], k[1][2]],
+          calibration: .refined),
+        cameraFromWorld: RigidTransform(
+          rotation: Quaternion(Matrix3(rows: r[0], r[1], r[2])),
+          translation: [entry.t[0], entry.t[1], entry.t[2]]))
+    }
+  }
+}
+
+/// Why a result can't be compared.
+package enum EvaluationError: LocalizedError, Equatable, Sendable {
+  /// The end of a sentence that begins with the file's name.
+  case invalidReference(String)
+  case noCommonPhotos
+  case undeterminedAlignment(commonPhotos: Int)
+  case emptySurface
+
+  package var errorDescription: String? {
+    switch self {
+    case .invalidReference(let reason): "The reference can't be used: \(reason)."
+    case .noCommonPhotos: "The result and the reference have no photo of the same name."
+    case .undeterminedAlignment(let count):
+      "The result can't be aligned to the reference: \(count) common photos are too few or all on "
+        + "one line."
+    case .emptySurface: "There is no surface to compare."
+    }
+  }
+}

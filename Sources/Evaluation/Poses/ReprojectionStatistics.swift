@@ -1,0 +1,40 @@
+import SceneModel
+
+/// How well a reconstruction's points explain its keypoints, in pixels.
+package struct ReprojectionStatistics: Codable, Hashable, Sendable {
+  package var photos: Int
+  package var points: Int
+  package var observations: Int
+  /// Observations a point.
+  package var meanTrackLength: Double
+  package var meanPixels: Double
+  package var rootMeanSquarePixels: Double
+  package var medianPixels: Double
+  /// 95 of 100 observations are better.
+  package var percentile95Pixels: Double
+
+  /// The statistics over all observations of registered photos; points behind a camera don't count.
+  package init(_ reconstruction: Reconstruction) {
+    var errors: [Double] = []
+    for point in reconstruction.points {
+      for observation in point.track {
+        guard let pose = reconstruction.poses[observation.photo.index] else { continue }
+        let inCamera = pose * point.position
+        guard inCamera.z > 0 else { continue }
+        let pixel = reconstruction.camera(of: observation.photo).project(inCamera)
+        errors.append((pixel - observation.pixel).length)
+      }
+    }
+    errors.sort()
+    let count = Double(max(1, errors.count))
+    photos = reconstruction.registered.count
+    points = reconstruction.points.count
+    observations = errors.count
+    meanTrackLength =
+      Double(reconstruction.points.reduce(0) { $0 + $1.track.count }) / Double(max(1, points))
+    meanPixels = errors.reduce(0, +) / count
+    rootMeanSquarePixels = (errors.reduce(0) { $0 + $1 * $1 } / count).squareRoot()
+    medianPixels = errors.median
+    percentile95Pixels = errors.isEmpty ? 0 : errors[min(errors.count - 1, errors.count * 95 / 100)]
+  }
+}

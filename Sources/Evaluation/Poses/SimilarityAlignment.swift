@@ -1,0 +1,174 @@
+import Foundation
+import SceneModel
+
+/// Finds the scale, rotation and translation that bring points closest to their counterparts.
+///
+/// The least-squares similarity of Umeyama (PAMI 1991), its rotation by Horn's unit quaternion
+/// (JOSA A 1987), which is never a reflection.
+package struct SimilarityAlignment: Sendable {
+  package struct Options: Codable, Hashable, Sendable {
+    /// Trials of the robust variant.
+    package var trials = 400
+    /// Inliers are this close, as a fraction of the targets' mean distance from their centre.
+    package var inlierFraction = 0.02
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The similarity with the least sum of squared distances; nil for fewer than three pairs and for
+  /// points on one line, which determine no rotation.
+  package func leastSquares(
+    from source: [SIMD3<Double>], to target: [SIMD3<Double>]
+  ) -> SimilarityTransform? {
+    let count = min(source.count, target.count)
+    guard count >= 3 else { return nil }
+    let (sourceCenter, targetCenter) = (Self.mean(source), Self.mean(target))
+    var covariance = [SIMD3<Double>](repeating: .zero, count: 3)
+    var variance = 0.0
+    for index in 0..<count {
+      let (a, b) = (source[index] - sourceCenter, target[index] - targetCenter)
+      for axis in 0..<3 { covariance[axis] += a[axis] * b }
+      variance += a.squaredLength
+    }
+    guard variance > 0, let rotation = Self.rotation(covariance) else { return nil }
+    var scale = 0.0
+    for index in 0..<count {
+      scale += (target[index] - targetCenter).dot(rotation * (source[index] - sourceCenter))
+    }
+    scale /= variance
+    guard scale.isFinite, scale > 0 else { return nil }
+    return SimilarityTransform(
+      scale: scale, rotation: rotation,
+      translation: targetCenter - scale * (rotation * sourceCenter))
+  }
+
+  /// The similarity of the largest set of pairs that agree, so that a few wrong ones don't spoil it.
+  package func robust(
+    from source: [SIMD3<Double>], to target: [SIMD3<Double>]
+  ) -> SimilarityTransform? {
+    let count = min(source.count, target.count)
+    let center = Self.mean(target)
+    let spread = target.reduce(0) { $0 + ($1 - center).length } / Double(max(1, count))
+    let limit = options.inlierFraction * spread
+    func inliers(of transform: SimilarityTransform) -> [Int] {
+      (0..<count).filter { (transform * source[$0] - target[$0]).length <= limit }
+    }
+    func fit(_ indices: [Int]) -> SimilarityTransform? {
+      leastSquares(from: indices.map { source[$0] }, to: indices.map { target[$0] })
+    }
+    var best: [Int] = []
+    var random = SplitMix64(seed: UInt64(count))
+    for _ in 0..<(count > 4 ? options.trials : 0) {
+      let sample = random.distinct(4, below: count)
+      guard let transform = fit(sample) else { continue }
+      let agreeing = inliers(of: transform)
+      if agreeing.count > best.count { best = agreeing }
+      if best.count == count { break }
+    }
+    for _ in 0..<3 {
+      guard best.count >= 4, let transform = fit(best) else { break }
+      let agreeing = inliers(of: transform)
+      guard agreeing.count >= best.count, agreeing != best else { break }
+      best = agreeing
+    }
+    return (best.count >= 4 ? fit(best) : nil) ?? leastSquares(from: source, to: target)
+  }
+
+  private static func mean(_ points: [SIMD3<Double>]) -> SIMD3<Double> {
+    points.reduce(.zero, +) / Double(max(1, points.count))
+  }
+
+  /// The rotation that maximises Σ b · R a for `covariance[i] = Σ aᵢ b`; nil where several do.
+  private static func rotation(_ s: [SIMD3<Double>]) -> Quaternion? {
+    let (trace, x, y, z) = (
+      s[0].x + s[1].y + s[2].z, s[1].z - s[2].y, s[2].x - s[0].z, s[0].y - s[1].x
+    )
+    let matrix: [[Double]] = [
+      [trace, x, y, z],
+      [x, s[0].x - s[1].y - s[2].z, s[0].y + s[1].x, s[2].x + s[0].z],
+      [y, s[0].y + s[1].x, s[1].y - s[0].x - s[2].z, s[1].z + s[2].y],
+      [z, s[2].x + s[0].z, s[1].z + s[2].y, s[2].z - s[0].x - s[1].y],
+    ]
+    let eigen = SymmetricEigenvalues(matrix)
+    let order = eigen.values.indices.sorted { eigen.values[$0] > eigen.values[$1] }
+    let scale = eigen.values.reduce(0) { max($0, abs($1)) }
+    guard scale > 0, eigen.values[order[0]] - eigen.values[order[1]] > 1e-9 * scale else {
+      return nil
+    }
+    let q = eigen.vectors[order[0]]
+    return Quaternion(x: q[1], y: q[2], z: q[3], w: q[0]).normalized
+  }
+}
+
+/// Eigenvalues and eigenvectors of a small symmetric matrix by Jacobi's rotations.
+struct SymmetricEigenvalues {
+  private(set) var values: [Double]
+  /// `vectors[i]` belongs to `values[i]`.
+  private(set) var vectors: [[Double]]
+
+  init(_ matrix: [[Double]]) {
+    var a = matrix
+    let n = matrix.count
+    var v = (0..<n).map { row in (0..<n).map { $0 == row ? 1.0 : 0.0 } }
+    for _ in 0..<50 {
+      var offDiagonal = 0.0
+      for p in 0..<n { for q in 0..<n where p != q { offDiagonal += a[p][q] * a[p][q] } }
+      guard offDiagonal > 1e-300 else { break }
+      for p in 0..<n {
+        for q in (p + 1)..<max(p + 1, n) where a[p][q] != 0 {
+          Self.rotate(&a, &v, p, q)
+        }
+      }
+    }
+    values = (0..<n).map { a[$0][$0] }
+    vectors = (0..<n).map { column in (0..<n).map { v[$0][column] } }
+  }
+
+  private static func rotate(_ a: inout [[Double]], _ v: inout [[Double]], _ p: Int, _ q: Int) {
+    let theta = (a[q][q] - a[p][p]) / (2 * a[p][q])
+    let t = (theta < 0 ? -1.0 : 1.0) / (abs(theta) + (theta * theta + 1).squareRoot())
+    let c = 1 / (t * t + 1).squareRoot()
+    let s = t * c
+    for k in a.indices {
+      let (kp, kq) = (a[k][p], a[k][q])
+      (a[k][p], a[k][q]) = (c * kp - s * kq, s * kp + c * kq)
+    }
+    for k in a.indices {
+      let (pk, qk) = (a[p][k], a[q][k])
+      (a[p][k], a[q][k]) = (c * pk - s * qk, s * pk + c * qk)
+    }
+    for k in v.indices {
+      let (kp, kq) = (v[k][p], v[k][q])
+      (v[k][p], v[k][q]) = (c * kp - s * kq, s * kp + c * kq)
+    }
+  }
+}
+
+/// A small random generator that gives the same numbers everywhere (Steele et al., OOPSLA 2014).
+struct SplitMix64: RandomNumberGenerator {
+  private var state: UInt64
+
+  init(seed: UInt64) { state = seed }
+
+  mutating func next() -> UInt64 {
+    state &+= 0x9E37_79B9_7F4A_7C15
+    var z = state
+    z = (z ^ (z >> 30)) &* 0xBF58_476D_1CE4_E5B9
+    z = (z ^ (z >> 27)) &* 0x94D0_49BB_1331_11EB
+    return z ^ (z >> 31)
+  }
+
+  /// `count` different numbers of `0..<limit`.
+  mutating func distinct(_ count: Int, below limit: Int) -> [Int] {
+    var numbers: [Int] = []
+    while numbers.count < min(count, limit) {
+      let number = Int(next() % UInt64(limit))
+      if !numbers.contains(number) { numbers.append(number) }
+    }
+    return numbers
+  }
+}

@@ -1,0 +1,21 @@
+import Dispatch
+import Synchronization
+
+/// Maps ranges that together are `0..<count` on some threads and joins the results in their order.
+func parallelChunks<Element: Sendable>(
+  _ count: Int, threads: Int, _ body: @Sendable (Range<Int>) -> [Element]
+) -> [Element] {
+  let chunkSize = 4096
+  let chunks = (count + chunkSize - 1) / chunkSize
+  let results = Mutex([[Element]](repeating: [], count: chunks))
+  let next = Atomic<Int>(0)
+  DispatchQueue.concurrentPerform(iterations: max(1, min(threads, chunks))) { _ in
+    while true {
+      let chunk = next.add(1, ordering: .relaxed).oldValue
+      guard chunk < chunks else { return }
+      let result = body((chunk * chunkSize)..<min(count, (chunk + 1) * chunkSize))
+      results.withLock { $0[chunk] = result }
+    }
+  }
+  return results.withLock { $0.flatMap { $0 } }
+}

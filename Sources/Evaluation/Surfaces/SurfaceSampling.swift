@@ -1,0 +1,38 @@
+import SceneModel
+
+/// Spreads points over a mesh evenly by area; the same mesh gives the same points.
+package struct SurfaceSampling: Sendable {
+  package init() {}
+
+  /// `count` points: one in each of `count` equal parts of the running area, placed in its triangle
+  /// by a low-discrepancy sequence.
+  package func run(_ mesh: Mesh, count: Int) -> [SIMD3<Float>] {
+    let triangles = mesh.triangles.map { FlatTriangle($0, of: mesh) }
+    var areas: [Double] = []
+    areas.reserveCapacity(triangles.count)
+    var total = 0.0
+    for triangle in triangles {
+      let area = Double(triangle.area)
+      total += area.isFinite ? area : 0
+      areas.append(total)
+    }
+    guard total > 0, count > 0 else { return [] }
+    var points: [SIMD3<Float>] = []
+    points.reserveCapacity(count)
+    var index = 0
+    // The plastic number's sequence (Roberts 2018), a generalisation of the golden ratio.
+    let steps = SIMD2(0.754_877_666_246_692_7, 0.569_840_290_998_053_2)
+    var place = SIMD2(0.5, 0.5)
+    for sample in 0..<count {
+      let target = (Double(sample) + 0.5) / Double(count) * total
+      while index < areas.count - 1, areas[index] <= target { index += 1 }
+      place += steps
+      place -= place.rounded(.down)
+      let folded = place.x + place.y > 1 ? 1 - place : place
+      let (u, v) = (Float(folded.x), Float(folded.y))
+      let t = triangles[index]
+      points.append(t.a + u * (t.b - t.a) + v * (t.c - t.a))
+    }
+    return points
+  }
+}

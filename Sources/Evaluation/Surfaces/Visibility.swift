@@ -1,0 +1,48 @@
+import SceneModel
+
+/// Tells which points of a surface cameras see.
+struct Visibility: Sendable {
+  let cameras: [NamedCamera]
+  let tree: BoundingTree<FlatTriangle>
+  let minimumViews: Int
+  let threadCount: Int
+
+  /// The points that at least `minimumViews` cameras see, in their order.
+  func visible(_ points: [SIMD3<Float>]) -> [SIMD3<Float>] {
+    parallelChunks(points.count, threads: threadCount) { range in
+      var stack = BoundingTree<FlatTriangle>.Stack()
+      return range.map { points[$0] }.filter { isVisible($0, &stack) }
+    }
+  }
+
+  private func isVisible(
+    _ point: SIMD3<Float>, _ stack: inout BoundingTree<FlatTriangle>.Stack
+  ) -> Bool {
+    var views = 0
+    for (index, camera) in cameras.enumerated() {
+      // Stops as soon as the cameras that are left can't make it enough.
+      guard views < minimumViews, views + cameras.count - index >= minimumViews else { break }
+      if sees(camera, point, &stack) { views += 1 }
+    }
+    return views >= minimumViews
+  }
+
+  private func sees(
+    _ camera: NamedCamera, _ point: SIMD3<Float>,
+    _ stack: inout BoundingTree<FlatTriangle>.Stack
+  ) -> Bool {
+    let inCamera = camera.cameraFromWorld * SIMD3<Double>(point)
+    guard inCamera.z > 0 else { return false }
+    let pixel = camera.camera.project(inCamera)
+    guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(camera.camera.width),
+      pixel.y < Double(camera.camera.height)
+    else { return false }
+    // From the point to the camera; the first thousandth of the way is the surface itself.
+    let center = SIMD3<Float>(camera.cameraFromWorld.center)
+    let direction = center - point
+    let origin = point + direction * 1e-3
+    return !tree.anyItem(from: origin, direction: direction, limit: 0.999, &stack) {
+      $0.isHit(from: origin, direction: direction, limit: 0.999)
+    }
+  }
+}
