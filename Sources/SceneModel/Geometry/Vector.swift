@@ -1,26 +1,26 @@
 extension SIMD3 where Scalar: FloatingPoint {
-  package func dot(_ other: Self) -> Scalar { (self * other).sum() }
+  @inlinable package func dot(_ other: Self) -> Scalar { (self * other).sum() }
 
-  package func cross(_ other: Self) -> Self {
+  @inlinable package func cross(_ other: Self) -> Self {
     Self(
       y * other.z - z * other.y, z * other.x - x * other.z, x * other.y - y * other.x)
   }
 
-  package var squaredLength: Scalar { dot(self) }
+  @inlinable package var squaredLength: Scalar { dot(self) }
 
-  package var length: Scalar { squaredLength.squareRoot() }
+  @inlinable package var length: Scalar { squaredLength.squareRoot() }
 
   /// The vector scaled to unit length; the zero vector stays zero.
-  package var normalized: Self {
+  @inlinable package var normalized: Self {
     let length = length
     return length > 0 ? self / length : self
   }
 }
 
 extension SIMD2 where Scalar: FloatingPoint {
-  package func dot(_ other: Self) -> Scalar { (self * other).sum() }
+  @inlinable package func dot(_ other: Self) -> Scalar { (self * other).sum() }
 
-  package var squaredLength: Scalar { dot(self) }
+  @inlinable package var squaredLength: Scalar { dot(self) }
 
-  package var length: Scalar { squaredLength.squareRoot() }
+  @inlinable package var length: Scalar { squaredLength.squareRoot() }
 }
