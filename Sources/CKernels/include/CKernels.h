@@ -8,6 +8,7 @@
 #include "ck_features.h"
 #include "ck_image.h"
 #include "ck_matching.h"
+#include "ck_patches.h"
 #include "ck_resection.h"
 #include "ck_two_view.h"
 #include "ck_texture.h"

@@ -1,0 +1,123 @@
+#ifndef CK_PATCHES_H
+#define CK_PATCHES_H
+
+#include "ck_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A photo without distortion and its pinhole camera.
+typedef struct {
+  int32_t width, height;
+  /// `width × height` bytes, top row first.
+  const uint8_t* luma;
+  /// Pixels; the origin is the corner of the top-left pixel.
+  double fx, fy, cx, cy;
+  /// `cameraFromWorld`: rotation by rows, then translation. x right, y down, z forward.
+  double rotation[9];
+  double translation[3];
+} ck_patch_view;
+
+/// A sparse point in a reference view: pixel and inverse depth.
+typedef struct {
+  float x, y, inverse_depth;
+} ck_patch_seed;
+
+/// The patch of one pixel: a plane as its inverse depth at the pixel's centre and the gradient of
+/// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
+typedef struct {
+  float inverse_depth, gradient_x, gradient_y;
+  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
+  float cost;
+} ck_patch;
+
+typedef struct {
+  /// Resolutions, each half of the next.
+  int32_t level_count;
+  /// Sweeps of expansion at the coarsest level; one at the others.
+  int32_t coarse_sweeps;
+  /// Random planes tried around the current one at the coarsest level.
+  int32_t perturbations;
+  /// Gauss–Newton steps at the finer levels.
+  int32_t refinement_steps;
+  /// Sources that a pixel keeps for the finest level.
+  int32_t finest_sources;
+  /// Grey levels at which the bilateral weight is one half.
+  float bilateral_contrast;
+  /// Standard deviation of the photos' noise in grey levels.
+  float noise;
+  uint32_t seed;
+} ck_patch_options;
+
+/// Makes the patches of one reference view, coarse to fine (Furukawa and Ponce, PAMI 2010, with the
+/// plane per pixel of Bleyer et al., BMVC 2011).
+///
+/// `sources` are at most 8 views, the best first. `patches` holds `width × height` values of the
+/// reference. Runs on one thread: call it for several views at once.
+ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* reference,
+                                 const ck_patch_view* sources, size_t source_count,
+                                 const ck_patch_seed* seeds, size_t seed_count,
+                                 const ck_patch_options* options, const ck_control* control);
+
+/// The patches of one view together with the views that may confirm them.
+typedef struct {
+  ck_patch_view view;
+  /// RGB of the view.
+  const uint8_t* rgb;
+  const ck_patch* patches;
+  /// Indices of other maps, the best first.
+  const int32_t* neighbors;
+  size_t neighbor_count;
+} ck_patch_map;
+
+typedef struct {
+  /// A patch of a higher cost does not count.
+  float photometric_threshold;
+  /// Other views that must agree.
+  int32_t minimum_agreeing;
+  /// Pixels between a patch and its confirmation.
+  float reprojection_threshold;
+  /// Relative difference of depth.
+  float depth_threshold;
+  /// Cosine of the largest angle between normals.
+  float normal_cosine;
+  /// Patches that another view sees through are removed beyond this relative distance.
+  float contradiction_threshold;
+  /// Connected patches fewer than this are removed.
+  int32_t minimum_island;
+  /// Pixels within which confirmations are fused.
+  float fusion_threshold;
+} ck_patch_filter_options;
+
+/// Marks with 1 the patches of map `index` that enough other views confirm and none contradicts.
+///
+/// `accepted` holds `width × height` bytes of that view.
+ck_status ck_patches_filter(uint8_t* accepted, const ck_patch_map* maps, size_t map_count,
+                            size_t index, const ck_patch_filter_options* options);
+
+/// A fused patch.
+typedef struct {
+  float position[3];
+  float normal[3];
+  uint8_t color[3];
+  uint8_t photo_count;
+  /// Mean ZNCC of the fused patches.
+  float consistency;
+  /// Side of a pixel of the reference at the patch, in world units.
+  float footprint;
+  /// Maps that agree, ascending.
+  uint16_t photos[16];
+} ck_fused_patch;
+
+/// Fuses the accepted patches of map `index` that no agreeing view holds at a lower cost.
+///
+/// `accepted` holds a mask a map. `fused` has room for as many patches as the view has pixels.
+ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* maps,
+                          const uint8_t* const* accepted, size_t map_count, size_t index,
+                          const ck_patch_filter_options* options);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

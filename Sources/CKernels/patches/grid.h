@@ -1,0 +1,97 @@
+#pragma once
+
+#include "patches/view.h"
+
+namespace ck::patches {
+
+/// A plane over the pixel grid: inverse depth at a pixel's centre and its gradient.
+struct Plane {
+  float w = 0, gx = 0, gy = 0;
+
+  /// The same plane seen from the pixel (dx, dy) away.
+  Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
+};
+
+/// What a plane costs at a pixel and which sources see it well.
+struct Score {
+  /// The mean of the best two sources' 1 − ZNCC.
+  float cost = 2;
+  /// A bit for each source, the best `finest_sources`.
+  uint8_t best = 0;
+};
+
+/// The patches of one reference view at one resolution.
+struct Grid {
+  int width = 0, height = 0;
+  std::vector<Plane> planes;
+  std::vector<Score> scores;
+
+  Grid() = default;
+  Grid(int w, int h)
+      : width(w),
+        height(h),
+        planes(static_cast<size_t>(w) * h),
+        scores(static_cast<size_t>(w) * h) {}
+
+  size_t index(int x, int y) const { return static_cast<size_t>(y) * width + x; }
+};
+
+/// All that scoring a patch of one reference needs at one resolution.
+struct Comparison {
+  int width = 0, height = 0;
+  const uint8_t* luma = nullptr;
+  std::vector<Warp> warps;
+  float bilateral_contrast = 10;
+  /// Variance of the photos' noise.
+  float noise_variance = 1;
+  int kept_sources = 4;
+  /// Inverse depths between which a patch may lie.
+  float minimum_w = 0, maximum_w = 0;
+  /// Focal lengths and principal point, to bound the slant.
+  float fx = 1, fy = 1, cx = 0, cy = 0;
+};
+
+/// The reference's 16 texels, normalised, once for all planes tried at a pixel.
+struct alignas(64) ReferencePatch {
+  /// weight · (grey − mean) / deviation; sums to 0.
+  float weighted[kTexels];
+  float weight[kTexels];
+  /// (grey − mean) / deviation.
+  float value[kTexels];
+  /// Gradient in units of the deviation a pixel.
+  float gradient_x[kTexels], gradient_y[kTexels];
+  /// deviation / sqrt(variance + noise): what weak texture takes off the correlation.
+  float confidence;
+  float deviation;
+};
+
+/// The inner loops, compiled for each instruction set.
+struct Kernels {
+  void (*prepare)(ReferencePatch& patch, const Comparison& comparison, int x, int y);
+  /// `sources` is a bit mask of the sources to compare with.
+  Score (*score)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
+                 const Plane& plane, uint8_t sources);
+  /// One Gauss–Newton step on inverse depth and gradient over `sources`.
+  bool (*step)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
+               const Plane& plane, uint8_t sources, Plane& result);
+};
+
+/// The fastest kernels that this processor runs.
+const Kernels& kernels();
+const Kernels& portable_kernels();
+const Kernels& avx2_kernels();
+const Kernels& avx512_kernels();
+
+/// True when the plane faces the camera by more than a grazing angle and lies within the bounds.
+inline bool is_plausible(const Comparison& c, int x, int y, const Plane& p) {
+  if (!(p.w >= c.minimum_w && p.w <= c.maximum_w)) return false;
+  const float rx = (x + 0.5f - c.cx) / c.fx, ry = (y + 0.5f - c.cy) / c.fy;
+  const float nx = p.gx * c.fx, ny = p.gy * c.fy;
+  const float nz = p.w + p.gx * (c.cx - x - 0.5f) + p.gy * (c.cy - y - 0.5f);
+  const float normal2 = nx * nx + ny * ny + nz * nz;
+  const float ray2 = rx * rx + ry * ry + 1;
+  constexpr float kGrazing = 0.17f;  // cosine of 80°
+  return p.w * p.w > kGrazing * kGrazing * normal2 * ray2;
+}
+
+}  // namespace ck::patches

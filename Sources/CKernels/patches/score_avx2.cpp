@@ -1,0 +1,34 @@
+#include <algorithm>
+#include <cmath>
+
+#include "patches/grid.h"
+#include "patches/vectors.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#define CK_PATCH_KERNELS avx2_kernels
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+
+namespace ck::patches {
+namespace {
+inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base,
+                                                  const I16& index) {
+  const int* words = reinterpret_cast<const int*>(base);
+  __m256i lanes[2];
+  __builtin_memcpy(lanes, &index, sizeof lanes);
+  lanes[0] = _mm256_i32gather_epi32(words, lanes[0], 4);
+  lanes[1] = _mm256_i32gather_epi32(words, lanes[1], 4);
+  __builtin_memcpy(&out, lanes, sizeof lanes);
+}
+}  // namespace
+}  // namespace ck::patches
+
+#include "patches/score.inl"
+
+#pragma clang attribute pop
+#else
+namespace ck::patches {
+const Kernels& avx2_kernels() { return portable_kernels(); }
+}  // namespace ck::patches
+#endif

@@ -1,0 +1,33 @@
+#include <algorithm>
+#include <cmath>
+
+#include "patches/grid.h"
+#include "patches/vectors.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#define CK_PATCH_KERNELS avx512_kernels
+#pragma clang attribute push(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma"))), \
+                             apply_to = function)
+
+namespace ck::patches {
+namespace {
+inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base,
+                                                  const I16& index) {
+  __m512i lanes;
+  __builtin_memcpy(&lanes, &index, sizeof lanes);
+  lanes = _mm512_i32gather_epi32(lanes, base, 4);
+  __builtin_memcpy(&out, &lanes, sizeof lanes);
+}
+}  // namespace
+}  // namespace ck::patches
+
+#include "patches/score.inl"
+
+#pragma clang attribute pop
+#else
+namespace ck::patches {
+const Kernels& avx512_kernels() { return portable_kernels(); }
+}  // namespace ck::patches
+#endif

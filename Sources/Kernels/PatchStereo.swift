@@ -1,0 +1,197 @@
+import CKernels
+import SceneModel
+
+/// A sparse point in a view: pixel of the view and inverse depth.
+package struct PatchSeed: Hashable, Sendable {
+  package var pixel: SIMD2<Float>
+  package var inverseDepth: Float
+
+  package init(pixel: SIMD2<Float>, inverseDepth: Float) {
+    self.pixel = pixel
+    self.inverseDepth = inverseDepth
+  }
+}
+
+/// The patch of one pixel: a plane as its inverse depth at the pixel's centre and the gradient of
+/// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
+package struct Patch: Hashable, Sendable {
+  package var inverseDepth: Float
+  package var gradient: SIMD2<Float>
+  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
+  package var cost: Float
+}
+
+/// The patches of one view, and which of them were accepted.
+package final class PatchMap: @unchecked Sendable {
+  package let view: PatchView
+  /// Positions, among all maps, of the views that may confirm patches of this one.
+  package let neighbors: [Int32]
+  // Each is written by the one call that works on this map.
+  let patches: UnsafeMutablePointer<ck_patch>
+  let accepted: UnsafeMutablePointer<UInt8>
+  var count: Int { view.width * view.height }
+
+  package init(view: PatchView, neighbors: [Int]) {
+    self.view = view
+    self.neighbors = neighbors.map(Int32.init)
+    let count = view.width * view.height
+    patches = .allocate(capacity: count)
+    patches.initialize(
+      repeating: ck_patch(inverse_depth: 0, gradient_x: 0, gradient_y: 0, cost: 2), count: count)
+    accepted = .allocate(capacity: count)
+    accepted.initialize(repeating: 0, count: count)
+  }
+
+  deinit {
+    patches.deallocate()
+    accepted.deallocate()
+  }
+
+  /// The patch at column `x`, row `y`.
+  package subscript(x: Int, y: Int) -> Patch {
+    let raw = patches[y * view.width + x]
+    return Patch(
+      inverseDepth: raw.inverse_depth, gradient: [raw.gradient_x, raw.gradient_y], cost: raw.cost)
+  }
+
+  /// Patches that passed the filter.
+  package var acceptedCount: Int { (0..<count).reduce(0) { $0 + Int(accepted[$1]) } }
+
+  package func isAccepted(_ x: Int, _ y: Int) -> Bool { accepted[y * view.width + x] != 0 }
+}
+
+/// Patch multi-view stereo on pinhole views (Furukawa and Ponce, PAMI 2010).
+package enum PatchStereo {
+  /// How patches are made.
+  package struct Options: Hashable, Codable, Sendable {
+    /// Resolutions, each half of the next.
+    package var levelCount = 3
+    /// Sweeps of expansion at the coarsest level.
+    package var coarseSweeps = 2
+    /// Random planes tried around the current one at the coarsest level.
+    package var perturbations = 3
+    /// Gauss–Newton steps at the finer levels.
+    package var refinementSteps = 2
+    /// Sources that a pixel keeps for the finest level.
+    package var finestSources = 4
+    /// Grey levels at which the bilateral weight is one half.
+    package var bilateralContrast: Float = 10
+    /// Standard deviation of the photos' noise in grey levels.
+    package var noise: Float = 1
+    package var seed: UInt32 = 1
+
+    package init() {}
+  }
+
+  /// Which patches are kept and how they are joined.
+  package struct FilterOptions: Hashable, Codable, Sendable {
+    /// A patch whose 1 − ZNCC is higher does not count.
+    package var photometricThreshold: Float = 0.4
+    /// Other views that must agree.
+    package var minimumAgreeingViews = 2
+    /// Pixels between a patch and its confirmation.
+    package var reprojectionThreshold: Float = 1
+    /// Relative difference of depth.
+    package var depthThreshold: Float = 0.003
+    /// Largest angle between normals in degrees.
+    package var normalThresholdDegrees: Float = 60
+    /// Relative distance behind a patch at which another view sees through it.
+    package var contradictionThreshold: Float = 0.02
+    /// Connected patches fewer than this are removed.
+    package var minimumIsland = 30
+    /// Pixels within which confirmations are fused.
+    package var fusionThreshold: Float = 0.6
+
+    package init() {}
+  }
+
+  /// Views that one reference is compared with at most.
+  package static let maximumSources = 8
+
+  /// Makes the patches of `map`'s view from its seeds and the source views, the best first.
+  package static func reconstruct(
+    _ map: PatchMap, sources: [PatchView], seeds: [PatchSeed], options: Options,
+    control: KernelControl
+  ) throws {
+    var reference = map.view.raw
+    let rawSources = sources.prefix(maximumSources).map(\.raw)
+    let rawSeeds = seeds.map {
+      ck_patch_seed(x: $0.pixel.x, y: $0.pixel.y, inverse_depth: $0.inverseDepth)
+    }
+    var rawOptions = options.raw
+    try withKernel(control) {
+      ck_patches_reconstruct(
+        map.patches, &reference, rawSources, rawSources.count, rawSeeds, rawSeeds.count,
+        &rawOptions, $0)
+    }
+    withExtendedLifetime(sources) {}
+  }
+
+  /// Marks the patches of `maps[index]` that enough other views confirm and none contradicts.
+  package static func filter(
+    _ maps: [PatchMap], index: Int, options: FilterOptions, control: KernelControl
+  ) throws {
+    var rawOptions = options.raw
+    try withRawMaps(maps) { raw in
+      try withKernel(control) { _ in
+        ck_patches_filter(maps[index].accepted, raw, raw.count, index, &rawOptions)
+      }
+    }
+  }
+
+  /// Fuses the accepted patches of `maps[index]` that no agreeing view holds at a lower cost.
+  package static func fuse(
+    _ maps: [PatchMap], index: Int, options: FilterOptions, control: KernelControl
+  ) throws -> PointCloud {
+    var rawOptions = options.raw
+    var fused = [ck_fused_patch](repeating: ck_fused_patch(), count: maps[index].count)
+    var count = 0
+    let accepted = maps.map { Optional(UnsafePointer($0.accepted)) }
+    try withRawMaps(maps) { raw in
+      try withKernel(control) { _ in
+        ck_patches_fuse(&fused, &count, raw, accepted, raw.count, index, &rawOptions)
+      }
+    }
+    return PointCloud(fused.prefix(count), photos: maps.map(\.view.photo))
+  }
+
+  private static func withRawMaps(
+    _ maps: [PatchMap], _ body: ([ck_patch_map]) throws -> Void
+  ) rethrows {
+    // One block for all neighbour lists, so that their addresses stay valid in `body`.
+    let neighbors = maps.flatMap(\.neighbors)
+    try neighbors.withUnsafeBufferPointer { buffer in
+      var offset = 0
+      let raw = maps.map { map in
+        defer { offset += map.neighbors.count }
+        return ck_patch_map(
+          view: map.view.raw, rgb: map.view.rgb, patches: map.patches,
+          neighbors: buffer.baseAddress.map { $0 + offset },
+          neighbor_count: map.neighbors.count)
+      }
+      try withExtendedLifetime(maps) { try body(raw) }
+    }
+  }
+}
+
+extension PatchStereo.Options {
+  fileprivate var raw: ck_patch_options {
+    ck_patch_options(
+      level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
+      perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
+      finest_sources: Int32(finestSources), bilateral_contrast: bilateralContrast, noise: noise,
+      seed: seed)
+  }
+}
+
+extension PatchStereo.FilterOptions {
+  fileprivate var raw: ck_patch_filter_options {
+    ck_patch_filter_options(
+      photometric_threshold: photometricThreshold,
+      minimum_agreeing: Int32(minimumAgreeingViews),
+      reprojection_threshold: reprojectionThreshold, depth_threshold: depthThreshold,
+      normal_cosine: cosine(degrees: normalThresholdDegrees),
+      contradiction_threshold: contradictionThreshold, minimum_island: Int32(minimumIsland),
+      fusion_threshold: fusionThreshold)
+  }
+}

@@ -1,0 +1,48 @@
+import CKernels
+import SceneModel
+
+/// A view ready for patch stereo: its luma and colours at fixed addresses, and its camera.
+package final class PatchView: @unchecked Sendable {
+  package let photo: ID<Photo>
+  package let camera: Camera
+  package let cameraFromWorld: RigidTransform
+  package let width: Int
+  package let height: Int
+  // Written in `init` only, which makes sharing between threads safe.
+  let luma: UnsafeMutablePointer<UInt8>
+  let rgb: UnsafeMutablePointer<UInt8>
+
+  package init(_ view: PinholeView) {
+    photo = view.photo
+    camera = view.camera
+    cameraFromWorld = view.cameraFromWorld
+    (width, height) = (view.image.width, view.image.height)
+    let count = width * height
+    luma = .allocate(capacity: count)
+    rgb = .allocate(capacity: 3 * count)
+    view.image.pixels.withUnsafeBufferPointer { pixels in
+      rgb.initialize(from: pixels.baseAddress ?? UnsafePointer(rgb), count: 3 * count)
+    }
+    // Rec. 601 in 8-bit fixed point.
+    for i in 0..<count {
+      let (r, g, b) = (UInt32(rgb[3 * i]), UInt32(rgb[3 * i + 1]), UInt32(rgb[3 * i + 2]))
+      luma[i] = UInt8((77 * r + 150 * g + 29 * b + 128) >> 8)
+    }
+  }
+
+  deinit {
+    luma.deallocate()
+    rgb.deallocate()
+  }
+
+  /// The C view, valid as long as this object lives.
+  var raw: ck_patch_view {
+    let r = cameraFromWorld.rotation.matrix.elements
+    let t = cameraFromWorld.translation
+    return ck_patch_view(
+      width: Int32(width), height: Int32(height), luma: luma, fx: camera.focalLength.x,
+      fy: camera.focalLength.y, cx: camera.principalPoint.x, cy: camera.principalPoint.y,
+      rotation: (r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]),
+      translation: (t.x, t.y, t.z))
+  }
+}

@@ -1,0 +1,113 @@
+import Kernels
+import SceneModel
+
+/// Patch multi-view stereo: seeds patches from the sparse points, optimises and expands them over
+/// every view, filters them by visibility and fuses them to one oriented, coloured cloud.
+///
+/// Y. Furukawa, J. Ponce: Accurate, dense, and robust multiview stereopsis, PAMI 2010. The schedule
+/// is our own: a grid of patches a view, coarse to fine, which makes the stage parallel by view.
+package struct PointCloudGeneration {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Pixels of a view at the finest level.
+    package var maximumPixelsPerView = 1_000_000
+    package var patches = PatchStereo.Options()
+    package var filter = PatchStereo.FilterOptions()
+
+    package init(maximumPixelsPerView: Int = 1_000_000) {
+      self.maximumPixelsPerView = maximumPixelsPerView
+    }
+  }
+
+  package var options: Options
+
+  package init(options: Options = Options()) {
+    self.options = options
+  }
+
+  package func run(
+    _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
+  ) throws -> PointCloud {
+    let sources = SourceSelection().run(reconstruction)
+    let maps = try prepare(reconstruction, sources, images, context.part(from: 0, to: 0.05))
+    try makePatches(maps, of: reconstruction, context.part(from: 0.05, to: 0.8))
+    try filter(maps, context.part(from: 0.8, to: 0.9))
+    let cloud = try fuse(maps, context.part(from: 0.9, to: 1))
+    guard cloud.count > 0 else {
+      throw PipelineError.noSurface(
+        reason: "no patch of surface looks alike in three photos or more.")
+    }
+    context.notes.count("points", Double(cloud.count))
+    context.notes.count("views", Double(maps.count))
+    return cloud
+  }
+
+  /// Loads every view that has sources, free of distortion and at the stage's resolution.
+  private func prepare(
+    _ reconstruction: Reconstruction, _ sources: [[ID<Photo>]], _ images: ImageStore,
+    _ context: StageContext
+  ) throws -> [PatchMap] {
+    let photos = reconstruction.registered.filter { !sources[$0.index].isEmpty }
+    guard !photos.isEmpty else {
+      throw PipelineError.noSurface(reason: "no two photos share enough points.")
+    }
+    let position = Dictionary(uniqueKeysWithValues: photos.enumerated().map { ($1, $0) })
+    return try context.control.parallelMap(photos.count) { [options] index in
+      let view = try images.pinholeView(
+        photos[index], of: reconstruction, maximumPixels: options.maximumPixelsPerView)
+      return PatchMap(
+        view: PatchView(view), neighbors: sources[photos[index].index].compactMap { position[$0] })
+    }
+  }
+
+  /// Seeds, optimises and expands, view by view.
+  private func makePatches(
+    _ maps: [PatchMap], of reconstruction: Reconstruction, _ context: StageContext
+  ) throws {
+    let seeds = seeds(of: reconstruction)
+    _ = try context.control.parallelMap(maps.count) { [options] index in
+      let map = maps[index]
+      let start = Double(index) / Double(maps.count)
+      try PatchStereo.reconstruct(
+        map, sources: map.neighbors.map { maps[Int($0)].view },
+        seeds: seeds[map.view.photo.index].compactMap { map.view.seed(at: $0) },
+        options: options.patches,
+        control: context.control.part(from: start, to: start + 1 / Double(maps.count)))
+    }
+  }
+
+  private func filter(_ maps: [PatchMap], _ context: StageContext) throws {
+    _ = try context.control.parallelMap(maps.count) { [options] index in
+      try PatchStereo.filter(
+        maps, index: index, options: options.filter, control: context.control)
+    }
+    let pixels = maps.reduce(0) { $0 + $1.view.width * $1.view.height }
+    let accepted = maps.reduce(0) { $0 + $1.acceptedCount }
+    context.notes.count("acceptedPixelRatio", Double(accepted) / Double(max(1, pixels)))
+    context.notes.count("viewMegapixels", Double(pixels) / 1e6)
+  }
+
+  private func fuse(_ maps: [PatchMap], _ context: StageContext) throws -> PointCloud {
+    let parts = try context.control.parallelMap(maps.count) { [options] index in
+      try PatchStereo.fuse(maps, index: index, options: options.filter, control: context.control)
+    }
+    return parts.reduce(into: PointCloud()) { $0.append($1) }
+  }
+
+  /// The sparse points that each photo observes, by photo id.
+  private func seeds(of reconstruction: Reconstruction) -> [[SIMD3<Double>]] {
+    var seeds = [[SIMD3<Double>]](repeating: [], count: reconstruction.photos.count)
+    for point in reconstruction.points {
+      for observation in point.track { seeds[observation.photo.index].append(point.position) }
+    }
+    return seeds
+  }
+}
+
+extension PatchView {
+  /// The seed of a sparse point; nil behind the camera.
+  fileprivate func seed(at point: SIMD3<Double>) -> PatchSeed? {
+    let seen = cameraFromWorld * point
+    guard seen.z > 0 else { return nil }
+    return PatchSeed(pixel: SIMD2<Float>(camera.project(seen)), inverseDepth: Float(1 / seen.z))
+  }
+}
