@@ -1,0 +1,172 @@
+import SceneModel
+import Testing
+
+@testable import Evaluation
+
+@Suite struct SurfaceTests {
+  /// A square of side `side` at height z, `cells` × `cells` × 2 triangles.
+  static func square(side: Float, z: Float = 0, cells: Int = 8) -> Mesh {
+    var mesh = Mesh()
+    for row in 0...cells {
+      for column in 0...cells {
+        mesh.positions.append(
+          [side * Float(column) / Float(cells), side * Float(row) / Float(cells), z])
+      }
+    }
+    for row in 0..<cells {
+      for column in 0..<cells {
+        let a = UInt32(row * (cells + 1) + column)
+        let c = a + UInt32(cells + 1)
+        mesh.triangles += [Triangle(a, a + 1, c + 1), Triangle(a, c + 1, c)]
+      }
+    }
+    return mesh
+  }
+
+  static var options: SurfaceComparison.Options {
+    var options = SurfaceComparison.Options()
+    options.resultSamples = 4000
+    options.referenceSamples = 4000
+    options.thresholds = [0.1, 0.3]
+    options.maximumDistance = 1
+    options.margin = 0.5
+    return options
+  }
+
+  @Test func treeAgreesWithTryingAll() {
+    var random = SplitMix64(seed: 3)
+    func point(_ range: ClosedRange<Float>) -> SIMD3<Float> {
+      .init(
+        .random(in: range, using: &random), .random(in: range, using: &random),
+        .random(in: range, using: &random))
+    }
+    let triangles = (0..<300).map { _ in
+      let corner = point(-1...1)
+      return FlatTriangle(corner, corner + point(-0.2...0.2), corner + point(-0.2...0.2))
+    }
+    let tree = BoundingTree(triangles)
+    var stack = BoundingTree<FlatTriangle>.Stack()
+    for _ in 0..<200 {
+      let query = point(-2...2)
+      let expected = triangles.map { $0.squaredDistance(to: query) }.min() ?? 0
+      let found = tree.distance(to: query, limit: 100, &stack)
+      #expect(abs(found - expected.squareRoot()) < 1e-6)
+    }
+    #expect(tree.distance(to: [50, 0, 0], limit: 2, &stack) == 2)
+  }
+
+  @Test(arguments: [0, 1, 3, 4, 5, 17]) func smallTrees(_ count: Int) {
+    let points = (0..<count).map { SIMD3<Float>(Float($0), 0, 0) }
+    let tree = BoundingTree(points)
+    var stack = BoundingTree<SIMD3<Float>>.Stack()
+    let expected: Float = count == 0 ? 9 : 1
+    #expect(tree.distance(to: [0, 1, 0], limit: 9, &stack) == expected)
+  }
+
+  @Test func closestPointsOfATriangle() {
+    let t = FlatTriangle([0, 0, 0], [1, 0, 0], [0, 1, 0])
+    #expect(t.closestPoint(to: [-1, -1, 5]) == [0, 0, 0])
+    #expect(t.closestPoint(to: [3, -1, 0]) == [1, 0, 0])
+    #expect(t.closestPoint(to: [-1, 3, 0]) == [0, 1, 0])
+    #expect(t.closestPoint(to: [0.5, -1, 1]) == [0.5, 0, 0])
+    #expect(t.closestPoint(to: [-2, 0.25, 1]) == [0, 0.25, 0])
+    #expect(t.closestPoint(to: [1, 1, 0]) == [0.5, 0.5, 0])
+    #expect(t.closestPoint(to: [0.25, 0.25, 7]) == [0.25, 0.25, 0])
+    let point = FlatTriangle([1, 1, 1], [1, 1, 1], [1, 1, 1])
+    #expect(point.squaredDistance(to: [1, 1, 3]) == 4)
+  }
+
+  @Test func samplesAreEvenAndRepeatable() {
+    let mesh = Self.square(side: 2)
+    let samples = SurfaceSampling().run(mesh, count: 10_000)
+    #expect(samples == SurfaceSampling().run(mesh, count: 10_000))
+    for quadrant in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+      let inside = samples.count { Int($0.x) == quadrant.0 && Int($0.y) == quadrant.1 }
+      #expect(abs(inside - 2500) < 60)
+    }
+    #expect(SurfaceSampling().run(Mesh(), count: 10).isEmpty)
+    #expect(SurfaceSampling().run(mesh, count: 0).isEmpty)
+  }
+
+  @Test func parallelSquares() throws {
+    let scores = try SurfaceComparison(Self.options).run(
+      Self.square(side: 1, z: 0.2), .identity, reference: Self.square(side: 1))
+    #expect(abs(scores.chamfer - 0.2) < 1e-5)
+    #expect(scores.thresholds.map(\.fScore) == [0, 1])
+  }
+
+  @Test func halfOfTheSurface() throws {
+    let alignment = SimilarityTransform(scale: 0.5, rotation: .identity, translation: .zero)
+    var half = Self.square(side: 2)
+    half.positions = half.positions.map { [$0.x, $0.y / 2, $0.z] }
+    let scores = try SurfaceComparison(Self.options).run(
+      half, alignment, reference: Self.square(side: 1))
+    #expect(scores.thresholds[0].precision == 1)
+    #expect(abs(scores.thresholds[0].recall - 0.6) < 0.01)
+    #expect(abs(scores.completeness - 0.125) < 0.01)
+  }
+
+  @Test func whatIsFarOutsideIsIgnored() throws {
+    var options = Self.options
+    options.margin = 0.01
+    let table = Self.square(side: 10, cells: 100)
+    let scores = try SurfaceComparison(options).run(
+      table, .identity, reference: Self.square(side: 1))
+    #expect(scores.thresholds[0].precision == 1)
+    #expect(scores.resultSamples < 100)
+  }
+
+  @Test func unseenPartsOfTheReferenceDoNotCount() throws {
+    var reference = Self.square(side: 1)
+    let below = Self.square(side: 1, z: -0.4)
+    let offset = UInt32(reference.positions.count)
+    reference.positions += below.positions
+    reference.triangles += below.triangles.map {
+      Triangle($0.a + offset, $0.b + offset, $0.c + offset)
+    }
+    let down = RigidTransform(
+      rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, 5])
+    let camera = NamedCamera(
+      name: "a", camera: Camera(width: 100, height: 100, focalLength: [100, 100]),
+      cameraFromWorld: down)
+    var options = Self.options
+    options.minimumViews = 1
+    let seen = try SurfaceComparison(options).run(
+      Self.square(side: 1), .identity, reference: reference, cameras: [camera])
+    #expect(seen.thresholds[0].recall == 1)
+    #expect(abs(seen.referenceSamples - 2000) < 20)
+    let all = try SurfaceComparison(options).run(
+      Self.square(side: 1), .identity, reference: reference)
+    #expect(abs(all.thresholds[0].recall - 0.5) < 0.01)
+  }
+
+  @Test func threadsDoNotMatter() throws {
+    var options = Self.options
+    options.resultSamples = 20_000
+    let result = Self.square(side: 1, z: 0.05)
+    let reference = Self.square(side: 1)
+    let one = try SurfaceComparison(options).run(result, .identity, reference: reference)
+    options.threadCount = 3
+    #expect(try SurfaceComparison(options).run(result, .identity, reference: reference) == one)
+  }
+
+  @Test func cloudsAreTakenAsTheyAre() throws {
+    let cloud = PointCloud(positions: [[0.5, 0.5, 0.05], [0.25, 0.25, 0.2]])
+    let scores = try SurfaceComparison(Self.options).run(
+      cloud, .identity, reference: Self.square(side: 1))
+    #expect(scores.resultSamples == 2)
+    #expect(scores.thresholds[0].precision == 0.5)
+    #expect(scores.thresholds[0].recall < 0.1)
+  }
+
+  @Test func nothingToCompareIsAnError() {
+    #expect(throws: EvaluationError.emptySurface) {
+      try SurfaceComparison(Self.options).run(
+        Mesh(), .identity, reference: Self.square(side: 1))
+    }
+    #expect(throws: EvaluationError.emptySurface) {
+      try SurfaceComparison(Self.options).run(
+        Self.square(side: 1), .identity, reference: Mesh())
+    }
+  }
+}
