@@ -74,7 +74,7 @@ var cliDependencies: [Target.Dependency] = [
     .target(name: "simd", swiftSettings: strict),
     .target(
       name: "RealityFoundation",
-      dependencies: ["Pipeline", "Kernels", "SceneModel", "simd", logging],
+      dependencies: ["Pipeline", "Kernels", "Formats", "SceneModel", "simd", logging],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),
     .target(

@@ -66,6 +66,8 @@ final class ScriptedEngine: SessionEngine {
     }
   }
 
+  func plan(for specifications: [DetailSpecification]) {}
+
   func ingest() throws -> Int {
     journal.add("ingest")
     for photo in script.refused { onEvent(.refused(photo)) }

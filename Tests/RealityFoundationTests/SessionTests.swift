@@ -82,6 +82,16 @@ import Testing
     }
   }
 
+  @Test func noEngineIsMadeForNothing() async throws {
+    try await withPhotos { folder in
+      let journal = ScriptedEngine.Journal()
+      let session = Session(folder: folder, journal: journal)
+      let names = try await run(session, [.modelEntity()]).map(name(of:))
+      #expect(names == ["requestError", "processingComplete"])
+      #expect(journal.count(of: "made") == 0)
+    }
+  }
+
   @Test func everyRequestHearsOfBadInput() async throws {
     try await withPhotos { folder in
       let session = Session(

@@ -15,6 +15,7 @@ final class ReconstructionEngine: SessionEngine {
     .notAvailable("The reconstruction is not connected yet.", remedy: "Use a later version.")
   }
 
+  func plan(for specifications: [DetailSpecification]) {}
   func ingest() throws -> Int { throw missing }
   func poses() throws -> PhotogrammetrySession.Poses { throw missing }
   func pointCloud(

@@ -31,6 +31,8 @@ struct RunPlan: Sendable {
     var units: [WorkUnit]
     /// What the model is to be like; nil where no model is asked for.
     var specification: DetailSpecification?
+    /// Why the request can't be met, whatever the photos show.
+    var obstacle: ProcessingError?
   }
 
   let entries: [Entry]
@@ -51,10 +53,22 @@ struct RunPlan: Sendable {
     finest =
       models.last ?? DetailSpecification(self.requests.contains(.pointCloud) ? .reduced : .preview)
     entries = self.requests
-      .map { Entry($0, specification: $0.specification(configuration), coarsest: coarsest) }
+      .map {
+        Entry(
+          $0, specification: $0.specification(configuration), coarsest: coarsest,
+          obstacle: $0.obstacle(configuration))
+      }
       .enumerated()
       .sorted { ($0.element.rank, $0.offset) < ($1.element.rank, $1.offset) }
       .map(\.element)
+  }
+
+  /// The entries that no obstacle stands in the way of.
+  var feasible: [Entry] { entries.filter { $0.obstacle == nil } }
+
+  /// What the models are to be like, and the finest of all.
+  var specifications: [DetailSpecification] {
+    feasible.compactMap(\.specification) + (requests.contains(.pointCloud) ? [finest] : [])
   }
 
   /// All units in the order that they are worked on.
@@ -67,7 +81,7 @@ struct RunPlan: Sendable {
 extension RunPlan.Entry {
   fileprivate init(
     _ request: PhotogrammetrySession.Request, specification: DetailSpecification?,
-    coarsest: DetailSpecification
+    coarsest: DetailSpecification, obstacle: ProcessingError?
   ) {
     self.request = request
     self.specification = specification
@@ -80,6 +94,11 @@ extension RunPlan.Entry {
       }
     if request == .bounds { self.specification = coarsest }
     let stages = PipelineStage.allCases
+    self.obstacle = obstacle
+    guard obstacle == nil else {
+      units = []
+      return
+    }
     units = stages.prefix(through: stages.firstIndex(of: last) ?? 0)
       .map { [specification = self.specification] in
         WorkUnit(stage: $0, specification: specification)
@@ -94,6 +113,25 @@ extension RunPlan.Entry {
 }
 
 extension PhotogrammetrySession.Request {
+  /// Why the request can't be met, whatever the photos show; nil if it can.
+  fileprivate func obstacle(
+    _ configuration: PhotogrammetrySession.Configuration
+  ) -> ProcessingError? {
+    switch self {
+    case .modelEntity:
+      .noModelEntity
+    case .modelFile(_, _, let geometry?) where geometry != .init():
+      .notAvailable(
+        "Models can't be cropped or moved yet.",
+        remedy: "Request the model without a geometry and crop it in another program.")
+    case .modelFile where configuration.meshPrimitive == .quad:
+      .notAvailable(
+        "Meshes of four-sided faces can't be made yet.",
+        remedy: "Set the configuration's meshPrimitive to triangle.")
+    case .modelFile, .bounds, .pointCloud, .poses: nil
+    }
+  }
+
   /// The budgets of the model that is asked for; nil where none is.
   fileprivate func specification(
     _ configuration: PhotogrammetrySession.Configuration

@@ -69,16 +69,16 @@ final class SessionCore: Sendable {
   }
 
   private func perform(_ task: EngineTask, _ flag: CancellationFlag, _ resident: inout Resident) {
+    for entry in task.plan.entries {
+      if let obstacle = entry.obstacle { fail(entry, obstacle) }
+    }
     do {
       if resident.flag !== flag { resident = Resident(engine: nil, flag: flag) }
-      let engine =
-        try resident.engine ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
-      resident.engine = engine
-      try work(on: task.plan, with: engine, flag)
+      try work(on: task, &resident.engine, flag)
     } catch is CancellationError {
       // The state knows, and `finished` tells.
     } catch {
-      for entry in task.plan.entries { fail(entry, error) }
+      for entry in task.plan.feasible { fail(entry, error) }
     }
     let report = resident.engine?.report
     shared.withLock { $0.report = report ?? $0.report }
@@ -86,12 +86,17 @@ final class SessionCore: Sendable {
   }
 
   private func work(
-    on plan: RunPlan, with engine: any SessionEngine, _ flag: CancellationFlag
+    on task: EngineTask, _ resident: inout (any SessionEngine)?, _ flag: CancellationFlag
   ) throws {
+    let plan = task.plan
+    guard !plan.feasible.isEmpty else { return }
+    let engine = try resident ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
+    resident = engine
+    engine.plan(for: plan.specifications)
     let count = try engine.ingest()
     sessionLogger.info("Ingestion done: \(count) photos are used.")
     emit { $0.ingested(photos: count) }
-    for entry in plan.entries {
+    for entry in plan.feasible {
       if flag.isCancelled { throw CancellationError() }
       shared.withLock { $0.state.began(entry) }
       do {
@@ -134,7 +139,7 @@ final class SessionCore: Sendable {
 private func log(_ event: PipelineEvent) {
   switch event {
   case .refused(let photo):
-    sessionLogger.warning("\(photo.name) is not used: \(photo.reason)")
+    sessionLogger.warning("\(photo.reason)")
   case .downsampled:
     sessionLogger.notice("Photos are used at a lower resolution to fit the memory.")
   case .stitchingIncomplete(let registered, let count):

@@ -3,6 +3,8 @@ import Pipeline
 
 /// What a session asks of the engine behind it; used on one thread.
 protocol SessionEngine: AnyObject {
+  /// Announces the models to come, so that shared stages work as finely as needed.
+  func plan(for specifications: [DetailSpecification])
   /// Reads all photos and returns the number of those that are used.
   func ingest() throws -> Int
   func poses() throws -> PhotogrammetrySession.Poses
@@ -35,9 +37,7 @@ extension SessionEngine {
       try writeModel(specification, to: url)
       return .modelFile(url)
     case .modelEntity:
-      throw ProcessingError.notAvailable(
-        "A model in memory can't be made on this system.",
-        remedy: "Request a modelFile and load it.")
+      throw ProcessingError.noModelEntity
     }
   }
 }

@@ -1,7 +1,7 @@
 /// Where a session's photos come from.
 enum SessionInput: Sendable {
   case folder(URL)
-  case samples
+  case samples(SampleFolder)
 }
 
 extension SessionInput {

@@ -1,15 +1,69 @@
+import Kernels
+import Pipeline
+
 extension PhotogrammetrySample {
-  /// Loads a photo from a file.
+  /// Loads a photo from a file. Its id is 0 unless the file's name ends in a number.
   public init(contentsOf url: URL) throws {
-    throw ProcessingError.notAvailable(
-      "\(url.path) can't be loaded as a sample on this system.",
-      remedy: "Put the photos into a folder and pass the folder to the session.")
+    let (buffer, read) = try Self.load(url)
+    let digits = url.deletingPathExtension().lastPathComponent.reversed().prefix(9)
+      .prefix { $0.isASCII && $0.isNumber }
+    self.init(id: Int(String(digits.reversed())) ?? 0, image: buffer)
+    apply(read)
   }
 
-  /// Loads a photo from a file.
+  /// Loads a photo from a file. Its id is 0 unless the file's name ends in a number.
   public init(contentsOf url: URL) async throws {
-    throw ProcessingError.notAvailable(
-      "\(url.path) can't be loaded as a sample on this system.",
-      remedy: "Put the photos into a folder and pass the folder to the session.")
+    let load: () throws -> PhotogrammetrySample = { try PhotogrammetrySample(contentsOf: url) }
+    self = try load()
+  }
+
+  private static func load(_ url: URL) throws -> (CVPixelBuffer, PhotoMetadata) {
+    do throws(ImageError) {
+      let bytes = try ImageCodec.contents(of: url)
+      guard let buffer = CVPixelBuffer(try ImageCodec.decode(bytes)) else {
+        throw .damaged("it has no pixels")
+      }
+      return (buffer, PhotoMetadata(bytes))
+    } catch {
+      throw ProcessingError(
+        code: .invalidInput,
+        reason: "\(url.path) can't be loaded: \(error.errorDescription ?? "it is damaged").",
+        remedy: "Name a JPEG or PNG photo.")
+    }
+  }
+
+  private mutating func apply(_ read: PhotoMetadata) {
+    orientation = CGImagePropertyOrientation(rawValue: UInt32(read.orientation)) ?? .up
+    metadata["Orientation"] = read.orientation
+    var tiff: [String: Any] = [:]
+    tiff["Make"] = read.make
+    tiff["Model"] = read.model
+    var exif: [String: Any] = [:]
+    exif["LensModel"] = read.lens
+    exif["BodySerialNumber"] = read.bodySerialNumber
+    exif["LensSerialNumber"] = read.lensSerialNumber
+    exif["FocalLength"] = read.focalLength
+    exif["FocalLenIn35mmFilm"] = read.focalLengthIn35mmFilm
+    exif["DateTimeOriginal"] = read.captureTime
+    metadata["{TIFF}"] = tiff
+    metadata["{Exif}"] = exif
+    if let position = read.position {
+      var gps: [String: Any] = [
+        "Latitude": abs(position.latitudeDegrees), "Longitude": abs(position.longitudeDegrees),
+        "LatitudeRef": position.latitudeDegrees < 0 ? "S" : "N",
+        "LongitudeRef": position.longitudeDegrees < 0 ? "W" : "E",
+      ]
+      gps["Altitude"] = position.altitude
+      metadata["{GPS}"] = gps
+    }
+    captureTime = read.captureTime.flatMap(Self.date)
+  }
+
+  /// The date of an EXIF text such as `2024:05:17 12:34:56`, in the local time zone.
+  private static func date(_ text: String) -> Date? {
+    let formatter = DateFormatter()
+    formatter.locale = Locale(identifier: "en_US_POSIX")
+    formatter.dateFormat = "yyyy:MM:dd HH:mm:ss"
+    return formatter.date(from: text)
   }
 }

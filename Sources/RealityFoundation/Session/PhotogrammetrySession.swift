@@ -37,7 +37,7 @@ public class PhotogrammetrySession {
   public convenience init<S>(
     input: S, configuration: Configuration = Configuration()
   ) throws where S: Sequence, S.Element == PhotogrammetrySample {
-    self.init(.samples, configuration: configuration)
+    self.init(.samples(SampleFolder(input)), configuration: configuration)
   }
 
   init(

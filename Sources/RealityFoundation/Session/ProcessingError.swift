@@ -33,6 +33,9 @@ extension ProcessingError {
     code: .alreadyProcessing, reason: "The session is still processing.",
     remedy: "Wait for processingComplete or processingCancelled, or make another session.")
 
+  static let noModelEntity = notAvailable(
+    "A model in memory can't be made on this system.", remedy: "Request a modelFile and load it.")
+
   static func invalidRequest(_ reason: String, remedy: String) -> ProcessingError {
     ProcessingError(code: .invalidRequest, reason: reason, remedy: remedy)
   }

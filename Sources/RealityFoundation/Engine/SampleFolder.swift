@@ -1,0 +1,99 @@
+import Kernels
+import Pipeline
+import SceneModel
+
+/// Writes a sequence of samples to a folder, one after another, for the pipeline to read.
+///
+/// The sequence is gone through once, when its photos are needed; what was written stays until the
+/// session goes away. Used on the session's thread only, hence unchecked.
+final class SampleFolder: @unchecked Sendable {
+  /// The sample ids in the order of the files.
+  private(set) var ids: [Int] = []
+
+  private let next: () -> PhotogrammetrySample?
+  private var folder: URL?
+  private var seen: Set<Int> = []
+  private var isComplete = false
+  private var refused: [RefusedPhoto] = []
+  private var hasMasks = false
+
+  init<S: Sequence>(_ samples: S) where S.Element == PhotogrammetrySample {
+    var iterator: S.Iterator?
+    next = {
+      if iterator == nil { iterator = samples.makeIterator() }
+      return iterator?.next()
+    }
+  }
+
+  deinit { if let folder { try? FileManager.default.removeItem(at: folder) } }
+
+  /// Writes what is still missing and returns the folder.
+  func write(
+    flag: CancellationFlag, onEvent: (PipelineEvent) -> Void
+  ) throws -> URL {
+    let folder = try makeFolder()
+    refused.forEach { onEvent(.refused($0)) }
+    while !isComplete {
+      if flag.isCancelled { throw CancellationError() }
+      guard let sample = next() else {
+        isComplete = true
+        break
+      }
+      try write(sample, to: folder, onEvent)
+    }
+    if hasMasks {
+      onEvent(.warning("The samples' object masks are not used; the object is found by itself."))
+    }
+    guard !ids.isEmpty else {
+      throw ProcessingError(
+        code: .invalidInput, reason: "The sequence holds no usable sample.",
+        remedy: "Pass 20 or more samples with 32BGRA or 32ARGB images of one object.")
+    }
+    return folder
+  }
+
+  private func write(
+    _ sample: PhotogrammetrySample, to folder: URL, _ onEvent: (PipelineEvent) -> Void
+  ) throws {
+    func refuse(_ reason: String) {
+      let photo = RefusedPhoto(
+        sampleID: sample.id, name: "Sample \(sample.id)", fault: .unsupportedFormat,
+        reason: "Sample \(sample.id) is not used: \(reason).")
+      refused.append(photo)
+      onEvent(.refused(photo))
+    }
+    guard (0...Int(Int32.max)).contains(sample.id) else {
+      return refuse("its id is not between 0 and \(Int32.max)")
+    }
+    guard seen.insert(sample.id).inserted else { return refuse("its id was there before") }
+    guard let image = sample.image.image else {
+      return refuse("its image is neither 32BGRA nor 32ARGB")
+    }
+    let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
+    try Data(png).write(to: folder.appendingPathComponent(Self.name(ids.count)))
+    ids.append(sample.id)
+    hasMasks = hasMasks || sample.objectMask != nil
+  }
+
+  /// The file of the sample that came as number `index`.
+  static func name(_ index: Int) -> String { "sample\(index).png" }
+
+  /// The refusal of a file as that of its sample.
+  func translated(_ photo: RefusedPhoto) -> RefusedPhoto {
+    guard ids.indices.contains(photo.sampleID) else { return photo }
+    var result = photo
+    result.sampleID = ids[photo.sampleID]
+    result.name = "Sample \(result.sampleID)"
+    result.reason = photo.reason.replacingOccurrences(of: photo.name, with: result.name)
+    return result
+  }
+
+  private func makeFolder() throws -> URL {
+    if let folder { return folder }
+    let url = FileManager.default.temporaryDirectory
+      .appendingPathComponent("photogrammetry-\(UUID().uuidString)", isDirectory: true)
+    try FileManager.default.createDirectory(at: url, withIntermediateDirectories: true)
+    folder = url
+    return url
+  }
+}

@@ -1,0 +1,63 @@
+extension PhotogrammetrySample {
+  /// What the reconstruction can use of the metadata, with the keys that ImageIO gives them.
+  var exif: ExifWriter {
+    var exif = ExifWriter()
+    let tiff = section("{TIFF}")
+    let camera = section("{Exif}")
+    exif.image[271] = text(tiff["Make"])
+    exif.image[272] = text(tiff["Model"])
+    let stored = number(metadata["Orientation"]).map { UInt16(clamping: Int($0)) }
+    exif.image[274] = .short(orientation == .up ? stored ?? 1 : UInt16(orientation.rawValue))
+    exif.camera[42033] = text(camera["BodySerialNumber"])
+    exif.camera[42036] = text(camera["LensModel"])
+    exif.camera[42037] = text(camera["LensSerialNumber"])
+    let lengths = focalLengths(camera)
+    exif.camera[37386] = lengths.exact.map { .rationals([$0]) }
+    exif.camera[41989] = lengths.film.map { .short(UInt16(clamping: Int($0.rounded()))) }
+    exif.place = place(section("{GPS}"))
+    return exif
+  }
+
+  /// Millimetres: the true focal length and the one on 35 mm film. Known intrinsics are given as
+  /// those of a camera with 35 mm film.
+  private func focalLengths(_ camera: [String: Any]) -> (exact: Double?, film: Double?) {
+    if let intrinsics = self.camera?.intrinsics, intrinsics[0, 0] > 0 {
+      let film = Double(intrinsics[0, 0]) / Double(max(image.width, image.height)) * 36
+      return (film, film)
+    }
+    return (number(camera["FocalLength"]), number(camera["FocalLenIn35mmFilm"]))
+  }
+
+  private func place(_ gps: [String: Any]) -> [UInt16: ExifWriter.Value] {
+    guard let latitude = number(gps["Latitude"]), let longitude = number(gps["Longitude"]) else {
+      return [:]
+    }
+    var fields: [UInt16: ExifWriter.Value] = [
+      1: text(gps["LatitudeRef"]) ?? .text(latitude < 0 ? "S" : "N"),
+      2: .rationals([abs(latitude), 0, 0]),
+      3: text(gps["LongitudeRef"]) ?? .text(longitude < 0 ? "W" : "E"),
+      4: .rationals([abs(longitude), 0, 0]),
+    ]
+    if let altitude = number(gps["Altitude"]) { fields[6] = .rationals([abs(altitude)]) }
+    return fields
+  }
+
+  /// A part of the metadata; programs that build it themselves often leave the parts out.
+  private func section(_ key: String) -> [String: Any] {
+    metadata[key] as? [String: Any] ?? metadata
+  }
+
+  private func text(_ value: Any?) -> ExifWriter.Value? { (value as? String).map { .text($0) } }
+
+  private func number(_ value: Any?) -> Double? {
+    switch value {
+    case let value as Double: value.isFinite ? value : nil
+    case let value as Float: value.isFinite ? Double(value) : nil
+    case let value as Int: Double(value)
+    case let value as UInt32: Double(value)
+    case let value as NSNumber: value.doubleValue.isFinite ? value.doubleValue : nil
+    case let values as [Any]: number(values.first)
+    default: nil
+    }
+  }
+}

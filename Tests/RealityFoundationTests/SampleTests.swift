@@ -1,0 +1,132 @@
+import Foundation
+import Kernels
+import Pipeline
+import SceneModel
+import Synchronization
+import Testing
+
+@testable import RealityFoundation
+
+@Suite struct SampleTests {
+  /// An RGB image whose pixels tell where they are.
+  static let image = RasterImage(
+    width: 37, height: 20, channels: 3,
+    pixels: (0..<37 * 20 * 3).map { UInt8(truncatingIfNeeded: $0 &* 7) })
+
+  private func sample(_ id: Int) throws -> PhotogrammetrySample {
+    PhotogrammetrySample(id: id, image: try #require(CVPixelBuffer(Self.image)))
+  }
+
+  @Test func pixelBuffersKeepTheirColours() throws {
+    let buffer = try #require(CVPixelBuffer(Self.image))
+    #expect(buffer.bytesPerRow == 192 && buffer.pixelFormat == kCVPixelFormatType_32BGRA)
+    #expect(buffer.image == Self.image)
+    #expect(buffer.storage.copy(0..<4) == [14, 7, 0, 255])
+    let argb = try #require(
+      CVPixelBuffer(width: 1, height: 1, pixelFormat: kCVPixelFormatType_32ARGB))
+    argb.storage.write([255, 1, 2, 3], at: 0)
+    #expect(argb.image?.pixels == [1, 2, 3])
+    let depth = CVPixelBuffer(width: 1, height: 1, pixelFormat: kCVPixelFormatType_DepthFloat32)
+    #expect(depth?.image == nil)
+  }
+
+  @Test func exifCanBeReadBack() throws {
+    var sample = try sample(1)
+    sample.metadata = [
+      "Orientation": 6,
+      "{TIFF}": ["Make": "Maker", "Model": "M"],
+      "{Exif}": [
+        "FocalLength": 4.25, "FocalLenIn35mmFilm": 26, "LensModel": "Lens", "BodySerialNumber": "7",
+      ],
+      "{GPS}": [
+        "Latitude": 52.5, "LatitudeRef": "N", "Longitude": 13.4, "LongitudeRef": "W",
+        "Altitude": 34.0,
+      ],
+    ]
+    let png = try ImageCodec.encodePNG(Self.image)
+    let bytes = sample.exif.inserted(intoPNG: png)
+    let read = PhotoMetadata(bytes)
+    #expect(read.make == "Maker" && read.model == "M" && read.lens == "Lens")
+    #expect(read.orientation == 6 && read.bodySerialNumber == "7")
+    #expect(read.focalLength == 4.25 && read.focalLengthIn35mmFilm == 26)
+    let position = try #require(read.position)
+    #expect(abs(position.latitudeDegrees - 52.5) < 1e-6)
+    #expect(abs(position.longitudeDegrees + 13.4) < 1e-6 && position.altitude == 34)
+    #expect(try ImageCodec.decode(bytes) == Self.image)
+  }
+
+  @Test func intrinsicsBecomeAFocalLength() throws {
+    var sample = try sample(1)
+    sample.camera = .init(
+      id: 0, intrinsics: simd_float3x3(diagonal: [37, 37, 1]), transform: .init(1))
+    let read = PhotoMetadata(
+      sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(Self.image)))
+    #expect(read.focalLength == 36 && read.focalLengthIn35mmFilm == 36)
+  }
+
+  @Test func samplesAreLoadedFromFiles() throws {
+    try withTemporaryFolder { folder in
+      let url = folder.appendingPathComponent("IMG_0042.png")
+      var original = try sample(42)
+      original.metadata = ["{TIFF}": ["Make": "Maker"], "Orientation": 3]
+      let png = original.exif.inserted(intoPNG: try ImageCodec.encodePNG(Self.image))
+      try Data(png).write(to: url)
+      let loaded = try PhotogrammetrySample(contentsOf: url)
+      #expect(loaded.id == 42 && loaded.image.image == Self.image && loaded.orientation == .down)
+      #expect((loaded.metadata["{TIFF}"] as? [String: Any])?["Make"] as? String == "Maker")
+      let text = folder.appendingPathComponent("text.jpg")
+      try Data("text".utf8).write(to: text)
+      for bad in [text, folder.appendingPathComponent("missing.jpg")] {
+        #expect(throws: ProcessingError.self) { try PhotogrammetrySample(contentsOf: bad) }
+      }
+    }
+  }
+
+  @Test func sequencesAreGoneThroughOnceAndLazily() throws {
+    let made = Mutex(0)
+    let image = try #require(CVPixelBuffer(Self.image))
+    let depth = try #require(
+      CVPixelBuffer(width: 9, height: 9, pixelFormat: kCVPixelFormatType_DepthFloat32))
+    let ids = [5, 3, 5, -1, 9, 7]
+    let samples = ids.lazy.map { id in
+      made.withLock { $0 += 1 }
+      return PhotogrammetrySample(id: id, image: id == 9 ? depth : image)
+    }
+    let folder = SampleFolder(samples)
+    #expect(made.withLock { $0 } == 0)
+    var refused: [Int] = []
+    func note(_ event: PipelineEvent) {
+      if case .refused(let photo) = event { refused.append(photo.sampleID) }
+    }
+    let url = try folder.write(flag: CancellationFlag(), onEvent: note)
+    #expect(folder.ids == [5, 3, 7] && refused == [5, -1, 9])
+    #expect(try folder.write(flag: CancellationFlag(), onEvent: { _ in }) == url)
+    #expect(made.withLock { $0 } == ids.count)
+    let files = try FileManager.default.contentsOfDirectory(atPath: url.path).sorted()
+    #expect(files == ["sample0.png", "sample1.png", "sample2.png"])
+    let photo = folder.translated(
+      RefusedPhoto(
+        sampleID: 1, name: "sample1.png", fault: .blurred, reason: "sample1.png is blurred."))
+    #expect(photo.sampleID == 3 && photo.reason == "Sample 3 is blurred.")
+  }
+
+  @Test func cancelledSequencesGoOn() throws {
+    let image = try #require(CVPixelBuffer(Self.image))
+    let flag = CancellationFlag()
+    let samples = (0..<4).lazy.map { id in
+      if id == 2 { flag.cancel() }
+      return PhotogrammetrySample(id: id, image: image)
+    }
+    let folder = SampleFolder(samples)
+    #expect(throws: CancellationError.self) { try folder.write(flag: flag, onEvent: { _ in }) }
+    _ = try folder.write(flag: CancellationFlag(), onEvent: { _ in })
+    #expect(folder.ids == [0, 1, 2, 3])
+  }
+
+  @Test func emptySequencesAreAnError() {
+    let folder = SampleFolder([PhotogrammetrySample]())
+    #expect(throws: ProcessingError.self) {
+      try folder.write(flag: CancellationFlag(), onEvent: { _ in })
+    }
+  }
+}
