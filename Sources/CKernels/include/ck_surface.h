@@ -1,0 +1,71 @@
+#ifndef CK_SURFACE_H
+#define CK_SURFACE_H
+
+#include "ck_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A triangle mesh of unknown size that a kernel made. Free with `ck_surface_free`.
+typedef struct ck_surface ck_surface;
+
+typedef struct {
+  /// The finest cells have a side of `scale × extent / 2^depth`.
+  int32_t depth;
+  /// Side of the cube that is solved in, in units of the points' largest extent.
+  double scale;
+} ck_poisson_options;
+
+/// Screened Poisson surface (Kazhdan and Hoppe, ACM TOG 2013) of oriented points.
+///
+/// Positions and normals are three floats every `stride` bytes. Runs on one thread of its own, as
+/// more of them make results that differ from run to run; a cancelled call returns at once and
+/// leaves that thread to its end. Triangles are counter-clockwise seen from where normals point.
+ck_status ck_poisson(const float* positions, const float* normals, size_t stride, size_t count,
+                     const ck_poisson_options* options, const ck_control* control,
+                     ck_surface** surface);
+
+size_t ck_surface_vertex_count(const ck_surface* surface);
+size_t ck_surface_triangle_count(const ck_surface* surface);
+/// Copies the positions (three floats every `stride` bytes), the depth of the octree that the
+/// samples around each vertex support (one float a vertex), and three indices a triangle.
+void ck_surface_copy(const ck_surface* surface, float* positions, size_t stride, float* densities,
+                     uint32_t* triangles);
+void ck_surface_free(ck_surface* surface);
+
+/// Sorts points into the cells of a cubic grid and joins occupied cells that touch (26 neighbours).
+///
+/// A point of level l falls into a grid of `cell_size × 2^l`; `levels` may be null (all 0), and
+/// only cells of one level are neighbours. `cells` receives each point's cell, numbered in
+/// lexicographic order of (level, x, y, z); `components` (may be null) each point's component,
+/// numbered by their first cell. Points that are not finite get −1 in both.
+ck_status ck_voxel_cells(const float* positions, size_t stride, size_t count, double cell_size,
+                         const int8_t* levels, const ck_control* control, int32_t* cells,
+                         size_t* cell_count, int32_t* components, size_t* component_count);
+
+/// Finds for every query the nearest `neighbours` points within `maximum_distance`.
+///
+/// `indices` and `distances` hold `neighbours` elements a query, the nearest first; −1 and infinity
+/// where there are fewer.
+ck_status ck_nearest_points(const float* points, size_t point_stride, size_t point_count,
+                            const float* queries, size_t query_stride, size_t query_count,
+                            int32_t neighbours, double maximum_distance, const ck_control* control,
+                            int32_t* indices, float* distances);
+
+/// Counts for every triangle the photos that see a point behind it, which it would hide.
+///
+/// `photo_offsets` (`point_count + 1`) and `photos` name the photos that see each point, `centers`
+/// holds three floats a photo. A ray ends `clearances[point]` before its point. `counts` receives
+/// one value a triangle.
+ck_status ck_seen_through(const float* positions, size_t position_stride, size_t position_count,
+                          const uint32_t* triangles, size_t triangle_count, const float* points,
+                          size_t point_stride, const float* clearances, size_t point_count,
+                          const uint32_t* photo_offsets, const uint16_t* photos,
+                          const float* centers, size_t photo_count, const ck_control* control,
+                          uint16_t* counts);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

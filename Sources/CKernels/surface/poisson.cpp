@@ -1,0 +1,128 @@
+#include <open3d/geometry/PointCloud.h>
+#include <open3d/geometry/TriangleMesh.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "ck_surface.h"
+#include "core/guard.h"
+#include "surface/points.h"
+
+struct ck_surface {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<double> densities;
+  std::vector<Eigen::Vector3i> triangles;
+};
+
+namespace {
+
+/// What the solver's thread and its caller share; outlives whichever ends first.
+struct Job {
+  open3d::geometry::PointCloud cloud;
+  ck_poisson_options options;
+  ck_surface surface;
+  std::exception_ptr error;
+  bool done = false;
+  std::mutex mutex;
+  std::condition_variable finished;
+};
+
+void solve(Job& job) {
+  // With more threads the accumulation order, and with it the surface, differs between runs.
+  const int threads = 1;
+  auto [mesh, densities] = open3d::geometry::TriangleMesh::CreateFromPointCloudPoisson(
+      job.cloud, static_cast<size_t>(job.options.depth), 0, static_cast<float>(job.options.scale),
+      false, threads);
+  job.surface.positions = std::move(mesh->vertices_);
+  job.surface.triangles = std::move(mesh->triangles_);
+  job.surface.densities = std::move(densities);
+}
+
+void run(const std::shared_ptr<Job>& job) {
+  std::exception_ptr error;
+  try {
+    solve(*job);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  std::lock_guard<std::mutex> lock(job->mutex);
+  job->error = error;
+  job->done = true;
+  job->finished.notify_all();
+}
+
+/// Waits for the job; the solver has no progress of its own, so the fraction only nears 1.
+void await(Job& job, std::thread& worker, const ck_control* control) {
+  const auto start = std::chrono::steady_clock::now();
+  const double expected = 2e-6 * static_cast<double>(job.cloud.points_.size()) *
+                          std::pow(3.0, job.options.depth - 6);
+  std::unique_lock<std::mutex> lock(job.mutex);
+  while (!job.done) {
+    job.finished.wait_for(lock, std::chrono::milliseconds(50));
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    try {
+      ck::step(control, elapsed.count() / (elapsed.count() + expected));
+    } catch (...) {
+      worker.detach();
+      throw;
+    }
+  }
+  lock.unlock();
+  worker.join();
+}
+
+}  // namespace
+
+ck_status ck_poisson(const float* positions, const float* normals, size_t stride, size_t count,
+                     const ck_poisson_options* options, const ck_control* control,
+                     ck_surface** surface) {
+  return ck::guarded([&] {
+    ck::require(positions && normals && options && surface, "null pointer");
+    ck::require(options->depth >= 2 && options->depth <= 14, "depth must be 2 to 14");
+    ck::require(options->scale >= 1, "scale must be 1 or more");
+    auto job = std::make_shared<Job>();
+    job->options = *options;
+    const ck::StridedPoints p{positions, stride, count};
+    const ck::StridedPoints n{normals, stride, count};
+    for (size_t i = 0; i < count; ++i) {
+      if (!p.is_finite(i) || !n.is_finite(i)) continue;
+      const Eigen::Vector3d normal(n[i][0], n[i][1], n[i][2]);
+      if (!(normal.squaredNorm() > 0)) continue;
+      job->cloud.points_.emplace_back(p[i][0], p[i][1], p[i][2]);
+      job->cloud.normals_.push_back(normal.normalized());
+    }
+    if (job->cloud.points_.size() < 4) throw ck::Degenerate("fewer than four oriented points");
+    ck::step(control, 0);
+    std::thread worker([job] { run(job); });
+    await(*job, worker, control);
+    if (job->error) std::rethrow_exception(job->error);
+    *surface = new ck_surface(std::move(job->surface));
+  });
+}
+
+size_t ck_surface_vertex_count(const ck_surface* surface) { return surface->positions.size(); }
+
+size_t ck_surface_triangle_count(const ck_surface* surface) { return surface->triangles.size(); }
+
+void ck_surface_copy(const ck_surface* surface, float* positions, size_t stride, float* densities,
+                     uint32_t* triangles) {
+  for (size_t i = 0; i < surface->positions.size(); ++i) {
+    const Eigen::Vector3f p = surface->positions[i].cast<float>();
+    std::memcpy(reinterpret_cast<char*>(positions) + i * stride, p.data(), 3 * sizeof(float));
+    densities[i] = static_cast<float>(surface->densities[i]);
+  }
+  for (size_t i = 0; i < surface->triangles.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      triangles[3 * i + k] = static_cast<uint32_t>(surface->triangles[i][k]);
+    }
+  }
+}
+
+void ck_surface_free(ck_surface* surface) { delete surface; }

@@ -1,0 +1,74 @@
+import CKernels
+import SceneModel
+
+/// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013).
+package struct PoissonReconstruction: Hashable, Codable, Sendable {
+  /// Levels of the octree: the finest cells have a side of `scale × extent / 2^depth`.
+  package var depth = 9
+  /// Side of the cube that is solved in, in units of the points' largest extent.
+  package var scale = 1.1
+
+  package init() {}
+
+  /// A surface and how well its points are supported.
+  package struct Surface: Sendable {
+    /// Positions and triangles only, counter-clockwise seen from where the normals point.
+    package var mesh: Mesh
+    /// The depth of the octree that the samples around each vertex support.
+    package var densities: [Float]
+  }
+
+  /// The surface of oriented points; points that are not finite or have no normal are left out.
+  package func surface(
+    positions: [SIMD3<Float>], normals: [SIMD3<Float>], _ control: KernelControl
+  ) throws -> Surface {
+    guard positions.count == normals.count else {
+      throw KernelError.invalidArgument("as many normals as positions are needed")
+    }
+    var options = ck_poisson_options(depth: Int32(depth), scale: scale)
+    var handle: OpaquePointer?
+    try withKernel(control) { control in
+      positions.withUnsafeBytes { positions in
+        normals.withUnsafeBytes { normals in
+          ck_poisson(
+            positions.floats, normals.floats, MemoryLayout<SIMD3<Float>>.stride,
+            positions.count / MemoryLayout<SIMD3<Float>>.stride, &options, control, &handle)
+        }
+      }
+    }
+    guard let handle else { throw KernelError.failed("no surface") }
+    return SurfaceHandle(handle).surface
+  }
+}
+
+/// Owns a mesh that a kernel made.
+private final class SurfaceHandle {
+  private let raw: OpaquePointer
+
+  init(_ raw: OpaquePointer) { self.raw = raw }
+
+  deinit { ck_surface_free(raw) }
+
+  var surface: PoissonReconstruction.Surface {
+    let count = ck_surface_vertex_count(raw)
+    var mesh = Mesh(
+      positions: Array(repeating: .zero, count: count),
+      triangles: Array(
+        repeating: Triangle(0, 0, 0), count: ck_surface_triangle_count(raw)))
+    var densities = [Float](repeating: 0, count: count)
+    mesh.positions.withUnsafeMutableBytes { positions in
+      mesh.triangles.withUnsafeMutableBytes { triangles in
+        ck_surface_copy(
+          raw, positions.baseAddress?.assumingMemoryBound(to: Float.self),
+          MemoryLayout<SIMD3<Float>>.stride, &densities,
+          triangles.baseAddress?.assumingMemoryBound(to: UInt32.self))
+      }
+    }
+    return PoissonReconstruction.Surface(mesh: mesh, densities: densities)
+  }
+}
+
+extension UnsafeRawBufferPointer {
+  /// The buffer as floats.
+  var floats: UnsafePointer<Float>? { baseAddress?.assumingMemoryBound(to: Float.self) }
+}

@@ -1,0 +1,137 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Joins points that repeat each other: one mean point a voxel, weighted by consistency.
+///
+/// The voxel grows in steps of two with the point's footprint, so that coarse parts of a scene stay
+/// coarse. Averaging removes noise and makes Poisson faster (rule: as many samples as cells).
+struct CloudAveraging {
+  struct Options: Hashable, Codable, Sendable {
+    /// Side of a voxel in median footprints.
+    var voxelFootprints = 1.0
+
+    init() {}
+  }
+
+  struct Result: Sendable {
+    var cloud: PointCloud
+    /// The averaged point of every input point; −1 where the input is not finite.
+    var sampleOfPoint: [Int32]
+    /// Input points behind each averaged point.
+    var weights: [Int32]
+    /// Side of the finest voxel in world units.
+    var voxelSize: Double
+  }
+
+  var options = Options()
+
+  func run(_ cloud: PointCloud, _ context: StageContext) throws -> Result {
+    guard let footprint = cloud.medianFootprint, footprint > 0 else {
+      throw PipelineError.noSurface(reason: "the point cloud is empty.")
+    }
+    let size = Double(footprint) * options.voxelFootprints
+    let levels = cloud.footprints.map { value -> Int8 in
+      value > footprint * 2 && value.isFinite
+        ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
+    }
+    let grid = try VoxelGrid(
+      cloud.positions, cellSize: size, levels: levels, context.control.part(from: 0, to: 0.7))
+    try context.control.step(0.7)
+    return average(cloud, grid, size)
+  }
+
+  private func average(_ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double) -> Result {
+    let members = Members(of: grid.cells, count: grid.cellCount)
+    var result = PointCloud()
+    result.positions.reserveCapacity(grid.cellCount)
+    result.normals.reserveCapacity(grid.cellCount)
+    var weights: [Int32] = []
+    weights.reserveCapacity(grid.cellCount)
+    var photos: [UInt16] = []
+    for cell in 0..<grid.cellCount {
+      let points = members[cell]
+      Self.append(points, of: cloud, to: &result)
+      photos.removeAll(keepingCapacity: true)
+      for point in points { photos.append(contentsOf: cloud.visiblePhotos(of: Int(point))) }
+      photos.sort()
+      var last: UInt16?
+      for photo in photos where photo != last {
+        result.photoIndices.append(photo)
+        last = photo
+      }
+      result.photoOffsets.append(UInt32(result.photoIndices.count))
+      weights.append(Int32(points.count))
+    }
+    return Result(
+      cloud: result, sampleOfPoint: grid.cells, weights: weights, voxelSize: size)
+  }
+
+  /// Appends the weighted mean of some points, without their photos.
+  private static func append(_ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud) {
+    var (position, normal, color) = (SIMD3<Double>(), SIMD3<Double>(), SIMD3<Double>())
+    var (consistency, footprint, sum) = (0.0, Float.infinity, 0.0)
+    for point in points {
+      let i = Int(point)
+      let value = cloud.consistency.isEmpty ? 1 : Double(cloud.consistency[i])
+      let weight = max(0.01, value.isFinite ? value : 0.01)
+      position += weight * SIMD3<Double>(cloud.positions[i])
+      if !cloud.normals.isEmpty { normal += weight * SIMD3<Double>(cloud.normals[i]) }
+      if !cloud.colors.isEmpty { color += weight * SIMD3<Double>(cloud.colors[i]) }
+      consistency = max(consistency, value)
+      footprint = min(footprint, cloud.footprints[i])
+      sum += weight
+    }
+    result.positions.append(SIMD3<Float>(position / sum))
+    if !cloud.normals.isEmpty { result.normals.append(SIMD3<Float>(normal.normalized)) }
+    if !cloud.colors.isEmpty {
+      result.colors.append(SIMD3<UInt8>((color / sum).rounded(.toNearestOrAwayFromZero)))
+    }
+    result.consistency.append(Float(consistency))
+    result.footprints.append(footprint)
+  }
+}
+
+extension CloudAveraging.Result {
+  /// The averaged points that have at least `neighbours` others within `radius` spacings.
+  ///
+  /// Lone points are false matches more often than not, and each bends a Poisson surface.
+  func withoutStrays(
+    neighbours: Int = 5, radius: Double = 4, _ control: KernelControl
+  ) throws -> PointCloud {
+    let coarsest = Double(cloud.footprints.quantile(0.99) ?? 0)
+    let reach = radius * max(voxelSize, coarsest)
+    let nearest = try NearestPoints(
+      of: cloud.positions, in: cloud.positions, neighbours: neighbours + 1,
+      maximumDistance: reach, control)
+    return cloud.filtered(
+      by: cloud.positions.indices.map { index in
+        let last = index * nearest.neighbours + neighbours
+        let spacing = max(Float(voxelSize), cloud.footprints[index])
+        return nearest.distances[last] <= Float(radius) * spacing
+      })
+  }
+}
+
+/// The elements of each group, ascending, as one array with offsets.
+struct Members: Sendable {
+  private var offsets: [Int32]
+  private var elements: [Int32]
+
+  /// `groups` holds each element's group; elements of group −1 belong to none.
+  init(of groups: [Int32], count: Int) {
+    offsets = Array(repeating: 0, count: count + 1)
+    for group in groups where group >= 0 { offsets[Int(group) + 1] += 1 }
+    for group in 0..<count { offsets[group + 1] += offsets[group] }
+    var cursor = offsets
+    elements = Array(repeating: 0, count: Int(offsets[count]))
+    for (element, group) in groups.enumerated() where group >= 0 {
+      elements[Int(cursor[Int(group)])] = Int32(element)
+      cursor[Int(group)] += 1
+    }
+  }
+
+  subscript(group: Int) -> ArraySlice<Int32> {
+    elements[Int(offsets[group])..<Int(offsets[group + 1])]
+  }
+}

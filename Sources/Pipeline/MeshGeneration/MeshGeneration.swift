@@ -1,0 +1,112 @@
+import Kernels
+import SceneModel
+
+/// Makes the surface of the object, or of the whole scene, from the dense cloud.
+///
+/// Isolate, average, close the base, Poisson, trim, clean: one step a file.
+package struct MeshGeneration {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Keep the object that the photos look at and remove its support and background.
+    package var isolatesObject = true
+    /// Levels of the surface's octree at most; 9 resolves 1/460, 10 1/930 of the object's size.
+    package var maximumDepth = 9
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The surface with normals and colours, in the frame of the cloud.
+  ///
+  /// Throws `PipelineError.noSurface` where the cloud does not determine one.
+  package func run(
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> Mesh {
+    try check(cloud)
+    let selection = try select(cloud, reconstruction, context.part(from: 0, to: 0.15))
+    var averaged = try CloudAveraging().run(
+      cloud.filtered(by: selection.isKept), context.part(from: 0.15, to: 0.2))
+    averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.2, to: 0.25))
+    context.notes.count("samples", Double(averaged.cloud.count))
+    if let support = selection.support {
+      let base = BaseClosing().run(
+        object: averaged.cloud, scene: cloud.positions, support: support,
+        cell: averaged.voxelSize)
+      averaged.cloud.append(base: base, normal: -SIMD3<Float>(support.normal))
+      context.notes.count("basePoints", Double(base.count))
+    }
+    var poisson = PoissonSurface()
+    poisson.options.maximumDepth = options.maximumDepth
+    let closed = try poisson.run(
+      averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.25, to: 0.8))
+    let trimmed = try SurfaceTrimming().run(
+      closed, samples: averaged.cloud, scene: cloud, spacing: averaged.voxelSize, reconstruction,
+      context.part(from: 0.8, to: 0.95))
+    let mesh = try MeshCleaning().run(
+      trimmed, samples: averaged.cloud, context.part(from: 0.95, to: 1))
+    context.notes.count("triangles", Double(mesh.triangles.count))
+    return mesh
+  }
+
+  /// The box around what `run` keeps, from the sparse points where there is no cloud; cheap.
+  package func bounds(
+    _ cloud: PointCloud?, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> (min: SIMD3<Float>, max: SIMD3<Float>)? {
+    try ObjectIsolation().bounds(cloud, reconstruction, context)
+  }
+
+  private func check(_ cloud: PointCloud) throws {
+    let finite = cloud.positions.reduce(0) {
+      $1.x.isFinite && $1.y.isFinite && $1.z.isFinite ? $0 + 1 : $0
+    }
+    guard finite >= 100, cloud.normals.count == cloud.count,
+      cloud.footprints.count == cloud.count
+    else {
+      throw PipelineError.noSurface(
+        reason: "the photos agree on \(finite) surface points only, at least 100 are needed.")
+    }
+  }
+
+  private func select(
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> (isKept: [Bool], support: SupportPlane?) {
+    if options.isolatesObject {
+      let result = try ObjectIsolation().run(cloud, reconstruction, context)
+      if let failure = result.failure {
+        context.notes.warn(
+          "The object could not be told from its surroundings: \(failure) The whole scene is kept.")
+      } else {
+        let kept = result.isKept.filter { $0 }.count
+        context.notes.count("objectPoints", Double(kept))
+        context.notes.count("removedPoints", Double(cloud.count - kept))
+        return (result.isKept, result.support)
+      }
+    }
+    let isKept = try SceneTrimming().run(cloud, reconstruction, context)
+    context.notes.count("removedPoints", Double(isKept.filter { !$0 }.count))
+    return (isKept, nil)
+  }
+}
+
+extension PointCloud {
+  /// Appends points that close the base.
+  mutating func append(base: [SIMD3<Float>], normal: SIMD3<Float>) {
+    guard !base.isEmpty, let footprint = medianFootprint else { return }
+    let color = colors.isEmpty ? nil : meanColor
+    for position in base {
+      positions.append(position)
+      normals.append(normal)
+      if let color { colors.append(color) }
+      consistency.append(0)
+      footprints.append(footprint)
+      photoOffsets.append(UInt32(photoIndices.count))
+    }
+  }
+
+  private var meanColor: SIMD3<UInt8> {
+    let sum = colors.reduce(SIMD3<Double>.zero) { $0 + SIMD3<Double>($1) }
+    return SIMD3<UInt8>(sum / Double(max(1, colors.count)))
+  }
+}

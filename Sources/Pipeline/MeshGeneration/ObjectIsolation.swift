@@ -1,0 +1,219 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Keeps the object that the photos look at and removes its support and background.
+///
+/// The support is the dominant near-horizontal plane in the region that most photos look at; the
+/// object is what stands on it, connected, around the focus of the optical axes.
+struct ObjectIsolation {
+  struct Options: Hashable, Codable, Sendable {
+    /// Side of a sample's voxel in median footprints.
+    var sampleFootprints = 2.0
+    /// Samples that touch within this many sample sides are connected.
+    var connectionSamples = 2.0
+    /// Share of the photos that must have a sample in their frame for it to find the support.
+    var focusCoverage = 0.4
+    /// Share of the photos that must have a sample in their frame for it to be of the object.
+    var objectCoverage = 0.15
+    /// Farther from the focus than this share of the camera distance nothing is of the object.
+    var reach = 0.9
+    /// Parts this far from the object, as share of its size, are of it.
+    var gap = 0.04
+    /// A part with at least this share of the main part's weight is of the object.
+    var partnerShare = 0.25
+    /// The object's share of the samples in the middle of the view at least; less is no object.
+    var minimumShare = 0.02
+    /// What is cut off at the region's end, as share of the outline, where there is no clear object.
+    var maximumCut = 0.25
+
+    init() {}
+  }
+
+  struct Result: Sendable {
+    /// Whether each input point is of the object.
+    var isKept: [Bool]
+    /// What the object stands on; nil where none was found.
+    var support: SupportPlane?
+    /// Why there is no clear object; then everything finite is kept.
+    var failure: String?
+  }
+
+  var options = Options()
+
+  func run(
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> Result {
+    let averaging = CloudAveraging(
+      options: { var o = CloudAveraging.Options(); o.voxelFootprints = options.sampleFootprints; return o }())
+    let samples = try averaging.run(cloud, context.part(from: 0, to: 0.5))
+    let outcome = try IsolationSamples(samples, reconstruction, options)
+      .map { try $0.isolate(context.part(from: 0.5, to: 1)) } ?? .failure("no photo sees it.")
+    switch outcome {
+    case .object(let isObject, let support):
+      let isKept = samples.sampleOfPoint.map { $0 >= 0 && isObject[Int($0)] }
+      return Result(isKept: isKept, support: support)
+    case .failure(let reason):
+      return Result(
+        isKept: samples.sampleOfPoint.map { $0 >= 0 }, support: nil, failure: reason)
+    }
+  }
+}
+
+/// The averaged samples with what decides whether they are of the object.
+struct IsolationSamples {
+  enum Outcome {
+    case object([Bool], SupportPlane?)
+    case failure(String)
+  }
+
+  let options: ObjectIsolation.Options
+  let cloud: PointCloud
+  let cell: Double
+  let focus: ViewFocus
+  /// Share of the photos that have each sample in their frame.
+  let coverage: [Float]
+  /// Distance of each sample to the focus in camera distances.
+  let distance: [Float]
+  let up: SIMD3<Double>
+  let isUpKnown: Bool
+
+  /// Nil where no registered photo sees a sample.
+  init?(
+    _ samples: CloudAveraging.Result, _ reconstruction: Reconstruction,
+    _ options: ObjectIsolation.Options
+  ) throws {
+    let depths = reconstruction.medianDepths(of: samples.cloud)
+    guard let focus = ViewFocus(reconstruction, depths: depths) else { return nil }
+    self.options = options
+    self.focus = focus
+    cloud = samples.cloud
+    cell = samples.voxelSize
+    coverage = cloud.positions.map { Float(focus.coverage(of: SIMD3<Double>($0))) }
+    distance = cloud.positions.map {
+      Float((SIMD3<Double>($0) - focus.point).length / focus.distance)
+    }
+    isUpKnown = reconstruction.worldFrame.up != .unknown
+    up = isUpKnown ? [0, 1, 0] : focus.meanUp
+  }
+
+  func isolate(_ context: StageContext) throws -> Outcome {
+    let region = cloud.positions.indices.filter {
+      Double(coverage[$0]) >= options.focusCoverage && distance[$0] < 1
+    }
+    guard region.count >= 30 else { return .failure("too little is seen by most photos.") }
+    try context.control.step(0.1)
+    let support = SupportPlaneDetection().run(
+      positions: region.map { cloud.positions[$0] },
+      normals: cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] },
+      up: up, isUpKnown: isUpKnown, focus: focus, cell: cell)
+    try context.control.step(0.4)
+    let isAbove = cloud.positions.map { position in
+      support.map { $0.height(of: SIMD3<Double>(position)) > $0.band } ?? true
+    }
+    let isCandidate = cloud.positions.indices.map {
+      isAbove[$0] && Double(coverage[$0]) >= options.objectCoverage
+        && Double(distance[$0]) < options.reach
+    }
+    guard let isObject = try object(isCandidate, context) else {
+      return .failure("nothing stands out where the photos look.")
+    }
+    let central = region.filter { distance[$0] < 0.5 }
+    let share = central.filter { isObject[$0] }.count
+    guard Double(share) >= options.minimumShare * Double(central.count) else {
+      return .failure("what stands out is too small.")
+    }
+    if try cut(isObject, isAbove, context.control) > options.maximumCut {
+      return .failure("what the photos show goes on beyond their common view.")
+    }
+    return .object(isObject, support)
+  }
+
+  /// The candidates of the component around the focus and of what belongs to it; nil without any.
+  private func object(_ isCandidate: [Bool], _ context: StageContext) throws -> [Bool]? {
+    let indices = cloud.positions.indices.filter { isCandidate[$0] }
+    guard !indices.isEmpty else { return nil }
+    let grid = try VoxelGrid(
+      indices.map { cloud.positions[$0] }, cellSize: cell * options.connectionSamples,
+      findsComponents: true, context.control)
+    let members = Members(of: grid.components, count: grid.componentCount)
+    var weights = (0..<grid.componentCount).map { component in
+      members[component].reduce(0.0) { sum, member in
+        let index = indices[Int(member)]
+        let d = Double(distance[index]) / 0.35
+        return sum + Double(coverage[index]) * exp(-d * d)
+      }
+    }
+    guard let main = weights.indices.max(by: { weights[$0] < weights[$1] }), weights[main] > 0
+    else { return nil }
+    // Specks are noise, however near.
+    for component in weights.indices where members[component].count < 8 { weights[component] = 0 }
+    var isPart = weights.map { $0 > 0 && $0 >= options.partnerShare * weights[main] }
+    isPart[main] = true
+    try attach(&isPart, weights, members, indices, context.control)
+    var isObject = [Bool](repeating: false, count: cloud.count)
+    for component in isPart.indices where isPart[component] {
+      for member in members[component] { isObject[indices[Int(member)]] = true }
+    }
+    return isObject
+  }
+
+  /// Adds components that come near the object, in a few rounds.
+  private func attach(
+    _ isPart: inout [Bool], _ weights: [Double], _ members: Members, _ indices: [Int],
+    _ control: KernelControl
+  ) throws {
+    for _ in 0..<4 {
+      let (parts, others) = (isPart.indices.filter { isPart[$0] }, isPart.indices.filter { !isPart[$0] && weights[$0] > 0 })
+      let object = parts.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
+      guard let bounds = Mesh(positions: object).bounds, !others.isEmpty else { return }
+      let size = Double((bounds.max - bounds.min).length)
+      let reach = max(3 * cell * options.connectionSamples, options.gap * size)
+      let queries = others.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
+      let nearest = try NearestPoints(
+        of: queries, in: object, maximumDistance: reach, control)
+      var (cursor, isChanged) = (0, false)
+      for component in others {
+        let count = members[component].count
+        if nearest.indices[cursor..<cursor + count].contains(where: { $0 >= 0 }) {
+          isPart[component] = true
+          isChanged = true
+        }
+        cursor += count
+      }
+      if !isChanged { return }
+    }
+  }
+
+  /// The length over which the object goes on beyond the region of interest, in units of the
+  /// outline of a disc of the object's area.
+  private func cut(_ isObject: [Bool], _ isAbove: [Bool], _ control: KernelControl) throws -> Double {
+    let object = cloud.positions.indices.filter { isObject[$0] }
+    let beyond = cloud.positions.indices.filter {
+      isAbove[$0] && !isObject[$0]
+        && (Double(coverage[$0]) < options.objectCoverage || Double(distance[$0]) >= options.reach)
+    }
+    guard !object.isEmpty, !beyond.isEmpty else { return 0 }
+    let nearest = try NearestPoints(
+      of: object.map { cloud.positions[$0] }, in: beyond.map { cloud.positions[$0] },
+      maximumDistance: 1.5 * cell, control)
+    let touching = nearest.indices.filter { $0 >= 0 }.count
+    return Double(touching) / (2 * (Double.pi * Double(object.count)).squareRoot())
+  }
+}
+
+extension Reconstruction {
+  /// The median depth of the points that each photo sees; nil for photos that see none.
+  func medianDepths(of cloud: PointCloud) -> [Double?] {
+    var depths = [[Double]](repeating: [], count: photos.count)
+    for index in cloud.positions.indices {
+      let position = SIMD3<Double>(cloud.positions[index])
+      for photo in cloud.visiblePhotos(of: index) where Int(photo) < photos.count {
+        guard let pose = poses[Int(photo)] else { continue }
+        let depth = (pose * position).z
+        if depth > 0 { depths[Int(photo)].append(depth) }
+      }
+    }
+    return depths.map(\.median)
+  }
+}

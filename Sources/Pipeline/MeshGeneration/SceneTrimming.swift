@@ -1,0 +1,69 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Removes what a whole scene is better without: the far background, whose depth is a guess, and
+/// specks that float.
+struct SceneTrimming {
+  struct Options: Hashable, Codable, Sendable {
+    /// Points with a footprint of more than this many medians are far background.
+    var maximumFootprints = 8.0
+    /// Points that are seen from directions that differ by less than this have no depth, in degrees.
+    var minimumParallaxDegrees = 1.0
+    /// Side of a voxel in which points are neighbours, in median footprints.
+    var connectionFootprints = 6.0
+    /// Components with fewer points float.
+    var minimumPoints = 100
+    /// The same as a share of all points.
+    var minimumShare = 0.0005
+
+    init() {}
+  }
+
+  var options = Options()
+
+  /// Whether each point is kept.
+  func run(
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> [Bool] {
+    guard let median = cloud.medianFootprint else { return cloud.positions.map { _ in false } }
+    let limit = median * Float(options.maximumFootprints)
+    let centers = reconstruction.poses.map { $0?.center }
+    let minimumCosine = cos(options.minimumParallaxDegrees * .pi / 180)
+    var isKept = cloud.positions.indices.map { index in
+      cloud.footprints[index] <= limit
+        && hasParallax(cloud, index, centers, minimumCosine)
+    }
+    try context.control.step(0.4)
+    let indices = isKept.indices.filter { isKept[$0] }
+    let grid = try VoxelGrid(
+      indices.map { cloud.positions[$0] },
+      cellSize: Double(median) * options.connectionFootprints,
+      findsComponents: true, context.control.part(from: 0.4, to: 1))
+    let members = Members(of: grid.components, count: grid.componentCount)
+    let minimum = max(
+      options.minimumPoints, Int(options.minimumShare * Double(indices.count)))
+    for component in 0..<grid.componentCount where members[component].count < minimum {
+      for member in members[component] { isKept[indices[Int(member)]] = false }
+    }
+    // A small cloud has nothing but specks; better those than nothing.
+    return isKept.contains(true) ? isKept : cloud.positions.map { $0.x.isFinite }
+  }
+
+  private func hasParallax(
+    _ cloud: PointCloud, _ index: Int, _ centers: [SIMD3<Double>?], _ minimumCosine: Double
+  ) -> Bool {
+    let position = SIMD3<Double>(cloud.positions[index])
+    var first: SIMD3<Double>?
+    for photo in cloud.visiblePhotos(of: index) {
+      guard Int(photo) < centers.count, let center = centers[Int(photo)] else { continue }
+      let direction = (position - center).normalized
+      guard let reference = first else {
+        first = direction
+        continue
+      }
+      if direction.dot(reference) < minimumCosine { return true }
+    }
+    return false
+  }
+}

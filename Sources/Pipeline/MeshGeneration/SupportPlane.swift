@@ -1,0 +1,164 @@
+import Foundation
+import SceneModel
+
+/// The plane that an object stands on: `normal · x = offset`, the normal points up.
+struct SupportPlane: Hashable, Sendable {
+  var normal: SIMD3<Double>
+  var offset: Double
+  /// Half the thickness of what belongs to the support, in world units.
+  var band: Double
+
+  func height(of point: SIMD3<Double>) -> Double { normal.dot(point) - offset }
+}
+
+/// Finds the dominant near-horizontal plane under the object by RANSAC (Fischler and Bolles, CACM
+/// 1981) with a least-squares finish.
+struct SupportPlaneDetection {
+  struct Options: Hashable, Codable, Sendable {
+    /// Planes steeper than this are walls, in degrees.
+    var maximumTiltDegrees = 30.0
+    /// The same where the up direction is a guess.
+    var maximumUnknownTiltDegrees = 60.0
+    var iterations = 800
+    /// Samples that score a hypothesis.
+    var scoringSamples = 4000
+    /// Half the thickness of the plane that collects support, as share of the camera distance.
+    var tolerance = 0.006
+    /// Share of the samples that must lie on the plane.
+    var minimumShare = 0.08
+    /// Share of the cameras that must be above the plane.
+    var minimumCamerasAbove = 0.8
+
+    init() {}
+  }
+
+  var options = Options()
+
+  /// `positions` (and `normals`, may be empty) are of equally spread samples in the region that the
+  /// photos look at; `cell` is their spacing.
+  func run(
+    positions: [SIMD3<Float>], normals: [SIMD3<Float>], up: SIMD3<Double>, isUpKnown: Bool,
+    focus: ViewFocus, cell: Double
+  ) -> SupportPlane? {
+    let tilt = isUpKnown ? options.maximumTiltDegrees : options.maximumUnknownTiltDegrees
+    let minimumCosine = cos(tilt * .pi / 180)
+    let candidates = positions.indices.filter { index in
+      normals.isEmpty || SIMD3<Double>(normals[index]).dot(up) > minimumCosine - 0.1
+    }
+    guard candidates.count >= 12 else { return nil }
+    let tolerance = max(2 * cell, options.tolerance * focus.distance)
+    let stride = max(1, positions.count / options.scoringSamples)
+    let scoring = Swift.stride(from: 0, to: positions.count, by: stride).map {
+      SIMD3<Double>(positions[$0])
+    }
+    var random = SplitMix(state: 0x5eed_0001)
+    var best: (plane: SupportPlane, score: Double)?
+    for _ in 0..<options.iterations {
+      let corners = (0..<3).map { _ in
+        SIMD3<Double>(positions[candidates[random.below(candidates.count)]])
+      }
+      guard var plane = SupportPlane(through: corners, up: up, band: tolerance),
+        plane.normal.dot(up) > minimumCosine, camerasAbove(plane, focus)
+      else { continue }
+      plane.band = tolerance
+      let score = score(plane, scoring)
+      if score > (best?.score ?? 0) { best = (plane, score) }
+    }
+    guard var plane = best?.plane else { return nil }
+    for _ in 0..<4 { plane = refined(plane, positions, normals, up, tolerance, cell) ?? plane }
+    let share = positions.reduce(0) { abs(plane.height(of: SIMD3<Double>($1))) < tolerance ? $0 + 1 : $0 }
+    guard Double(share) >= options.minimumShare * Double(positions.count) else { return nil }
+    return plane
+  }
+
+  /// Samples on the plane, less those below it: nothing is seen under a support.
+  private func score(_ plane: SupportPlane, _ samples: [SIMD3<Double>]) -> Double {
+    samples.reduce(0) { sum, sample in
+      let height = plane.height(of: sample)
+      if abs(height) < plane.band { return sum + 1 - abs(height) / plane.band * 0.5 }
+      return height < -3 * plane.band ? sum - 0.5 : sum
+    }
+  }
+
+  private func camerasAbove(_ plane: SupportPlane, _ focus: ViewFocus) -> Bool {
+    let centers = focus.centers
+    let above = centers.filter { plane.height(of: $0) > 0 }.count
+    return Double(above) >= options.minimumCamerasAbove * Double(centers.count)
+  }
+
+  /// The plane of least squares through its samples, with a band from their spread.
+  private func refined(
+    _ plane: SupportPlane, _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>],
+    _ up: SIMD3<Double>, _ tolerance: Double, _ cell: Double
+  ) -> SupportPlane? {
+    let inliers = positions.indices.filter { index in
+      abs(plane.height(of: SIMD3<Double>(positions[index]))) < tolerance
+        && (normals.isEmpty || SIMD3<Double>(normals[index]).dot(plane.normal) > 0.7)
+    }.map { SIMD3<Double>(positions[$0]) }
+    guard inliers.count >= 12, var result = SupportPlane(fitting: inliers, near: plane) else {
+      return nil
+    }
+    let deviation = 1.4826 * (inliers.map { abs(result.height(of: $0)) }.median ?? 0)
+    result.band = min(tolerance, max(3.5 * deviation, 1.0 * cell))
+    return result
+  }
+}
+
+extension SupportPlane {
+  /// The plane through three points; nil where they are nearly on a line.
+  init?(through points: [SIMD3<Double>], up: SIMD3<Double>, band: Double) {
+    let (u, v) = (points[1] - points[0], points[2] - points[0])
+    let cross = u.cross(v)
+    guard cross.length > 0.05 * u.length * v.length, u.length > 10 * band, v.length > 10 * band
+    else { return nil }
+    normal = cross.normalized
+    if normal.dot(up) < 0 { normal = -normal }
+    offset = normal.dot(points[0])
+    self.band = band
+  }
+
+  /// The plane of least squares in height over `plane`; nil where the points are on a line.
+  init?(fitting points: [SIMD3<Double>], near plane: SupportPlane) {
+    let (u, v) = plane.normal.orthonormalPair
+    let mean = points.reduce(.zero, +) / Double(points.count)
+    var matrix = Matrix3(rows: .zero, .zero, .zero)
+    var right = SIMD3<Double>.zero
+    for point in points {
+      let d = point - mean
+      let row = SIMD3(d.dot(u), d.dot(v), 1)
+      matrix.row0 += row.x * row
+      matrix.row1 += row.y * row
+      matrix.row2 += row
+      right += plane.height(of: point) * row
+    }
+    guard let slope = matrix.solve(right) else { return nil }
+    normal = (plane.normal - slope.x * u - slope.y * v).normalized
+    offset = normal.dot(mean + (slope.z - plane.height(of: mean)) * plane.normal)
+    band = plane.band
+  }
+}
+
+extension SIMD3 where Scalar == Double {
+  /// Two unit vectors that complete this unit vector to a right-handed frame.
+  var orthonormalPair: (SIMD3<Double>, SIMD3<Double>) {
+    let helper: SIMD3<Double> = abs(x) < 0.6 ? [1, 0, 0] : [0, 0, 1]
+    let u = cross(helper).normalized
+    return (u, cross(u))
+  }
+}
+
+/// A small generator of repeatable numbers (Steele et al., OOPSLA 2014).
+struct SplitMix {
+  var state: UInt64
+
+  mutating func next() -> UInt64 {
+    state &+= 0x9e37_79b9_7f4a_7c15
+    var z = state
+    z = (z ^ (z >> 30)) &* 0xbf58_476d_1ce4_e5b9
+    z = (z ^ (z >> 27)) &* 0x94d0_49bb_1331_11eb
+    return z ^ (z >> 31)
+  }
+
+  /// A number in 0..<count.
+  mutating func below(_ count: Int) -> Int { Int(next() % UInt64(count)) }
+}

@@ -1,0 +1,115 @@
+import SceneModel
+
+/// What the photos look at: the point nearest to all optical axes, and which part of space most of
+/// them hold in their frame.
+struct ViewFocus: Sendable {
+  /// World.
+  var point: SIMD3<Double>
+  /// Median distance of the cameras to `point`, in world units.
+  var distance: Double
+  private var views: [View]
+
+  private struct View: Sendable {
+    var photo: Int
+    var pose: RigidTransform
+    var rotation: Matrix3
+    var camera: Camera
+
+    var axis: SIMD3<Double> { rotation.row2 }
+  }
+
+  /// Nil without a registered photo or where all is in one place.
+  ///
+  /// `depths` holds the median depth of what each photo sees, nil where nothing is known. It decides
+  /// where nearly parallel axes don't meet.
+  init?(_ reconstruction: Reconstruction, depths: [Double?]) {
+    views = reconstruction.registered.compactMap { id in
+      guard let pose = reconstruction.poses[id.index] else { return nil }
+      return View(
+        photo: id.index, pose: pose, rotation: pose.rotation.matrix,
+        camera: reconstruction.camera(of: id))
+    }
+    let known = depths.compactMap { $0 }.filter { $0 > 0 && $0.isFinite }
+    guard !views.isEmpty, let typical = known.median else { return nil }
+    let anchors = views.map { view -> SIMD3<Double> in
+      let depth = depths.indices.contains(view.photo) ? depths[view.photo] : nil
+      return view.pose.center + (depth ?? typical) * view.axis
+    }
+    var weights = [Double](repeating: 1, count: views.count)
+    point = .zero
+    for _ in 0..<10 {
+      guard let solution = Self.intersect(views, anchors, weights) else { return nil }
+      point = solution
+      for (index, view) in views.enumerated() {
+        let offset = point - view.pose.center
+        let residual = (offset - offset.dot(view.axis) * view.axis).length
+        weights[index] = 1 / max(0.05 * typical, residual)
+      }
+    }
+    let focus = point
+    guard let median = views.map({ ($0.pose.center - focus).length }).median, median > 0,
+      median.isFinite
+    else { return nil }
+    distance = median
+  }
+
+  /// Camera centres in photo order.
+  var centers: [SIMD3<Double>] { views.map(\.pose.center) }
+
+  /// The mean of the directions that are up in the photos; zero when they cancel out.
+  var meanUp: SIMD3<Double> {
+    views.reduce(SIMD3<Double>.zero) { $0 - $1.rotation.row1 }.normalized
+  }
+
+  /// The share of photos that have a point in their frame, 0…1.
+  func coverage(of position: SIMD3<Double>) -> Double {
+    var count = 0
+    for view in views {
+      let p = view.rotation * position + view.pose.translation
+      guard p.z > 0 else { continue }
+      let x = view.camera.focalLength.x * p.x / p.z + view.camera.principalPoint.x
+      let y = view.camera.focalLength.y * p.y / p.z + view.camera.principalPoint.y
+      if x >= 0, y >= 0, x < Double(view.camera.width), y < Double(view.camera.height) {
+        count += 1
+      }
+    }
+    return Double(count) / Double(views.count)
+  }
+
+  /// The point with the least weighted squared distance to the axes, drawn weakly to the anchors.
+  private static func intersect(
+    _ views: [View], _ anchors: [SIMD3<Double>], _ weights: [Double]
+  ) -> SIMD3<Double>? {
+    var matrix = Matrix3(rows: .zero, .zero, .zero)
+    var right = SIMD3<Double>.zero
+    for (index, view) in views.enumerated() {
+      let (d, w, pull) = (view.axis, weights[index], 0.05 * weights[index])
+      let rows: [SIMD3<Double>] = [
+        [1 - d.x * d.x, -d.x * d.y, -d.x * d.z], [-d.x * d.y, 1 - d.y * d.y, -d.y * d.z],
+        [-d.x * d.z, -d.y * d.z, 1 - d.z * d.z],
+      ]
+      let projector = Matrix3(rows: rows[0], rows[1], rows[2])
+      right += w * (projector * view.pose.center) + pull * anchors[index]
+      matrix.row0 += w * rows[0] + SIMD3(pull, 0, 0)
+      matrix.row1 += w * rows[1] + SIMD3(0, pull, 0)
+      matrix.row2 += w * rows[2] + SIMD3(0, 0, pull)
+    }
+    return matrix.solve(right)
+  }
+}
+
+extension Matrix3 {
+  /// The solution x of `self · x = right` by Cramer's rule; nil for a singular matrix.
+  func solve(_ right: SIMD3<Double>) -> SIMD3<Double>? {
+    let columns = transpose
+    let determinant = determinant
+    guard determinant.isFinite, abs(determinant) > .leastNormalMagnitude else { return nil }
+    func replaced(_ index: Int) -> Double {
+      var c = [columns.row0, columns.row1, columns.row2]
+      c[index] = right
+      return c[0].dot(c[1].cross(c[2]))
+    }
+    let solution = SIMD3(replaced(0), replaced(1), replaced(2)) / determinant
+    return solution.x.isFinite && solution.y.isFinite && solution.z.isFinite ? solution : nil
+  }
+}

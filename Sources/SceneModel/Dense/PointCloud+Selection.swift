@@ -1,0 +1,35 @@
+extension PointCloud {
+  /// The points for which `isKept` says so, in their order.
+  package func filtered(by isKept: [Bool]) -> PointCloud {
+    var result = PointCloud()
+    for index in positions.indices where isKept[index] { result.append(self, index) }
+    return result
+  }
+
+  /// Appends point `index` of another cloud.
+  package mutating func append(_ other: PointCloud, _ index: Int) {
+    positions.append(other.positions[index])
+    if index < other.normals.count { normals.append(other.normals[index]) }
+    if index < other.colors.count { colors.append(other.colors[index]) }
+    if index < other.consistency.count { consistency.append(other.consistency[index]) }
+    if index < other.footprints.count { footprints.append(other.footprints[index]) }
+    photoIndices.append(contentsOf: other.visiblePhotos(of: index))
+    photoOffsets.append(UInt32(photoIndices.count))
+  }
+
+  /// The median of the positive, finite footprints; nil where there are none.
+  package var medianFootprint: Float? {
+    footprints.filter { $0 > 0 && $0.isFinite }.median
+  }
+}
+
+extension Array where Element: Comparable {
+  /// The upper median; nil for an empty array.
+  package var median: Element? { quantile(0.5) }
+
+  /// The element that is greater than the fraction `q` of the others; nil for an empty array.
+  package func quantile(_ q: Double) -> Element? {
+    guard !isEmpty else { return nil }
+    return sorted()[Swift.min(count - 1, Swift.max(0, Int(q * Double(count))))]
+  }
+}
