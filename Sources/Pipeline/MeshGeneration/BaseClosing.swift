@@ -8,7 +8,7 @@ import SceneModel
 struct BaseClosing {
   struct Options: Hashable, Codable, Sendable {
     /// What stands lower than this share of the object's height outlines the contact.
-    var outlineHeight = 0.08
+    var outlineHeight = 0.15
     /// Gaps of the outline up to this share of the object's width are closed.
     var closing = 0.06
 
@@ -27,8 +27,9 @@ struct BaseClosing {
     guard let top = heights.quantile(0.99), top > 4 * support.band else { return [] }
     let limit = max(3 * support.band, options.outlineHeight * top)
     let low = object.positions.indices.filter { heights[$0] < limit }
-    guard var grid = SupportGrid(
-      low.map { object.positions[$0] }, support, cell: max(1.5 * cell, 0.5 * support.band))
+    guard
+      var grid = SupportGrid(
+        low.map { object.positions[$0] }, support, cell: max(1.5 * cell, 0.5 * support.band))
     else { return [] }
     for index in low { grid.mark(object.positions[index], .object) }
     let width = Double(grid.width + grid.height) / 2 * options.closing
@@ -118,7 +119,8 @@ private struct SupportGrid {
   }
 
   /// Dilates by a square of side `2 · radius + 1`, by rows and columns.
-  private static func dilated(_ mask: [Bool], _ width: Int, _ height: Int, _ radius: Int) -> [Bool] {
+  private static func dilated(_ mask: [Bool], _ width: Int, _ height: Int, _ radius: Int) -> [Bool]
+  {
     func pass(_ source: [Bool], length: Int, lines: Int, step: Int, line: Int) -> [Bool] {
       var result = source
       for l in 0..<lines {

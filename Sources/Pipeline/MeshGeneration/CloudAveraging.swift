@@ -68,7 +68,9 @@ struct CloudAveraging {
   }
 
   /// Appends the weighted mean of some points, without their photos.
-  private static func append(_ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud) {
+  private static func append(
+    _ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud
+  ) {
     var (position, normal, color) = (SIMD3<Double>(), SIMD3<Double>(), SIMD3<Double>())
     var (consistency, footprint, sum) = (0.0, Float.infinity, 0.0)
     for point in points {

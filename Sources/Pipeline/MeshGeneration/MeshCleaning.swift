@@ -123,10 +123,3 @@ struct MeshCleaning {
     }
   }
 }
-
-extension Mesh {
-  /// The positions of a triangle's corners.
-  func corners(of triangle: Triangle) -> (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>) {
-    (positions[Int(triangle.a)], positions[Int(triangle.b)], positions[Int(triangle.c)])
-  }
-}

@@ -42,8 +42,9 @@ extension Reconstruction {
     }
     let nearest = try NearestPoints(
       of: cloud.positions, in: cloud.positions, neighbours: 4, control)
-    let spacing = cloud.positions.indices.map { nearest.distances[$0 * 4 + 3] }
-      .filter { $0 > 0 && $0.isFinite }.median ?? 1
+    let spacing =
+      cloud.positions.indices.map { nearest.distances[$0 * 4 + 3] }
+      .filter { $0 > 0 && $0.isFinite }.upperMedian ?? 1
     cloud.consistency = Array(repeating: 1, count: cloud.count)
     cloud.footprints = Array(repeating: spacing / 2, count: cloud.count)
     return cloud

@@ -45,9 +45,12 @@ struct ObjectIsolation {
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Result {
     let averaging = CloudAveraging(
-      options: { var o = CloudAveraging.Options(); o.voxelFootprints = options.sampleFootprints; return o }())
+      options: {
+        var o = CloudAveraging.Options(); o.voxelFootprints = options.sampleFootprints; return o
+      }())
     let samples = try averaging.run(cloud, context.part(from: 0, to: 0.5))
-    let outcome = try IsolationSamples(samples, reconstruction, options)
+    let outcome =
+      try IsolationSamples(samples, reconstruction, options)
       .map { try $0.isolate(context.part(from: 0.5, to: 1)) } ?? .failure("no photo sees it.")
     switch outcome {
     case .object(let isObject, let support):
@@ -164,7 +167,10 @@ struct IsolationSamples {
     _ control: KernelControl
   ) throws {
     for _ in 0..<4 {
-      let (parts, others) = (isPart.indices.filter { isPart[$0] }, isPart.indices.filter { !isPart[$0] && weights[$0] > 0 })
+      let (parts, others) = (
+        isPart.indices.filter { isPart[$0] },
+        isPart.indices.filter { !isPart[$0] && weights[$0] > 0 }
+      )
       let object = parts.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
       guard let bounds = Mesh(positions: object).bounds, !others.isEmpty else { return }
       let size = Double((bounds.max - bounds.min).length)
@@ -187,7 +193,8 @@ struct IsolationSamples {
 
   /// The length over which the object goes on beyond the region of interest, in units of the
   /// outline of a disc of the object's area.
-  private func cut(_ isObject: [Bool], _ isAbove: [Bool], _ control: KernelControl) throws -> Double {
+  private func cut(_ isObject: [Bool], _ isAbove: [Bool], _ control: KernelControl) throws -> Double
+  {
     let object = cloud.positions.indices.filter { isObject[$0] }
     let beyond = cloud.positions.indices.filter {
       isAbove[$0] && !isObject[$0]
@@ -214,6 +221,6 @@ extension Reconstruction {
         if depth > 0 { depths[Int(photo)].append(depth) }
       }
     }
-    return depths.map(\.median)
+    return depths.map(\.upperMedian)
   }
 }

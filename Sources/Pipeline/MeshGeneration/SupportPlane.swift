@@ -66,7 +66,9 @@ struct SupportPlaneDetection {
     }
     guard var plane = best?.plane else { return nil }
     for _ in 0..<4 { plane = refined(plane, positions, normals, up, tolerance, cell) ?? plane }
-    let share = positions.reduce(0) { abs(plane.height(of: SIMD3<Double>($1))) < tolerance ? $0 + 1 : $0 }
+    let share = positions.reduce(0) {
+      abs(plane.height(of: SIMD3<Double>($1))) < tolerance ? $0 + 1 : $0
+    }
     guard Double(share) >= options.minimumShare * Double(positions.count) else { return nil }
     return plane
   }
@@ -98,7 +100,7 @@ struct SupportPlaneDetection {
     guard inliers.count >= 12, var result = SupportPlane(fitting: inliers, near: plane) else {
       return nil
     }
-    let deviation = 1.4826 * (inliers.map { abs(result.height(of: $0)) }.median ?? 0)
+    let deviation = 1.4826 * (inliers.map { abs(result.height(of: $0)) }.upperMedian ?? 0)
     result.band = min(tolerance, max(3.5 * deviation, 1.0 * cell))
     return result
   }

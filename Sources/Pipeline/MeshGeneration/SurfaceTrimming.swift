@@ -88,13 +88,16 @@ struct SurfaceTrimming {
     guard let bounds = mesh.bounds else { return }
     let limit = Float(options.gapShare) * (bounds.max - bounds.min).length
     let removed = mesh.triangles.indices.filter { isRemoved[$0] }
-    let patches = MeshComponents(removed.map { mesh.triangles[$0] }, vertexCount: mesh.positions.count)
+    let patches = MeshComponents(
+      removed.map { mesh.triangles[$0] }, vertexCount: mesh.positions.count)
     let members = Members(of: patches.components, count: patches.count)
     for patch in 0..<patches.count {
       let faces = members[patch].map { removed[Int($0)] }
       let contradicted = faces.filter { isContradicted[$0] }.count
       guard contradicted * 20 < faces.count else { continue }
-      let corners = faces.flatMap { [mesh.triangles[$0].a, mesh.triangles[$0].b, mesh.triangles[$0].c] }
+      let corners = faces.flatMap {
+        [mesh.triangles[$0].a, mesh.triangles[$0].b, mesh.triangles[$0].c]
+      }
       guard let box = Mesh(positions: corners.map { mesh.positions[Int($0)] }).bounds,
         (box.max - box.min).length < limit
       else { continue }

@@ -30,7 +30,7 @@ struct ViewFocus: Sendable {
         camera: reconstruction.camera(of: id))
     }
     let known = depths.compactMap { $0 }.filter { $0 > 0 && $0.isFinite }
-    guard !views.isEmpty, let typical = known.median else { return nil }
+    guard !views.isEmpty, let typical = known.upperMedian else { return nil }
     let anchors = views.map { view -> SIMD3<Double> in
       let depth = depths.indices.contains(view.photo) ? depths[view.photo] : nil
       return view.pose.center + (depth ?? typical) * view.axis
@@ -47,7 +47,7 @@ struct ViewFocus: Sendable {
       }
     }
     let focus = point
-    guard let median = views.map({ ($0.pose.center - focus).length }).median, median > 0,
+    guard let median = views.map({ ($0.pose.center - focus).length }).upperMedian, median > 0,
       median.isFinite
     else { return nil }
     distance = median

@@ -16,20 +16,4 @@ extension PointCloud {
     photoIndices.append(contentsOf: other.visiblePhotos(of: index))
     photoOffsets.append(UInt32(photoIndices.count))
   }
-
-  /// The median of the positive, finite footprints; nil where there are none.
-  package var medianFootprint: Float? {
-    footprints.filter { $0 > 0 && $0.isFinite }.median
-  }
-}
-
-extension Array where Element: Comparable {
-  /// The upper median; nil for an empty array.
-  package var median: Element? { quantile(0.5) }
-
-  /// The element that is greater than the fraction `q` of the others; nil for an empty array.
-  package func quantile(_ q: Double) -> Element? {
-    guard !isEmpty else { return nil }
-    return sorted()[Swift.min(count - 1, Swift.max(0, Int(q * Double(count))))]
-  }
 }

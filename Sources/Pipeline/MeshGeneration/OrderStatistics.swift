@@ -1,0 +1,17 @@
+import SceneModel
+
+extension PointCloud {
+  /// The median of the positive, finite footprints; nil where there are none.
+  var medianFootprint: Float? { footprints.filter { $0 > 0 && $0.isFinite }.upperMedian }
+}
+
+extension Array where Element: Comparable {
+  /// The upper median; nil for an empty array.
+  var upperMedian: Element? { quantile(0.5) }
+
+  /// The element that is greater than the fraction `q` of the others; nil for an empty array.
+  func quantile(_ q: Double) -> Element? {
+    guard !isEmpty else { return nil }
+    return sorted()[Swift.min(count - 1, Swift.max(0, Int(q * Double(count))))]
+  }
+}
