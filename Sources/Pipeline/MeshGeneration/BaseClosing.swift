@@ -21,7 +21,7 @@ struct BaseClosing {
   ///
   /// `object` is averaged; `seenSupport` are points of the scene that may lie on the support.
   func run(
-    object: PointCloud, scene: [SIMD3<Float>], support: SupportPlane, cell: Double
+    object: PointCloud, scene: [SIMD3<Float>], support: StandingPlane, cell: Double
   ) -> [SIMD3<Float>] {
     let heights = object.positions.map { support.height(of: SIMD3<Double>($0)) }
     guard let top = heights.quantile(0.99), top > 4 * support.band else { return [] }
@@ -47,7 +47,7 @@ private struct SupportGrid {
 
   let width: Int
   let height: Int
-  private let plane: SupportPlane
+  private let plane: StandingPlane
   private let (u, v): (SIMD3<Double>, SIMD3<Double>)
   private let origin: SIMD2<Double>
   private let cell: Double
@@ -55,7 +55,7 @@ private struct SupportGrid {
   private var supportCounts: [UInt16]
 
   /// Nil where the points don't span an area or span too large a one.
-  init?(_ points: [SIMD3<Float>], _ plane: SupportPlane, cell: Double) {
+  init?(_ points: [SIMD3<Float>], _ plane: StandingPlane, cell: Double) {
     (u, v) = plane.normal.orthonormalPair
     self.plane = plane
     let (u, v) = (u, v)

@@ -71,7 +71,7 @@ package struct MeshGeneration {
 
   private func select(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
-  ) throws -> (isKept: [Bool], support: SupportPlane?) {
+  ) throws -> (isKept: [Bool], support: StandingPlane?) {
     if options.isolatesObject {
       let result = try ObjectIsolation().run(cloud, reconstruction, context)
       if let failure = result.failure {

@@ -24,7 +24,7 @@ struct ObjectIsolation {
     var partnerShare = 0.25
     /// The object's share of the samples in the middle of the view at least; less is no object.
     var minimumShare = 0.02
-    /// What is cut off at the region's end, as share of the outline, where there is no clear object.
+    /// More than this share of the outline cut off at the region's end means no clear object.
     var maximumCut = 0.25
 
     init() {}
@@ -34,7 +34,7 @@ struct ObjectIsolation {
     /// Whether each input point is of the object.
     var isKept: [Bool]
     /// What the object stands on; nil where none was found.
-    var support: SupportPlane?
+    var support: StandingPlane?
     /// Why there is no clear object; then everything finite is kept.
     var failure: String?
   }
@@ -66,7 +66,7 @@ struct ObjectIsolation {
 /// The averaged samples with what decides whether they are of the object.
 struct IsolationSamples {
   enum Outcome {
-    case object([Bool], SupportPlane?)
+    case object([Bool], StandingPlane?)
     case failure(String)
   }
 
@@ -106,7 +106,7 @@ struct IsolationSamples {
     }
     guard region.count >= 30 else { return .failure("too little is seen by most photos.") }
     try context.control.step(0.1)
-    let support = SupportPlaneDetection().run(
+    let support = StandingPlaneDetection().run(
       positions: region.map { cloud.positions[$0] },
       normals: cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] },
       up: up, isUpKnown: isUpKnown, focus: focus, cell: cell)

@@ -8,7 +8,7 @@ struct SceneTrimming {
   struct Options: Hashable, Codable, Sendable {
     /// Points with a footprint of more than this many medians are far background.
     var maximumFootprints = 8.0
-    /// Points that are seen from directions that differ by less than this have no depth, in degrees.
+    /// Points seen from directions that differ by less than this, in degrees, have no depth.
     var minimumParallaxDegrees = 1.0
     /// Side of a voxel in which points are neighbours, in median footprints.
     var connectionFootprints = 6.0

@@ -20,8 +20,8 @@ struct ViewFocus: Sendable {
 
   /// Nil without a registered photo or where all is in one place.
   ///
-  /// `depths` holds the median depth of what each photo sees, nil where nothing is known. It decides
-  /// where nearly parallel axes don't meet.
+  /// `depths` holds the median depth of what each photo sees, nil where nothing is known. It
+  /// decides where nearly parallel axes don't meet.
   init?(_ reconstruction: Reconstruction, depths: [Double?]) {
     views = reconstruction.registered.compactMap { id in
       guard let pose = reconstruction.poses[id.index] else { return nil }
@@ -94,13 +94,13 @@ struct ViewFocus: Sendable {
       matrix.row1 += w * rows[1] + SIMD3(0, pull, 0)
       matrix.row2 += w * rows[2] + SIMD3(0, 0, pull)
     }
-    return matrix.solve(right)
+    return matrix.solution(of: right)
   }
 }
 
 extension Matrix3 {
   /// The solution x of `self · x = right` by Cramer's rule; nil for a singular matrix.
-  func solve(_ right: SIMD3<Double>) -> SIMD3<Double>? {
+  func solution(of right: SIMD3<Double>) -> SIMD3<Double>? {
     let columns = transpose
     let determinant = determinant
     guard determinant.isFinite, abs(determinant) > .leastNormalMagnitude else { return nil }

@@ -2,7 +2,7 @@ import Foundation
 import SceneModel
 
 /// The plane that an object stands on: `normal · x = offset`, the normal points up.
-struct SupportPlane: Hashable, Sendable {
+struct StandingPlane: Hashable, Sendable {
   var normal: SIMD3<Double>
   var offset: Double
   /// Half the thickness of what belongs to the support, in world units.
@@ -13,7 +13,7 @@ struct SupportPlane: Hashable, Sendable {
 
 /// Finds the dominant near-horizontal plane under the object by RANSAC (Fischler and Bolles, CACM
 /// 1981) with a least-squares finish.
-struct SupportPlaneDetection {
+struct StandingPlaneDetection {
   struct Options: Hashable, Codable, Sendable {
     /// Planes steeper than this are walls, in degrees.
     var maximumTiltDegrees = 30.0
@@ -39,7 +39,7 @@ struct SupportPlaneDetection {
   func run(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], up: SIMD3<Double>, isUpKnown: Bool,
     focus: ViewFocus, cell: Double
-  ) -> SupportPlane? {
+  ) -> StandingPlane? {
     let tilt = isUpKnown ? options.maximumTiltDegrees : options.maximumUnknownTiltDegrees
     let minimumCosine = cos(tilt * .pi / 180)
     let candidates = positions.indices.filter { index in
@@ -51,13 +51,13 @@ struct SupportPlaneDetection {
     let scoring = Swift.stride(from: 0, to: positions.count, by: stride).map {
       SIMD3<Double>(positions[$0])
     }
-    var random = SplitMix(state: 0x5eed_0001)
-    var best: (plane: SupportPlane, score: Double)?
+    var random = PlaneRandom(state: 0x5eed_0001)
+    var best: (plane: StandingPlane, score: Double)?
     for _ in 0..<options.iterations {
       let corners = (0..<3).map { _ in
         SIMD3<Double>(positions[candidates[random.below(candidates.count)]])
       }
-      guard var plane = SupportPlane(through: corners, up: up, band: tolerance),
+      guard var plane = StandingPlane(through: corners, up: up, band: tolerance),
         plane.normal.dot(up) > minimumCosine, camerasAbove(plane, focus)
       else { continue }
       plane.band = tolerance
@@ -74,7 +74,7 @@ struct SupportPlaneDetection {
   }
 
   /// Samples on the plane, less those below it: nothing is seen under a support.
-  private func score(_ plane: SupportPlane, _ samples: [SIMD3<Double>]) -> Double {
+  private func score(_ plane: StandingPlane, _ samples: [SIMD3<Double>]) -> Double {
     samples.reduce(0) { sum, sample in
       let height = plane.height(of: sample)
       if abs(height) < plane.band { return sum + 1 - abs(height) / plane.band * 0.5 }
@@ -82,7 +82,7 @@ struct SupportPlaneDetection {
     }
   }
 
-  private func camerasAbove(_ plane: SupportPlane, _ focus: ViewFocus) -> Bool {
+  private func camerasAbove(_ plane: StandingPlane, _ focus: ViewFocus) -> Bool {
     let centers = focus.centers
     let above = centers.filter { plane.height(of: $0) > 0 }.count
     return Double(above) >= options.minimumCamerasAbove * Double(centers.count)
@@ -90,14 +90,14 @@ struct SupportPlaneDetection {
 
   /// The plane of least squares through its samples, with a band from their spread.
   private func refined(
-    _ plane: SupportPlane, _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>],
+    _ plane: StandingPlane, _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>],
     _ up: SIMD3<Double>, _ tolerance: Double, _ cell: Double
-  ) -> SupportPlane? {
+  ) -> StandingPlane? {
     let inliers = positions.indices.filter { index in
       abs(plane.height(of: SIMD3<Double>(positions[index]))) < tolerance
         && (normals.isEmpty || SIMD3<Double>(normals[index]).dot(plane.normal) > 0.7)
     }.map { SIMD3<Double>(positions[$0]) }
-    guard inliers.count >= 12, var result = SupportPlane(fitting: inliers, near: plane) else {
+    guard inliers.count >= 12, var result = StandingPlane(fitting: inliers, near: plane) else {
       return nil
     }
     let deviation = 1.4826 * (inliers.map { abs(result.height(of: $0)) }.upperMedian ?? 0)
@@ -106,7 +106,7 @@ struct SupportPlaneDetection {
   }
 }
 
-extension SupportPlane {
+extension StandingPlane {
   /// The plane through three points; nil where they are nearly on a line.
   init?(through points: [SIMD3<Double>], up: SIMD3<Double>, band: Double) {
     let (u, v) = (points[1] - points[0], points[2] - points[0])
@@ -120,7 +120,7 @@ extension SupportPlane {
   }
 
   /// The plane of least squares in height over `plane`; nil where the points are on a line.
-  init?(fitting points: [SIMD3<Double>], near plane: SupportPlane) {
+  init?(fitting points: [SIMD3<Double>], near plane: StandingPlane) {
     let (u, v) = plane.normal.orthonormalPair
     let mean = points.reduce(.zero, +) / Double(points.count)
     var matrix = Matrix3(rows: .zero, .zero, .zero)
@@ -133,7 +133,7 @@ extension SupportPlane {
       matrix.row2 += row
       right += plane.height(of: point) * row
     }
-    guard let slope = matrix.solve(right) else { return nil }
+    guard let slope = matrix.solution(of: right) else { return nil }
     normal = (plane.normal - slope.x * u - slope.y * v).normalized
     offset = normal.dot(mean + (slope.z - plane.height(of: mean)) * plane.normal)
     band = plane.band
@@ -150,7 +150,7 @@ extension SIMD3 where Scalar == Double {
 }
 
 /// A small generator of repeatable numbers (Steele et al., OOPSLA 2014).
-struct SplitMix {
+struct PlaneRandom {
   var state: UInt64
 
   mutating func next() -> UInt64 {
