@@ -58,6 +58,14 @@ ck_status ck_two_view_estimate(const double* first, const double* second, size_t
                                const ck_two_view_options* options, const ck_control* control,
                                ck_two_view_result* result, uint8_t* inliers);
 
+/// What a pair says about the focal length: for each factor the sum of min(Sampson error², limit²),
+/// in the units of the points, of the best pose when the focal length is `factor` times the assumed
+/// one. `fundamental` is where the search for the pose starts.
+ck_status ck_focal_length_costs(const double *first, const double *second, size_t count,
+                                const double *fundamental, double maximum_error,
+                                const double *factors, size_t factor_count,
+                                const ck_control *control, double *costs);
+
 #ifdef __cplusplus
 }
 #endif
