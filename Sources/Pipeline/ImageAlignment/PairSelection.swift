@@ -11,11 +11,11 @@ package struct PairSelection {
     /// Up to this number of pairs all are taken without a first look.
     package var exhaustivePairs = 30
     /// Features of each photo that the first look matches: those of the largest scale.
-    package var prefix = 2000
+    package var prefix = 2048
     /// Ratio of the first look, more permissive than that of the matching.
     package var prefixRatio = 0.8
     /// Matches at first look that a pair needs.
-    package var minimumPrefixMatches = 7
+    package var minimumPrefixMatches = 8
     /// Above this number of photos the number of partners is limited.
     package var manyPhotos = 100
     /// Features of the first look among many photos.

@@ -75,9 +75,10 @@ package struct SelfCalibration {
     let limit =
       options.relativeMaximumError * Double(max(camera.width, camera.height))
       / camera.focalLength.x
-    let evidence = try context.control.parallelMap(pairs.count) {
-      try evidence(pairs[$0], camera, features, limit)
-    }.compactMap { $0 }
+    let collected = try context.control.parallelMap(pairs.count) {
+      try self.evidence(pairs[$0], camera, features, limit)
+    }
+    let evidence = collected.compactMap { $0 }
     guard !evidence.isEmpty else { return nil }
     func costs(_ factors: [Double]) throws -> [Double] {
       try cost(evidence, limit, factors, context)

@@ -1,0 +1,138 @@
+import Foundation
+import Kernels
+import Pipeline
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct CorrespondenceSearchTests {
+  static func scene(
+    _ layout: SyntheticScene.Layout = .ring, photos: Int = 10, noise: Double = 0.4,
+    secondComponentStart: Int? = nil
+  ) -> SyntheticScene {
+    var options = SyntheticScene.Options()
+    options.layout = layout
+    options.photoCount = photos
+    options.pixelNoise = noise
+    options.secondComponentStart = secondComponentStart
+    return SyntheticScene(options)
+  }
+
+  static func search(
+    _ scene: SyntheticScene, camera: Camera? = nil, isSequential: Bool = false, threads: Int = 1
+  ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
+    try CorrespondenceSearch().run(
+      photos: scene.photos, cameras: [camera ?? scene.camera], features: scene.features,
+      isSequential: isSequential, StageContext(control: KernelControl(threadCount: threads)))
+  }
+
+  static func exif(_ scene: SyntheticScene) -> Camera {
+    var camera = scene.camera
+    camera.calibration = .exif
+    return camera
+  }
+
+  @Test(arguments: SyntheticScene.Layout.allCases)
+  func relativePosesAreRight(layout: SyntheticScene.Layout) throws {
+    let scene = Self.scene(layout)
+    let graph = try Self.search(scene, camera: Self.exif(scene)).viewGraph
+    let common = scene.viewGraph.pairs.filter { $0.matches.count >= 60 }
+    #expect(graph.pairs.count >= common.count && graph.photoCount == 10)
+    for pair in graph.pairs where pair.matches.count >= 60 {
+      let (first, second) = (pair.pair.first.index, pair.pair.second.index)
+      let truth = scene.poses[second] * scene.poses[first].inverse
+      let pose = try #require(pair.secondFromFirst)
+      #expect((pose.rotation * truth.rotation.conjugate).angle < 0.03)
+      if pair.model == .essential {
+        #expect(pose.translation.normalized.dot(truth.translation.normalized) > 0.999)
+      }
+      let right = pair.matches.filter {
+        scene.pointOfFeature[first][Int($0.first)] == scene.pointOfFeature[second][Int($0.second)]
+      }
+      #expect(right.count == pair.matches.count)
+      #expect(zip(pair.matches, pair.matches.dropFirst()).allSatisfy { $0.first < $1.first })
+    }
+  }
+
+  @Test(arguments: [0.75, 1.3])
+  func assumedFocalLengthIsCorrected(factor: Double) throws {
+    let scene = Self.scene()
+    var camera = scene.camera
+    camera.calibration = .assumed
+    camera.focalLength *= factor
+    let result = try Self.search(scene, camera: camera)
+    #expect(abs(result.cameras[0].focalLength.x / scene.camera.focalLength.x - 1) < 0.03)
+    #expect(result.viewGraph.pairs.contains { $0.model == .essential })
+    #expect(result.viewGraph.pairs.allSatisfy { $0.secondFromFirst != nil })
+  }
+
+  @Test func knownFocalLengthIsKept() throws {
+    let scene = Self.scene()
+    var camera = Self.exif(scene)
+    camera.focalLength *= 1.05
+    #expect(try Self.search(scene, camera: camera).cameras == [camera])
+  }
+
+  @Test func threadsDoNotMatter() throws {
+    let scene = Self.scene(photos: 8)
+    let one = try Self.search(scene, threads: 1)
+    let two = try Self.search(scene, threads: 2)
+    #expect(one.viewGraph.pairs == two.viewGraph.pairs && one.cameras == two.cameras)
+  }
+
+  @Test func strangersAreNotPaired() throws {
+    let scene = Self.scene(photos: 12, secondComponentStart: 6)
+    let graph = try Self.search(scene, camera: Self.exif(scene)).viewGraph
+    #expect(!graph.pairs.isEmpty)
+    #expect(graph.pairs.allSatisfy { ($0.pair.first.index < 6) == ($0.pair.second.index < 6) })
+  }
+
+  @Test func sequenceClosesItsLoop() throws {
+    let scene = Self.scene(photos: 40)
+    let pairs = try PairSelection().run(scene.features, isSequential: true, StageContext())
+    #expect(pairs == pairs.sorted() && Set(pairs).count == pairs.count)
+    #expect((0..<39).allSatisfy { pairs.contains(PhotoPair(ID($0), ID($0 + 1))) })
+    #expect(pairs.contains(PhotoPair(ID(0), ID(39))) && pairs.contains(PhotoPair(ID(1), ID(38))))
+    #expect(pairs.count < 40 * 39 / 2)
+  }
+
+  @Test func firstLookKeepsPairsThatOverlap() throws {
+    let scene = Self.scene(photos: 20)
+    let pairs = try PairSelection().run(scene.features, isSequential: false, StageContext())
+    let kept = Set(pairs)
+    #expect(scene.viewGraph.pairs.allSatisfy { $0.matches.count < 20 || kept.contains($0.pair) })
+    #expect(pairs.count < 20 * 19 / 2)
+  }
+
+  @Test func partnersAmongManyAreLimited() throws {
+    let scene = Self.scene(photos: 20)
+    var options = PairSelection.Options()
+    (options.manyPhotos, options.partners) = (10, 3)
+    let pairs = try PairSelection(options).run(scene.features, isSequential: false, StageContext())
+    #expect((20...60).contains(pairs.count))
+    #expect((0..<20).allSatisfy { pairs.contains(PhotoPair(ID($0), ID(($0 + 1) % 20))) })
+  }
+
+  @Test func emptyInputGivesAnEmptyGraph() throws {
+    for count in [0, 1, 2] {
+      let scene = Self.scene(photos: max(1, count))
+      let context = StageContext()
+      let result = try CorrespondenceSearch().run(
+        photos: Array(scene.photos.prefix(count)), cameras: [scene.camera],
+        features: Array(repeating: FeatureSet(), count: count), isSequential: count == 2, context)
+      #expect(result.viewGraph.pairs.isEmpty && result.viewGraph.photoCount == count)
+      #expect(context.notes.warnings.isEmpty == (count < 2))
+    }
+  }
+
+  @Test func cancelledSearchThrows() throws {
+    let scene = Self.scene(photos: 4)
+    let flag = CancellationFlag()
+    flag.cancel()
+    #expect(throws: CancellationError.self) {
+      _ = try CorrespondenceSearch().run(
+        photos: scene.photos, cameras: [scene.camera], features: scene.features,
+        isSequential: false, StageContext(control: KernelControl(flag: flag)))
+    }
+  }
+}
