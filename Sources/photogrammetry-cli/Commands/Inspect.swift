@@ -1,0 +1,135 @@
+#if canImport(Pipeline)
+  import ArgumentParser
+  import Foundation
+  import Kernels
+  import Pipeline
+  import SceneModel
+  import Synchronization
+
+  /// Tells what a run would use.
+  struct Inspect: ParsableCommand {
+    static let configuration = CommandConfiguration(
+      commandName: "inspect",
+      abstract: "Tell which photos of a folder would be used, which not, and why.",
+      discussion: """
+        Reads and checks every file as 'reconstruct' does, without reconstructing.
+
+        EXAMPLE
+          photogrammetry-cli inspect photos/
+
+        Exit codes: 0 there are enough photos, 1 there are too few, 2 the folder can't be read.
+        """)
+
+    @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
+    var inputFolder: String
+
+    @Flag(name: .long, help: "Print one JSON object instead of a table.")
+    var json = false
+
+    @Option(name: .long, help: ArgumentHelp("Threads to read with.", valueName: "count"))
+    var threads: Int?
+
+    @OptionGroup var logging: LoggingOptions
+
+    /// Two photos have a geometry, but no surface that is worth the name.
+    private static let neededPhotos = 3
+
+    mutating func run() throws {
+      logging.bootstrap()
+      let folder = try PhotoFolderArgument(inputFolder).url
+      let count = threads ?? ProcessInfo.processInfo.activeProcessorCount
+      let reporter = ProgressBox(RunReporter(logging.style(json: false)))
+      let control = KernelControl(threadCount: max(1, count)) { reporter.update($0) }
+      let ingested = try PhotoIngestion().run(folder: folder, StageContext(control: control))
+      reporter.finish()
+      if json {
+        Terminal.shared.result(try InspectionReport(ingested).encoded())
+      } else {
+        InspectionReport(ingested).lines.forEach(Terminal.shared.result)
+      }
+      guard ingested.photos.count >= Self.neededPhotos else {
+        throw CommandFailure.run(
+          "\(ingested.photos.count) usable photos are too few for a reconstruction. Take 20 or "
+            + "more all around the object, each overlapping its neighbours by 70 %.")
+      }
+    }
+  }
+
+  /// A reporter that any thread may use.
+  private final class ProgressBox: Sendable {
+    private let reporter: Mutex<RunReporter>
+
+    init(_ reporter: RunReporter) { self.reporter = Mutex(reporter) }
+
+    func update(_ fraction: Double) {
+      reporter.withLock {
+        $0.update(RunProgress(fraction: fraction, stage: .preProcessing, remaining: nil))
+      }
+    }
+
+    func finish() { reporter.withLock { $0.finish() } }
+  }
+
+  /// What `inspect` prints.
+  struct InspectionReport: Encodable {
+    struct Used: Encodable {
+      var name: String
+      var width: Int
+      var height: Int
+      var camera: Int
+      /// Pixels.
+      var focalLength: Double
+      var calibration: Camera.Calibration
+      var hasPosition: Bool
+    }
+
+    struct Refused: Encodable {
+      var name: String
+      var fault: RefusedPhoto.Fault
+      var reason: String
+    }
+
+    var used: [Used]
+    var refused: [Refused]
+    var cameras: Int
+    var isDownsampled: Bool
+
+    init(_ ingested: IngestedPhotos) {
+      used = ingested.photos.map { photo in
+        let camera = ingested.cameras[photo.camera.index]
+        return Used(
+          name: photo.name, width: photo.width, height: photo.height, camera: photo.camera.index,
+          focalLength: camera.focalLength.x, calibration: camera.calibration,
+          hasPosition: photo.position != nil)
+      }
+      refused = ingested.refused.map { Refused(name: $0.name, fault: $0.fault, reason: $0.reason) }
+      cameras = ingested.cameras.count
+      isDownsampled = ingested.isDownsampled
+    }
+
+    func encoded() throws -> String {
+      let encoder = JSONEncoder()
+      encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
+      return String(decoding: try encoder.encode(self), as: UTF8.self)
+    }
+
+    /// A table of the used photos, the sentences about the others and a summary.
+    var lines: [String] {
+      let width = used.map(\.name.count).max() ?? 0
+      var lines = used.map { photo in
+        let name = photo.name.padding(toLength: width, withPad: " ", startingAt: 0)
+        let focal = "focal length \(Int(photo.focalLength.rounded())) px (\(photo.calibration))"
+        let place = photo.hasPosition ? "  GPS" : ""
+        return "\(name)  \(photo.width) x \(photo.height)  camera \(photo.camera + 1)  \(focal)\(place)"
+      }
+      lines += refused.map(\.reason)
+      lines.append(
+        "\(used.count) photos of \(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
+          + "\(refused.count) files not.")
+      if isDownsampled {
+        lines.append("Photos would be used at a lower resolution to fit the memory.")
+      }
+      return lines
+    }
+  }
+#endif

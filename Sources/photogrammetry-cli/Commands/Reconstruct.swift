@@ -1,0 +1,123 @@
+import ArgumentParser
+import Foundation
+import RealityKit
+
+/// Makes a model from a folder of photos.
+struct Reconstruct: AsyncParsableCommand {
+  static let configuration = CommandConfiguration(
+    commandName: "reconstruct",
+    abstract: "Reconstruct an object from photos.",
+    usage: """
+      photogrammetry-cli <input-folder> <output> [options]
+      """,
+    discussion: """
+      Take 20 to 200 sharp photos all around the object, each overlapping its neighbours by 70 % or \
+      more, with the object still and the light even.
+
+      EXAMPLES
+        photogrammetry-cli photos/ model.usdz
+            One file for AR Quick Look, at the 'reduced' level.
+        photogrammetry-cli photos/ model.usdz -d medium --checkpoint-directory work/
+            More detail; a later run goes on from what is in work/.
+        photogrammetry-cli photos/ model/ --poses poses.json --point-cloud points.ply
+            A folder with OBJ, MTL, USDA and textures, and what else is known.
+        photogrammetry-cli facade/ facade.usdz --no-object-masking -o sequential
+            A scene instead of an object, photographed from left to right.
+
+      DETAIL LEVELS (upper bounds; poor photos give less)
+        level     triangles    texture           maps
+        preview      25,000    1024 x 1024       colour, normal, occlusion
+        reduced      50,000    2048 x 2048       colour, normal, occlusion
+        medium      100,000    4096 x 4096       colour, normal, occlusion
+        full        250,000    8192 x 8192       and roughness, displacement
+        raw      30,000,000    8192 x 8192, 16   colour
+
+      Paths of what was written go to stdout, everything else to stderr.
+      """)
+
+  @Argument(
+    help: ArgumentHelp("The folder with the photos: JPEG or PNG.", valueName: "input-folder"))
+  var inputFolder: String
+
+  @Argument(
+    help: ArgumentHelp(
+      "A .usdz file, or a folder for OBJ, MTL, USDA and textures.", valueName: "output"))
+  var output: String
+
+  @Option(name: .shortAndLong, help: "How fine the model is; see the table above.")
+  var detail = DetailArgument.reduced
+
+  @Option(
+    name: [.customShort("o"), .long],
+    help: "Whether neighbours in the order of file names show the same part.")
+  var sampleOrdering = OrderingArgument.unordered
+
+  @Option(
+    name: [.customShort("f"), .long],
+    help: "Use 'high' for objects with little texture; it takes longer.")
+  var featureSensitivity = SensitivityArgument.normal
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "Keep intermediate results there, and go on from them.", valueName: "folder"))
+  var checkpointDirectory: String?
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp("Write the cameras' poses as JSON.", valueName: "file.json"))
+  var poses: String?
+
+  @Option(
+    name: .long, help: ArgumentHelp("Write the coloured points as PLY.", valueName: "file.ply"))
+  var pointCloud: String?
+
+  @Flag(name: .long, help: "Keep the surroundings instead of isolating the object.")
+  var noObjectMasking = false
+
+  @OptionGroup var engine: EngineArguments
+
+  @Flag(name: .long, help: "Tell progress and results as JSON, an object a line, on stdout.")
+  var json = false
+
+  @OptionGroup var logging: LoggingOptions
+
+  mutating func run() async throws {
+    logging.bootstrap()
+    let job = try ReconstructionJob(self)
+    try await job.run(RunReporter(logging.style(json: json)))
+  }
+}
+
+/// The detail levels of the command line.
+enum DetailArgument: String, ExpressibleByArgument, CaseIterable {
+  case preview, reduced, medium, full, raw
+
+  var detail: PhotogrammetrySession.Request.Detail {
+    switch self {
+    case .preview: .preview
+    case .reduced: .reduced
+    case .medium: .medium
+    case .full: .full
+    case .raw: .raw
+    }
+  }
+}
+
+/// The orders of photos of the command line.
+enum OrderingArgument: String, ExpressibleByArgument, CaseIterable {
+  case unordered, sequential
+
+  var ordering: PhotogrammetrySession.Configuration.SampleOrdering {
+    self == .sequential ? .sequential : .unordered
+  }
+}
+
+/// The feature sensitivities of the command line.
+enum SensitivityArgument: String, ExpressibleByArgument, CaseIterable {
+  case normal, high
+
+  var sensitivity: PhotogrammetrySession.Configuration.FeatureSensitivity {
+    self == .high ? .high : .normal
+  }
+}

@@ -1,0 +1,48 @@
+import Logging
+import Synchronization
+
+/// Writes log messages to stderr as a person wants to read them: `warning: a sentence`.
+struct ConsoleLogHandler: LogHandler {
+  /// The session's own log of failed requests repeats what the command says at its end.
+  static let hidesSessionErrors = Atomic<Bool>(false)
+
+  let label: String
+  var logLevel: Logger.Level
+  var metadata: Logger.Metadata = [:]
+
+  init(label: String, logLevel: Logger.Level) {
+    self.label = label
+    self.logLevel = logLevel
+  }
+
+  subscript(metadataKey key: String) -> Logger.Metadata.Value? {
+    get { metadata[key] }
+    set { metadata[key] = newValue }
+  }
+
+  func log(
+    level: Logger.Level, message: Logger.Message, metadata: Logger.Metadata?, source: String,
+    file: String, function: String, line: UInt
+  ) {
+    if level == .error, label.hasPrefix("photogrammetry.session"),
+      Self.hidesSessionErrors.load(ordering: .relaxed)
+    {
+      return
+    }
+    let fields = self.metadata.merging(metadata ?? [:]) { $1 }.sorted { $0.key < $1.key }
+      .map { " \($0.key)=\($0.value)" }.joined()
+    Terminal.shared.message(Self.prefix(level) + "\(message)" + fields)
+  }
+
+  private static func prefix(_ level: Logger.Level) -> String {
+    let (word, color) =
+      switch level {
+      case .trace, .debug: ("debug", 90)
+      case .info, .notice: ("", 0)
+      case .warning: ("warning", 33)
+      case .error, .critical: ("error", 31)
+      }
+    guard !word.isEmpty else { return "" }
+    return Terminal.shared.usesColor ? "\u{1B}[\(color)m\(word):\u{1B}[0m " : "\(word): "
+  }
+}

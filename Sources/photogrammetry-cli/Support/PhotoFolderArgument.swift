@@ -1,0 +1,36 @@
+import Foundation
+
+/// The folder of photos that the command line names.
+struct PhotoFolderArgument {
+  let url: URL
+
+  /// Throws a `CommandFailure` unless `path` is a folder that can be read and holds something.
+  init(_ path: String) throws {
+    url = URL(fileURLWithPath: path, isDirectory: true)
+    var isDirectory: ObjCBool = false
+    guard FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory) else {
+      throw CommandFailure.usage("The folder \(path) does not exist. Check the path.")
+    }
+    guard isDirectory.boolValue else {
+      throw CommandFailure.usage(
+        "\(path) is a file. Name the folder that holds the photos: \(parent(of: path))")
+    }
+    let names: [String]
+    do {
+      names = try FileManager.default.contentsOfDirectory(atPath: url.path)
+    } catch {
+      throw CommandFailure.usage("The folder \(path) can't be read. Check its permissions.")
+    }
+    guard names.contains(where: { !$0.hasPrefix(".") }) else {
+      throw CommandFailure.run(
+        "The folder \(path) is empty. Name a folder with JPEG or PNG photos of one object, taken "
+          + "all around it.")
+    }
+  }
+}
+
+/// The folder above `path`, as the user would write it.
+private func parent(of path: String) -> String {
+  let parent = (path as NSString).deletingLastPathComponent
+  return parent.isEmpty ? "." : parent
+}
