@@ -102,6 +102,8 @@ final class ScriptedEngine: SessionEngine {
     try Data("model".utf8).write(to: url)
   }
 
+  func finishTask() throws { journal.add("finished") }
+
   var report: RunReport? { RunReport(configuration: PipelineConfiguration()) }
 }
 

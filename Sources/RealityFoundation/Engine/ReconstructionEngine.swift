@@ -23,5 +23,6 @@ final class ReconstructionEngine: SessionEngine {
   ) throws -> PhotogrammetrySession.PointCloud { throw missing }
   func bounds(_ specification: DetailSpecification) throws -> BoundingBox { throw missing }
   func writeModel(_ specification: DetailSpecification, to url: URL) throws { throw missing }
+  func finishTask() throws {}
   var report: RunReport? { nil }
 }

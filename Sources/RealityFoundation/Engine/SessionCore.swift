@@ -80,9 +80,18 @@ final class SessionCore: Sendable {
     } catch {
       for entry in task.plan.feasible { fail(entry, error) }
     }
-    let report = resident.engine?.report
-    shared.withLock { $0.report = report ?? $0.report }
+    if let engine = resident.engine { settle(engine) }
     emit { $0.finished() }
+  }
+
+  private func settle(_ engine: any SessionEngine) {
+    do {
+      try engine.finishTask()
+    } catch {
+      sessionLogger.warning("The report can't be written: \(sentence(of: error))")
+    }
+    let report = engine.report
+    shared.withLock { $0.report = report ?? $0.report }
   }
 
   private func work(

@@ -11,6 +11,8 @@ protocol SessionEngine: AnyObject {
   func pointCloud(_ specification: DetailSpecification) throws -> PhotogrammetrySession.PointCloud
   func bounds(_ specification: DetailSpecification) throws -> BoundingBox
   func writeModel(_ specification: DetailSpecification, to url: URL) throws
+  /// Leaves what the run's files need at the end of a task, the report for one.
+  func finishTask() throws
   /// What was done so far.
   var report: RunReport? { get }
 }

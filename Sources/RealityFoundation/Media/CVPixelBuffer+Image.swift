@@ -31,8 +31,8 @@ extension CVPixelBuffer {
       var bytes: [UInt8] = []
       bytes.reserveCapacity(image.width * 4)
       for pixel in row * image.width..<(row + 1) * image.width {
-        let rgb = image.pixels[3 * pixel..<3 * pixel + 3]
-        bytes += rgb.reversed() + [255]
+        for channel in [2, 1, 0] { bytes.append(image.pixels[3 * pixel + channel]) }
+        bytes.append(255)
       }
       storage.write(bytes, at: row * bytesPerRow)
     }
