@@ -1,0 +1,93 @@
+import Kernels
+import SceneModel
+
+/// From photos to cameras, poses and sparse points in the world frame that everything shares.
+package struct ImageAlignment: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// The photos are in the order of capture.
+    package var isSequential = false
+    /// Look harder for features on objects of low texture.
+    package var isHighSensitivity = false
+    /// Fewer registered photos are an error.
+    package var minimumPhotos = 3
+    package var features = FeatureExtraction.Options()
+    package var correspondences = CorrespondenceSearch.Options()
+    package var mapping = IncrementalMapping.Options()
+    package var framing = WorldFraming.Options()
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The largest reconstruction of the photos; `unregistered` says why the others are missing.
+  package func run(
+    photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
+  ) throws -> Reconstruction {
+    guard photos.count >= options.minimumPhotos else {
+      throw PipelineError.tooFewPhotos(found: photos.count, needed: options.minimumPhotos)
+    }
+    var extraction = options.features
+    if options.isHighSensitivity { extraction.sensitivity = .high }
+    let features = try timed("featureSeconds", context) {
+      try FeatureExtraction(extraction).run(photos, images: images, context.part(from: 0, to: 0.4))
+    }
+    let (graph, calibrated) = try timed("matchingSeconds", context) {
+      try CorrespondenceSearch(options.correspondences).run(
+        photos: photos, cameras: cameras, features: features, isSequential: options.isSequential,
+        context.part(from: 0.4, to: 0.7))
+    }
+    guard !graph.pairs.isEmpty else {
+      throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
+    }
+    let mapped = try timed("mappingSeconds", context) {
+      try IncrementalMapping(options.mapping).run(
+        graph, features: features, photos: photos, cameras: calibrated,
+        context.part(from: 0.7, to: 0.98))
+    }
+    try check(mapped)
+    let reconstruction = WorldFraming(options.framing).run(mapped, context.part(from: 0.98, to: 1))
+    report(reconstruction, context.notes)
+    try context.control.step(1)
+    return reconstruction
+  }
+
+  private func check(_ reconstruction: Reconstruction) throws {
+    let count = reconstruction.registered.count
+    guard count >= options.minimumPhotos, !reconstruction.points.isEmpty else {
+      let photos = reconstruction.photos.count
+      throw PipelineError.alignmentFailed(
+        reason: count == 0
+          ? "no pair of the \(photos) photos shows a surface from two different places."
+          : "only \(count) of the \(photos) photos see enough of the same surface.")
+    }
+  }
+
+  private func report(_ reconstruction: Reconstruction, _ notes: StageNotes) {
+    let points = reconstruction.points
+    let observations = points.reduce(0) { $0 + $1.track.count }
+    notes.count("registered", Double(reconstruction.registered.count))
+    notes.count("points", Double(points.count))
+    notes.count("observations", Double(observations))
+    notes.count("meanReprojectionError", reconstruction.meanReprojectionError)
+    notes.count("meanTrackLength", Double(observations) / Double(max(1, points.count)))
+    let missing = reconstruction.unregistered.count
+    if missing > 0 {
+      notes.warn(
+        "\(missing) of \(reconstruction.photos.count) photos could not be aligned with the others.")
+    }
+  }
+
+  /// Runs a step and notes its duration.
+  private func timed<Value>(
+    _ name: String, _ context: StageContext, _ body: () throws -> Value
+  ) rethrows -> Value {
+    let start = ContinuousClock.now
+    let value = try body()
+    let duration = (ContinuousClock.now - start).components
+    context.notes.count(name, Double(duration.seconds) + Double(duration.attoseconds) * 1e-18)
+    return value
+  }
+}

@@ -1,0 +1,196 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// From a folder of photos to a textured model, stage by stage; every result is made once.
+///
+/// Use it from one thread. Stages run when their result is first asked for, and later requests
+/// share it: five models of one session align once and make the dense cloud once, at the finest
+/// level that `plan(for:)` named.
+package final class ReconstructionPipeline {
+  package let configuration: PipelineConfiguration
+  /// What was done so far.
+  package private(set) var report: RunReport
+
+  private let folder: URL
+  private let flag: CancellationFlag
+  private let onEvent: @Sendable (PipelineEvent) -> Void
+  private var finestViewPixels = 0
+
+  private var ingested: IngestedPhotos?
+  private var images: ImageStore?
+  private var reconstruction: Reconstruction?
+  private var cloud: (viewPixels: Int, value: PointCloud)?
+  private var surface: (viewPixels: Int, value: Mesh)?
+
+  package init(
+    folder: URL, configuration: PipelineConfiguration,
+    flag: CancellationFlag = CancellationFlag(),
+    onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
+  ) {
+    self.folder = folder
+    self.configuration = configuration
+    self.flag = flag
+    self.onEvent = onEvent
+    report = RunReport(configuration: configuration)
+  }
+
+  /// Announces the models to come, so that shared stages work at the finest resolution needed.
+  package func plan(for specifications: [DetailSpecification]) {
+    finestViewPixels = max(finestViewPixels, specifications.map(\.viewPixels).max() ?? 0)
+  }
+
+  /// Reads and validates the photos.
+  package func ingest() throws -> IngestedPhotos {
+    if let ingested { return ingested }
+    let result = try run(.preProcessing) { context in
+      var options = PhotoIngestion.Options()
+      options.memoryBudget = configuration.imageMemory
+      return try PhotoIngestion(options).run(folder: folder, context)
+    }
+    report.photos += result.refused.map {
+      .init(name: $0.name, status: .refused, reason: $0.reason)
+    }
+    result.refused.forEach { onEvent(.refused($0)) }
+    if result.isDownsampled { onEvent(.downsampled) }
+    guard !result.photos.isEmpty else {
+      throw PipelineError.noPhotos(folder: folder.path, refused: result.refused.count)
+    }
+    onEvent(.ingested(photos: result.photos.count))
+    let needed = 3
+    guard result.photos.count >= needed else {
+      throw PipelineError.tooFewPhotos(found: result.photos.count, needed: needed)
+    }
+    ingested = result
+    images = ImageStore(photos: result.photos, byteBudget: configuration.imageMemory)
+    return result
+  }
+
+  /// Finds cameras, poses and sparse points in the frame that everything else shares.
+  package func align() throws -> Reconstruction {
+    if let reconstruction { return reconstruction }
+    let (ingested, images) = try input()
+    let result = try run(.imageAlignment) { context in
+      var options = ImageAlignment.Options()
+      options.isSequential = configuration.isSequential
+      options.isHighSensitivity = configuration.isHighSensitivity
+      return try ImageAlignment(options)
+        .run(photos: ingested.photos, cameras: ingested.cameras, images: images, context)
+    }
+    describe(result)
+    try checkpoint?.write(result)
+    reconstruction = result
+    return result
+  }
+
+  /// Makes the oriented, coloured cloud at `specification`'s resolution or the finest planned.
+  package func densify(for specification: DetailSpecification) throws -> PointCloud {
+    plan(for: [specification])
+    if let cloud, cloud.viewPixels >= finestViewPixels { return cloud.value }
+    let (_, images) = try input()
+    let reconstruction = try align()
+    let result = try run(.pointCloudGeneration) { context in
+      try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
+        .run(reconstruction, images: images, context)
+    }
+    try checkpoint?.write(result)
+    cloud = (finestViewPixels, result)
+    return result
+  }
+
+  /// Makes the surface of the object, or of everything where masking is off, unsimplified.
+  package func surface(for specification: DetailSpecification) throws -> Mesh {
+    plan(for: [specification])
+    if let surface, surface.viewPixels >= finestViewPixels { return surface.value }
+    let reconstruction = try align()
+    let cloud = try densify(for: specification)
+    let result = try run(.meshGeneration) { context in
+      var options = MeshGeneration.Options()
+      options.isolatesObject = configuration.isObjectMaskingEnabled
+      return try MeshGeneration(options).run(cloud, reconstruction, context)
+    }
+    try checkpoint?.write(result)
+    surface = (finestViewPixels, result)
+    return result
+  }
+
+  /// Simplifies the surface to the budget and textures it.
+  package func model(for specification: DetailSpecification) throws -> TexturedMesh {
+    let (_, images) = try input()
+    let reconstruction = try align()
+    let dense = try surface(for: specification)
+    return try run(.textureMapping) { context in
+      let mesh = try Simplification(
+        options: .init(maximumTriangles: specification.maximumTriangles)
+      ).run(dense, context.part(from: 0, to: 0.1))
+      return try TextureMapping(
+        options: .init(textureSide: specification.textureSide, maps: specification.maps)
+      ).run(
+        mesh, dense: dense, reconstruction: reconstruction, images: images,
+        context.part(from: 0.1, to: 1))
+    }
+  }
+
+  /// Makes a model and writes it: a `.usdz` file, or a folder with OBJ, USDA and textures.
+  package func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+    let model = try model(for: specification)
+    try run(.optimization) { context in
+      try ModelExport(options: .init(textureFormat: specification.textureFormat))
+        .run(model, to: url, context)
+    }
+    try writeReport()
+  }
+
+  /// Writes `report.json` into the checkpoint directory where there is one.
+  package func writeReport() throws { try checkpoint?.write(report) }
+}
+
+extension ReconstructionPipeline {
+  private var checkpoint: Checkpoint? { configuration.checkpointDirectory.map(Checkpoint.init) }
+
+  private func input() throws -> (IngestedPhotos, ImageStore) {
+    let photos = try ingest()
+    guard let images else { preconditionFailure("ingest() makes the image store") }
+    return (photos, images)
+  }
+
+  /// Runs one stage with its own progress and notes, and puts what it cost into the report.
+  private func run<Value>(
+    _ stage: PipelineStage, _ body: (StageContext) throws -> Value
+  ) throws -> Value {
+    let notes = StageNotes()
+    let control = KernelControl(threadCount: configuration.threadCount, flag: flag) {
+      [onEvent] fraction in onEvent(.progress(stage, fraction: fraction))
+    }
+    let start = ResourceUsage.now
+    try control.step(0)
+    defer {
+      let end = ResourceUsage.now
+      report.stages.append(
+        .init(
+          name: stage.rawValue, seconds: end.seconds - start.seconds,
+          cpuSeconds: end.cpuSeconds - start.cpuSeconds, peakMemoryBytes: end.peakMemoryBytes,
+          counts: notes.counts))
+      report.warnings += notes.warnings
+      notes.warnings.forEach { onEvent(.warning($0)) }
+    }
+    let value = try body(StageContext(control: control, notes: notes))
+    try control.step(1)
+    return value
+  }
+
+  private func describe(_ reconstruction: Reconstruction) {
+    report.photos += reconstruction.registered.map {
+      .init(name: reconstruction.photos[$0.index].name, status: .registered, reason: nil)
+    }
+    report.photos += reconstruction.unregistered.map {
+      .init(name: $0.name, status: .notRegistered, reason: $0.reason)
+    }
+    report.photos.sort { $0.name < $1.name }
+    report.meanReprojectionError = reconstruction.meanReprojectionError
+    report.worldFrame = reconstruction.worldFrame
+    reconstruction.unregistered.forEach { onEvent(.refused($0)) }
+    let (registered, all) = (reconstruction.registered.count, reconstruction.photos.count)
+    if registered < all { onEvent(.stitchingIncomplete(registered: registered, of: all)) }
+  }
+}

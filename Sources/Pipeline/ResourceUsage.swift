@@ -1,0 +1,21 @@
+import Foundation
+
+/// What the process has used so far.
+struct ResourceUsage {
+  /// Monotonic clock.
+  var seconds: Double
+  /// User and system time of all threads.
+  var cpuSeconds: Double
+  /// The highest resident memory so far.
+  var peakMemoryBytes: Int
+
+  static var now: ResourceUsage {
+    var usage = rusage()
+    getrusage(Int32(RUSAGE_SELF.rawValue), &usage)
+    func seconds(_ time: timeval) -> Double { Double(time.tv_sec) + Double(time.tv_usec) * 1e-6 }
+    return ResourceUsage(
+      seconds: ProcessInfo.processInfo.systemUptime,
+      cpuSeconds: seconds(usage.ru_utime) + seconds(usage.ru_stime),
+      peakMemoryBytes: usage.ru_maxrss * 1024)
+  }
+}
