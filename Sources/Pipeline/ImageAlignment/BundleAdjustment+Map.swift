@@ -8,6 +8,10 @@ struct MapAdjustment: Sendable {
     var localPhotoCount = 6
     var localIterations = 15
     var globalIterations = 30
+    /// Relative decrease of the cost below which an adjustment ends: while the map grows, and last.
+    /// Single points creep on under the Huber loss long after cameras and poses have settled.
+    var growthTolerance = 1e-4
+    var finalTolerance = 5e-6
     /// Where the loss turns from square to linear, in pixels.
     var huberWidth = 1.0
     /// Standard deviation of a focal length from EXIF, relative.
@@ -58,7 +62,7 @@ struct MapAdjustment: Sendable {
     try adjust(
       points, anchors: anchors.sorted(), poses: poses,
       cameras: map.photos.cameras.map { _ in [] }, &map, iterations: options.localIterations,
-      tolerance: 1e-4, control)
+      tolerance: options.growthTolerance, control)
   }
 
   /// Adjusts all poses and points, and what the data supports of the intrinsics.
@@ -71,7 +75,8 @@ struct MapAdjustment: Sendable {
     if let first = map.registered.first { poses[first] = .constant }
     if map.registered.count > 1 { poses[map.registered[1]] = .scaleFixed }
     let (iterations, tolerance) =
-      isFinal ? (options.globalIterations * 2, 1e-7) : (options.globalIterations, 1e-4)
+      isFinal ? (2 * options.globalIterations, options.finalTolerance)
+      : (options.globalIterations, options.growthTolerance)
     try adjust(
       points, poses: poses, cameras: freedom(map), &map, iterations: iterations,
       tolerance: tolerance, control)

@@ -152,7 +152,7 @@ struct MapGrowth: Sendable {
     let all = Array(map.isTriangulated.indices)
     var strict = growthPoints
     for round in 0..<options.finalRounds {
-      try adjustment.adjustGlobally(&map, isFinal: round > 0, control(map))
+      try adjustment.adjustGlobally(&map, control(map))
       if round > 0 { strict.options.maximumError = options.finalError }
       var changes = try strict.filter(all, in: &map, control(map))
       changes += try strict.complete(all, in: &map, control(map))
