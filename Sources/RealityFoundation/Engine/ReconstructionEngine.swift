@@ -1,28 +1,96 @@
 import Kernels
 import Pipeline
+import SceneModel
 
-/// The engine of this package behind a session.
+/// The engine of this package behind a session: photos from a folder or from samples, and the
+/// pipeline's results in the session's types.
 final class ReconstructionEngine: SessionEngine {
+  private let pipeline: ReconstructionPipeline
+  private let samples: SampleFolder?
+  /// An alignment that failed would fail again, only later.
+  private var alignmentError: (any Swift.Error)?
+
   static let make: SessionCore.EngineFactory = { task, flag, onEvent in
-    ReconstructionEngine(task, flag, onEvent)
+    try ReconstructionEngine(task, flag, onEvent)
   }
 
-  init(
+  private init(
     _ task: EngineTask, _ flag: CancellationFlag, _ onEvent: @escaping SessionCore.EventHandler
-  ) {}
-
-  private var missing: ProcessingError {
-    .notAvailable("The reconstruction is not connected yet.", remedy: "Use a later version.")
+  ) throws {
+    let configuration = PipelineConfiguration(task.configuration, task.options)
+    switch task.input {
+    case .folder(let url):
+      samples = nil
+      pipeline = ReconstructionPipeline(
+        folder: url, configuration: configuration, flag: flag, onEvent: onEvent)
+    case .samples(let samples):
+      self.samples = samples
+      pipeline = ReconstructionPipeline(
+        folder: try samples.write(flag: flag, onEvent: onEvent), configuration: configuration,
+        flag: flag
+      ) { event in onEvent(samples.translated(event)) }
+    }
   }
 
-  func plan(for specifications: [DetailSpecification]) {}
-  func ingest() throws -> Int { throw missing }
-  func poses() throws -> PhotogrammetrySession.Poses { throw missing }
+  var report: RunReport? { pipeline.report }
+
+  func plan(for specifications: [DetailSpecification]) { pipeline.plan(for: specifications) }
+
+  func finishTask() throws { try pipeline.writeReport() }
+
+  func ingest() throws -> Int { try pipeline.ingest().photos.count }
+
+  func poses() throws -> PhotogrammetrySession.Poses {
+    PhotogrammetrySession.Poses(try align(), sampleIDs: samples?.ids)
+  }
+
   func pointCloud(
     _ specification: DetailSpecification
-  ) throws -> PhotogrammetrySession.PointCloud { throw missing }
-  func bounds(_ specification: DetailSpecification) throws -> BoundingBox { throw missing }
-  func writeModel(_ specification: DetailSpecification, to url: URL) throws { throw missing }
-  func finishTask() throws {}
-  var report: RunReport? { nil }
+  ) throws -> PhotogrammetrySession.PointCloud {
+    _ = try align()
+    return PhotogrammetrySession.PointCloud(try pipeline.densify(for: specification))
+  }
+
+  func bounds(_ specification: DetailSpecification) throws -> BoundingBox {
+    _ = try align()
+    let mesh = try pipeline.surface(for: specification)
+    return mesh.bounds.map { BoundingBox(min: $0.min, max: $0.max) } ?? .empty
+  }
+
+  func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+    _ = try align()
+    try pipeline.writeModel(specification, to: url)
+  }
+
+  private func align() throws -> Reconstruction {
+    if let alignmentError { throw alignmentError }
+    do {
+      return try pipeline.align()
+    } catch let error as CancellationError {
+      throw error
+    } catch {
+      alignmentError = error
+      throw error
+    }
+  }
+}
+
+extension PipelineConfiguration {
+  init(_ configuration: PhotogrammetrySession.Configuration, _ options: EngineOptions) {
+    self.init()
+    isObjectMaskingEnabled = configuration.isObjectMaskingEnabled
+    isSequential = configuration.sampleOrdering == .sequential
+    isHighSensitivity = configuration.featureSensitivity == .high
+    checkpointDirectory = configuration.checkpointDirectory
+    threadCount = options.threadCount
+    // The machine's memory and not what is free of it: runs must not differ.
+    imageMemory = min(imageMemory, max(256 << 20, Machine.current.totalMemoryBytes / 8))
+  }
+}
+
+extension SampleFolder {
+  /// An event about files as one about samples.
+  fileprivate func translated(_ event: PipelineEvent) -> PipelineEvent {
+    if case .refused(let photo) = event { .refused(translated(photo)) } else { event }
+  }
 }
