@@ -94,8 +94,9 @@ var cliDependencies: [Target.Dependency] = [
       ],
       swiftSettings: strict),
     .testTarget(
-      name: "CommandLineTests", dependencies: ["photogrammetry-cli", "TestSupport"],
-      swiftSettings: strict),
+      name: "CommandLineTests",
+      dependencies: ["photogrammetry-cli", "Kernels", "SceneModel", "TestSupport"],
+      exclude: ["Snapshots"], swiftSettings: strict),
   ]
   cliDependencies += ["RealityKit", "Pipeline"]
 #endif

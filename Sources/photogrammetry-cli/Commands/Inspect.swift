@@ -125,7 +125,7 @@
       lines += refused.map(\.reason)
       lines.append(
         "\(used.count) photos of \(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
-          + "\(refused.count) files not.")
+          + "\(refused.count) file\(refused.count == 1 ? "" : "s") not.")
       if isDownsampled {
         lines.append("Photos would be used at a lower resolution to fit the memory.")
       }

@@ -1,0 +1,109 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct ExitCodeTests {
+  /// Writes `count` photos of noise into a folder `name`.
+  private func makePhotos(_ count: Int, in folder: URL, _ name: String) throws {
+    let photos = folder.appendingPathComponent(name)
+    try FileManager.default.createDirectory(at: photos, withIntermediateDirectories: true)
+    for index in 0..<count {
+      let (width, height) = (800, 600)
+      let pixels = (0..<(width * height * 3)).map { place in
+        let cell = place / 3 % width / 6 + place / 3 / width / 6 * 977 + index * 31
+        return UInt8(truncatingIfNeeded: (cell &* 2_654_435_761) >> 11)
+      }
+      let image = RasterImage(width: width, height: height, channels: 3, pixels: pixels)
+      try Data(try ImageCodec.encodeJPEG(image, quality: 0.9)).write(
+        to: photos.appendingPathComponent("p\(index).jpg"))
+    }
+  }
+
+  private func expectFailure(
+    _ arguments: [String], in folder: URL, code: Int32, mentioning words: [String]
+  ) throws {
+    let before = try FileManager.default.contentsOfDirectory(atPath: folder.path).sorted()
+    let run = try CommandProcess.run(arguments, in: folder)
+    #expect(run.exitCode == code, "\(run.errors)")
+    #expect(run.output.isEmpty)
+    for word in words { #expect(run.errors.contains(word), "\(run.errors)") }
+    let after = try FileManager.default.contentsOfDirectory(atPath: folder.path).sorted()
+    #expect(before == after)
+  }
+
+  @Test func wrongUsageEndsWithTwo() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    try makePhotos(1, in: folder, "photos")
+    try Data("x".utf8).write(to: folder.appendingPathComponent("file"))
+    try expectFailure([], in: folder, code: 2, mentioning: ["input-folder"])
+    try expectFailure(
+      ["photos", "m.usdz", "-d", "huge"], in: folder, code: 2, mentioning: ["huge", "preview"])
+    try expectFailure(
+      ["nowhere", "m.usdz"], in: folder, code: 2, mentioning: ["nowhere", "does not exist"])
+    try expectFailure(
+      ["file", "m.usdz"], in: folder, code: 2, mentioning: ["file is a file"])
+    try expectFailure(
+      ["photos", "m.glb"], in: folder, code: 2, mentioning: [".glb", ".usdz"])
+    try expectFailure(
+      ["photos", "no/such/m.usdz"], in: folder, code: 2, mentioning: ["m.usdz", "mkdir -p"])
+    try expectFailure(
+      ["photos", "m.usdz", "--poses", "no/p.json"], in: folder, code: 2,
+      mentioning: ["p.json", "mkdir -p"])
+    try expectFailure(
+      ["evaluate", "photos", "--reference", "photos"], in: folder, code: 2,
+      mentioning: ["holds no result"])
+    _ = temporary
+  }
+
+  @Test func runsThatMakeNothingEndWithOne() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    let files = FileManager.default
+    for name in ["empty", "texts"] {
+      try files.createDirectory(
+        at: folder.appendingPathComponent(name), withIntermediateDirectories: true)
+    }
+    for index in 0..<3 {
+      try Data("hello".utf8).write(to: folder.appendingPathComponent("texts/\(index).txt"))
+    }
+    try makePhotos(2, in: folder, "two")
+    try expectFailure(
+      ["empty", "m.usdz"], in: folder, code: 1, mentioning: ["empty", "JPEG or PNG"])
+    try expectFailure(
+      ["texts", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "JPEG or PNG"])
+    try expectFailure(["two", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "2"])
+    _ = temporary
+  }
+
+  @Test func inspectTellsAboutEveryFile() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    try makePhotos(3, in: folder, "photos")
+    try Data("hello".utf8).write(to: folder.appendingPathComponent("photos/notes.txt"))
+    let run = try CommandProcess.run(["inspect", "photos"], in: folder)
+    #expect(run.exitCode == 0)
+    #expect(run.output.contains("p1.jpg  800 x 600"))
+    #expect(run.output.contains("notes.txt is not used"))
+    #expect(run.output.contains("3 photos of 1 camera would be used, 1 file not."))
+    let json = try CommandProcess.run(["inspect", "photos", "--json"], in: folder)
+    let value = try JSONSerialization.jsonObject(with: Data(json.output.utf8))
+    let used = (value as? [String: Any])?["used"] as? [[String: Any]]
+    #expect(used?.compactMap { $0["name"] as? String } == ["p0.jpg", "p1.jpg", "p2.jpg"])
+    _ = temporary
+  }
+
+  @Test func interruptEndsWith130() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    try makePhotos(24, in: folder, "photos")
+    let run = try CommandProcess.run(["photos", "m.usdz"], in: folder) { $0.interrupt() }
+    #expect(run.exitCode == 130, "\(run.errors)")
+    #expect(run.errors.contains("Interrupted"))
+    let names = try FileManager.default.contentsOfDirectory(atPath: folder.path)
+    #expect(names == ["photos"])
+    _ = temporary
+  }
+}

@@ -1,0 +1,84 @@
+import Foundation
+import TestSupport
+import Testing
+
+@testable import photogrammetry_cli
+
+@Suite struct ParsingTests {
+  @Test func oldCommandLinesWork() throws {
+    let command = try PhotogrammetryCLI.parseAsRoot([
+      "photos", "model.usdz", "-d", "medium", "-o", "sequential", "-f", "high",
+    ])
+    let reconstruct = try #require(command as? Reconstruct)
+    #expect(reconstruct.inputFolder == "photos")
+    #expect(reconstruct.output == "model.usdz")
+    #expect(reconstruct.detail == .medium)
+    #expect(reconstruct.sampleOrdering == .sequential)
+    #expect(reconstruct.featureSensitivity == .high)
+    #expect(!reconstruct.noObjectMasking)
+  }
+
+  @Test func defaultsAreApples() throws {
+    let reconstruct = try Reconstruct.parse(["a", "b.usdz"])
+    #expect(reconstruct.detail == .reduced)
+    #expect(reconstruct.sampleOrdering == .unordered)
+    #expect(reconstruct.featureSensitivity == .normal)
+    #expect(reconstruct.engine.threads == nil)
+  }
+
+  @Test func allOptions() throws {
+    let reconstruct = try Reconstruct.parse([
+      "a", "b/", "--detail", "raw", "--checkpoint-directory", "ck", "--poses", "p.json",
+      "--point-cloud", "c.ply", "--report", "r.json", "--no-object-masking", "--threads", "2",
+      "--json", "--verbose",
+    ])
+    #expect(reconstruct.checkpointDirectory == "ck")
+    #expect(reconstruct.poses == "p.json")
+    #expect(reconstruct.pointCloud == "c.ply")
+    #expect(reconstruct.engine.report == "r.json")
+    #expect(reconstruct.engine.threads == 2)
+    #expect(reconstruct.noObjectMasking && reconstruct.json && reconstruct.logging.verbose)
+  }
+
+  @Test(arguments: [
+    ["a"], ["a", "b.usdz", "c"], ["a", "b.usdz", "-d", "huge"], ["a", "b.usdz", "--threads", "0"],
+    ["a", "b.usdz", "--threads", "x"], ["a", "b.usdz", "--quiet", "--verbose"],
+    ["a", "b.usdz", "--unknown"],
+  ])
+  func wrongArgumentsAreRefused(_ arguments: [String]) {
+    #expect(throws: (any Error).self) { try Reconstruct.parse(arguments) }
+  }
+
+  @Test func subcommands() throws {
+    #expect(try PhotogrammetryCLI.parseAsRoot(["inspect", "photos"]) is Inspect)
+    let evaluate = try #require(
+      try PhotogrammetryCLI.parseAsRoot([
+        "evaluate", "ck", "--reference", "gt", "--threshold", "0.1", "0.2",
+      ]) as? Evaluate)
+    #expect(evaluate.threshold == [0.1, 0.2])
+    #expect(throws: (any Error).self) {
+      try Evaluate.parse(["ck", "--reference", "gt", "--threshold", "-1"])
+    }
+  }
+
+  @Test func outputsByName() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    let path = folder.path
+    let file = try ModelOutput(path + "/m.usdz")
+    #expect(file == .file(URL(fileURLWithPath: path + "/m.usdz", isDirectory: false)))
+    for name in ["/new", "/new.v2/", ""] {
+      let output = try ModelOutput(path + name)
+      #expect(output.url.hasDirectoryPath)
+      guard case .folder = output else { Issue.record("\(name) is no folder"); continue }
+    }
+    #expect(try ModelOutput(path + "/M.USDZ").url.lastPathComponent == "M.USDZ")
+    for name in ["/m.glb", "/m.ply", "/m.txt", "/no/such/m.usdz"] {
+      let failure = #expect(throws: CommandFailure.self) { try ModelOutput(path + name) }
+      #expect(failure?.exitCode == 2)
+    }
+    try Data().write(to: folder.appendingPathComponent("plain"))
+    #expect(throws: CommandFailure.self) { try ModelOutput(path + "/plain") }
+    _ = temporary
+  }
+}
