@@ -12,7 +12,6 @@ namespace {
 constexpr size_t kMaximumCount = 65536;
 constexpr size_t kBlockRows = 1u << kIndexBits;
 constexpr size_t kBlockColumns = 1u << (kIndexBits + 3);
-constexpr size_t kRowStep = 8, kColumnStep = 32;
 
 bool supported(ck_simd_path path) {
 #if defined(__x86_64__)
@@ -39,12 +38,9 @@ uint32_t largest_norm(const uint8_t* descriptors, size_t count) {
   return largest;
 }
 
-ck_simd_path chosen_path(const uint8_t* first, size_t first_count, const uint8_t* second,
-                         size_t second_count, ck_simd_path wish) {
+ck_simd_path chosen_path(uint32_t first_norm, uint32_t second_norm, ck_simd_path wish) {
   // Packed keys hold distances of unit-length descriptors; others take the plain road.
-  if (largest_norm(first, first_count) + largest_norm(second, second_count) >= kFar) {
-    return ck_simd_portable;
-  }
+  if (first_norm + second_norm >= kFar) return ck_simd_portable;
   if (wish != ck_simd_automatic) return wish;
   if (supported(ck_simd_avx512_vnni)) return ck_simd_avx512_vnni;
   return supported(ck_simd_avx2) ? ck_simd_avx2 : ck_simd_portable;
@@ -52,21 +48,13 @@ ck_simd_path chosen_path(const uint8_t* first, size_t first_count, const uint8_t
 
 void scan_block(const DistanceBlock& block, ck_simd_path path, NearestTwo* by_row,
                 NearestTwo* by_column) {
-  if (path == ck_simd_portable) return nearest_portable(block, by_row, by_column);
-  // The whole steps by vectors, then what is left: the columns beside and the rows below.
-  DistanceBlock whole = block, beside = block, below = block;
-  whole.row_end -= (block.row_end - block.row_begin) % kRowStep;
-  whole.column_end -= (block.column_end - block.column_begin) % kColumnStep;
-  beside.column_begin = whole.column_end;
-  beside.row_end = whole.row_end;
-  below.row_begin = whole.row_end;
-  if (path == ck_simd_avx2) {
-    nearest_avx2(whole, by_row, by_column);
+  if (path == ck_simd_portable || block.row_count() < 2 || block.column_count() < 2) {
+    nearest_portable(block, by_row, by_column);
+  } else if (path == ck_simd_avx2) {
+    nearest_avx2(block, by_row, by_column);
   } else {
-    nearest_avx512_vnni(whole, by_row, by_column);
+    nearest_avx512_vnni(block, by_row, by_column);
   }
-  nearest_portable(beside, by_row, by_column);
-  nearest_portable(below, by_row, by_column);
 }
 
 struct Match {
@@ -111,14 +99,17 @@ ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const u
     ck::require(first_count <= ck::kMaximumCount && second_count <= ck::kMaximumCount,
                 "there are more than 65,536 descriptors");
     ck::require(ck::supported(options->path), "this processor lacks the instructions asked for");
-    const ck_simd_path path =
-        ck::chosen_path(first, first_count, second, second_count, options->path);
+    const uint32_t first_norm = ck::largest_norm(first, first_count);
+    const uint32_t second_norm = ck::largest_norm(second, second_count);
+    const ck_simd_path path = ck::chosen_path(first_norm, second_norm, options->path);
     std::vector<ck::NearestTwo> by_row(first_count), by_column(second_count);
     for (size_t i = 0; i < first_count; i += ck::kBlockRows) {
       ck::step(control, static_cast<double>(i) / static_cast<double>(first_count));
       for (size_t j = 0; j < second_count; j += ck::kBlockColumns) {
-        const ck::DistanceBlock block{first,  i, std::min(first_count, i + ck::kBlockRows),
-                                      second, j, std::min(second_count, j + ck::kBlockColumns)};
+        const ck::DistanceBlock block{
+            first,      i,          std::min(first_count, i + ck::kBlockRows),
+            second,     j,          std::min(second_count, j + ck::kBlockColumns),
+            first_norm, second_norm};
         ck::scan_block(block, path, by_row.data(), by_column.data());
       }
     }

@@ -34,14 +34,22 @@ struct DistanceBlock {
   size_t row_begin, row_end;
   const uint8_t* columns;
   size_t column_begin, column_end;
+  /// Largest squared norms of the two sets.
+  uint32_t row_norm, column_norm;
+
+  size_t row_count() const { return row_end - row_begin; }
+  size_t column_count() const { return column_end - column_begin; }
 };
 
-// Each offers every distance of the block to its row and to its column. The vector versions need
-// rows in eights and columns in thirty-twos, at most 2^12 rows and 2^15 columns, and squared
-// norms of which any two add to less than `kFar`.
+// Each offers every distance of the block to its row and to its column. The vector versions need at
+// least two and at most 2^12 rows, and at least two and at most 2^15 columns, and largest norms
+// that add to less than `kFar`. They fill up with rows and columns that are farther than all
+// others.
 void nearest_portable(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 void nearest_avx512_vnni(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
+
+inline size_t rounded_up(size_t count, size_t step) { return (count + step - 1) / step * step; }
 
 /// Squared length of a descriptor.
 uint32_t squared_norm(const uint8_t* descriptor);

@@ -21,9 +21,12 @@ struct Panel {
   std::vector<uint32_t> term, term_with_index;
 };
 
-Panel pack(const uint8_t* descriptors, size_t count, size_t interleave, size_t index_divisor) {
-  Panel panel{std::vector<int32_t>(count * kSteps), std::vector<uint32_t>(count),
-              std::vector<uint32_t>(count)};
+/// `padded` is a multiple of `interleave`; what is filled up is `far` away.
+Panel pack(const uint8_t* descriptors, size_t count, size_t padded, uint32_t far, size_t interleave,
+           size_t index_divisor) {
+  Panel panel{std::vector<int32_t>(padded * kSteps),
+              std::vector<uint32_t>(padded, far << kIndexBits),
+              std::vector<uint32_t>(padded, far << kIndexBits)};
   for (size_t i = 0; i < count; ++i) {
     const uint8_t* d = descriptors + i * kDescriptorLength;
     panel.term[i] = squared_norm(d) << kIndexBits;
@@ -122,22 +125,24 @@ std::vector<LaneState> empty_states(size_t count) {
 }  // namespace
 
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column) {
-  const Panel rows = pack(block.rows + block.row_begin * kDescriptorLength,
-                          block.row_end - block.row_begin, kGroup, 1);
-  const Panel columns = pack(block.columns + block.column_begin * kDescriptorLength,
-                             block.column_end - block.column_begin, kLanes, kLanes);
+  const Panel rows =
+      pack(block.rows + block.row_begin * kDescriptorLength, block.row_count(),
+           rounded_up(block.row_count(), kGroup), kFar - 1 - block.column_norm, kGroup, 1);
+  const Panel columns =
+      pack(block.columns + block.column_begin * kDescriptorLength, block.column_count(),
+           rounded_up(block.column_count(), 2 * kLanes), kFar - 1 - block.row_norm, kLanes, kLanes);
   auto row_states = empty_states(rows.term.size());
   auto column_states = empty_states(columns.term.size() / kLanes);
   scan(rows, columns, row_states, column_states);
   const auto row_begin = static_cast<uint32_t>(block.row_begin);
   const auto column_begin = static_cast<uint32_t>(block.column_begin);
-  for (size_t i = 0; i < row_states.size(); ++i) {
+  for (size_t i = 0; i < block.row_count(); ++i) {
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       offer_packed(by_row[row_begin + i], row_states[i].best[lane], row_states[i].second[lane],
                    column_begin + lane, kLanes);
     }
   }
-  for (size_t j = 0; j < columns.term.size(); ++j) {
+  for (size_t j = 0; j < block.column_count(); ++j) {
     const LaneState& state = column_states[j / kLanes];
     offer_packed(by_column[column_begin + j], state.best[j % kLanes], state.second[j % kLanes],
                  row_begin, 1);

@@ -27,10 +27,12 @@ struct Columns {
 };
 
 Rows pack_rows(const DistanceBlock& block) {
-  const size_t count = block.row_end - block.row_begin;
-  Rows rows{std::vector<int32_t>(count * kSteps), std::vector<uint32_t>(count),
-            std::vector<uint32_t>(count)};
-  for (size_t i = 0; i < count; ++i) {
+  const size_t padded = rounded_up(block.row_count(), kGroup);
+  // A row of zero bytes is −128 signed, and farther away than any norm.
+  const uint32_t far = (kFar - 1 - block.column_norm) << kIndexBits;
+  Rows rows{std::vector<int32_t>(padded * kSteps, static_cast<int32_t>(0x80808080)),
+            std::vector<uint32_t>(padded, far), std::vector<uint32_t>(padded, far)};
+  for (size_t i = 0; i < block.row_count(); ++i) {
     const uint8_t* row = block.rows + (block.row_begin + i) * kDescriptorLength;
     const uint32_t norm = squared_norm(row) << kIndexBits;
     rows.term[i] = norm;
@@ -45,10 +47,11 @@ Rows pack_rows(const DistanceBlock& block) {
 }
 
 Columns pack_columns(const DistanceBlock& block) {
-  const size_t count = block.column_end - block.column_begin;
-  Columns columns{std::vector<uint8_t>(count * kDescriptorLength), std::vector<uint32_t>(count),
-                  std::vector<uint32_t>(count)};
-  for (size_t j = 0; j < count; ++j) {
+  const size_t padded = rounded_up(block.column_count(), 2 * kLanes);
+  const uint32_t far = (kFar - 1 - block.row_norm) << kIndexBits;
+  Columns columns{std::vector<uint8_t>(padded * kDescriptorLength),
+                  std::vector<uint32_t>(padded, far), std::vector<uint32_t>(padded, far)};
+  for (size_t j = 0; j < block.column_count(); ++j) {
     const uint8_t* column = block.columns + (block.column_begin + j) * kDescriptorLength;
     uint32_t sum = 0;
     for (size_t k = 0; k < kDescriptorLength; ++k) {
@@ -151,13 +154,13 @@ void nearest_avx512_vnni(const DistanceBlock& block, NearestTwo* by_row, Nearest
   scan(rows, columns, row_states, column_states);
   const auto row_begin = static_cast<uint32_t>(block.row_begin);
   const auto column_begin = static_cast<uint32_t>(block.column_begin);
-  for (size_t i = 0; i < row_states.size(); ++i) {
+  for (size_t i = 0; i < block.row_count(); ++i) {
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
       offer_packed(by_row[row_begin + i], row_states[i].best[lane], row_states[i].second[lane],
                    column_begin + lane, kLanes);
     }
   }
-  for (size_t j = 0; j < columns.term.size(); ++j) {
+  for (size_t j = 0; j < block.column_count(); ++j) {
     const LaneState& state = column_states[j / kLanes];
     offer_packed(by_column[column_begin + j], state.best[j % kLanes], state.second[j % kLanes],
                  row_begin, 1);

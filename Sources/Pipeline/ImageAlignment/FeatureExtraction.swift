@@ -13,12 +13,23 @@ package struct FeatureExtraction {
     package var highSensitivityFactor = 0.4
     /// A photo with fewer features than this is searched again at high sensitivity.
     package var sparseFeatures = 1500
-    /// Larger photos are searched at this size in pixels.
-    package var maximumPixels = 6_500_000
+    /// Photos of more pixels than this are reduced before the search. Sensors with a mosaic of colours
+    /// and lenses resolve less than their pixels, and the first octave doubles the photo anyway.
+    package var unreducedPixels = 2_400_000
+    /// Pixels of a reduced photo.
+    package var reducedPixels = 1_600_000
+    /// Pixels of the largest photo that is searched at full size at high sensitivity; larger ones are
+    /// reduced to it.
+    package var highSensitivityPixels = 6_500_000
     /// Pixels for each feature at least, so that tiny photos don't get more than they hold.
     package var pixelsPerFeature = 80
 
     package init() {}
+
+    fileprivate func maximumPixels(of photo: Photo) -> Int {
+      if sensitivity == .high { return highSensitivityPixels }
+      return photo.width * photo.height <= unreducedPixels ? unreducedPixels : reducedPixels
+    }
   }
 
   package var options: Options
@@ -43,7 +54,7 @@ package struct FeatureExtraction {
   private static func features(
     of photo: Photo, _ images: ImageStore, _ options: Options
   ) throws -> FeatureSet {
-    let image = try images.image(photo.id, maximumPixels: options.maximumPixels)
+    let image = try images.image(photo.id, maximumPixels: options.maximumPixels(of: photo))
     // A unit runs on one thread; the units run side by side.
     let control = KernelControl()
     var detection = options.detection

@@ -4,25 +4,30 @@ import SceneModel
 
 /// Finds the focal length of a camera without metadata from the matches between its photos.
 ///
-/// For each candidate it fits the relative pose of many pairs and adds what the matches are off; true
-/// focal lengths leave least. Unlike closed forms (Bougnoux, ICCV 1998) this lets pairs whose geometry
-/// doesn't determine the focal length have no say: their error is the same for all candidates.
+/// For each candidate it fits the relative pose of a pair and adds up what the matches are off; the true
+/// focal length leaves least. The pairs' best candidates vote, each with the weight of what a wrong one
+/// costs it: unlike with closed forms (Bougnoux, ICCV 1998), pairs whose geometry doesn't determine the
+/// focal length have no say, since their error is the same for all candidates.
 package struct SelfCalibration {
   package struct Options: Hashable, Codable, Sendable {
     /// Candidates lie between the assumed focal length divided and multiplied by this.
     package var range = 2.6
-    /// Candidates of the first pass; the second looks between the neighbours of the best.
+    /// Candidates of the search, evenly spaced by their logarithms.
     package var candidates = 25
     /// Pairs used at most for each camera, those with the most matches.
-    package var maximumPairs = 40
+    package var maximumPairs = 60
     /// Matches used at most of a pair.
     package var maximumMatches = 400
     /// A pair with fewer matches isn't used.
     package var minimumMatches = 50
-    /// Candidates this factor off have to cost more than the best by `minimumRise`.
-    package var testFactor = 1.35
-    /// Relative rise of the cost.
-    package var minimumRise = 1.25
+    /// A pair's weight is the rise of its cost this many candidates from the best.
+    package var weightDistance = 4
+    /// Share of the votes' weight that has to be within `agreement` of the median.
+    package var minimumAgreement = 0.5
+    /// Relative distance of focal lengths that agree.
+    package var agreement = 0.15
+    /// Weight of all votes together at least, in matches that become outliers.
+    package var minimumWeight = 10.0
     /// Largest error that counts in full, as a fraction of the photo's longer side.
     package var relativeMaximumError = 0.0012
 
@@ -79,23 +84,47 @@ package struct SelfCalibration {
       try self.evidence(pairs[$0], camera, features, limit)
     }
     let evidence = collected.compactMap { $0 }
-    guard !evidence.isEmpty else { return nil }
-    func costs(_ factors: [Double]) throws -> [Double] {
-      try cost(evidence, limit, factors, context)
-    }
     let steps = options.candidates - 1
-    let coarse = (0...steps).map { pow(options.range, 2 * Double($0) / Double(steps) - 1) }
-    let coarseCosts = try costs(coarse)
-    guard let best = coarse.indices.min(by: { coarseCosts[$0] < coarseCosts[$1] }),
-      best > 0, best < steps
+    let candidates = (0...steps).map { log(options.range) * (2 * Double($0) / Double(steps) - 1) }
+    let factors = candidates.map(exp)
+    let costs = try context.control.parallelMap(evidence.count) { index in
+      let pair = evidence[index]
+      return try FocalLengthCost.costs(
+        pair.first, pair.second, fundamental: pair.fundamental, maximumError: limit,
+        factors: factors, KernelControl()
+      ).map { $0 / (limit * limit) }
+    }
+    return agreed(costs.compactMap { vote($0, candidates) }).map(exp)
+  }
+
+  /// A pair's logarithm of the factor, by a parabola through its smallest cost, and its weight.
+  private func vote(_ costs: [Double], _ candidates: [Double]) -> (factor: Double, weight: Double)?
+  {
+    guard let best = costs.indices.min(by: { costs[$0] < costs[$1] }), best > 0,
+      best < costs.count - 1
     else { return nil }
-    let (low, high) = (coarse[best - 1], coarse[best + 1])
-    let fine = (0...12).map { low * pow(high / low, Double($0) / 12) }
-    let fineCosts = try costs(fine)
-    let factor = minimum(fine, fineCosts)
-    let sides = try costs([factor, factor / options.testFactor, factor * options.testFactor])
-    let isClear = sides.dropFirst().allSatisfy { $0 > options.minimumRise * sides[0] }
-    return isClear ? factor : nil
+    let (a, b, c) = (costs[best - 1], costs[best], costs[best + 1])
+    let curvature = a - 2 * b + c
+    let shift = curvature > 0 ? 0.5 * (a - c) / curvature : 0
+    let left = costs[max(0, best - options.weightDistance)]
+    let right = costs[min(costs.count - 1, best + options.weightDistance)]
+    let spacing = candidates[best + 1] - candidates[best]
+    return (candidates[best] + shift * spacing, max(0, min(left, right) - b))
+  }
+
+  /// The weighted median of the votes; nil where they disagree or say too little.
+  private func agreed(_ votes: [(factor: Double, weight: Double)]) -> Double? {
+    let sorted = votes.sorted { ($0.factor, $0.weight) < ($1.factor, $1.weight) }
+    let total = sorted.reduce(0) { $0 + $1.weight }
+    var sum = 0.0
+    let median = sorted.first {
+      sum += $0.weight
+      return sum >= total / 2
+    }
+    guard let median = median?.factor, total >= options.minimumWeight else { return nil }
+    let agreeing = sorted.filter { abs($0.factor - median) <= options.agreement }
+      .reduce(0) { $0 + $1.weight }
+    return agreeing >= options.minimumAgreement * total ? median : nil
   }
 
   private func evidence(
@@ -114,27 +143,5 @@ package struct SelfCalibration {
     estimation.maximumError = limit
     let geometry = try estimation.geometry(first, second, KernelControl())
     return geometry.map { Evidence(first: first, second: second, fundamental: $0.matrix) }
-  }
-
-  private func cost(
-    _ evidence: [Evidence], _ limit: Double, _ factors: [Double], _ context: StageContext
-  ) throws -> [Double] {
-    let costs = try context.control.parallelMap(evidence.count) { index in
-      let pair = evidence[index]
-      return try FocalLengthCost.costs(
-        pair.first, pair.second, fundamental: pair.fundamental, maximumError: limit,
-        factors: factors, KernelControl())
-    }
-    return factors.indices.map { index in costs.reduce(0) { $0 + $1[index] } }
-  }
-
-  /// The minimum of the parabola through the smallest of `costs` and its neighbours.
-  private func minimum(_ factors: [Double], _ costs: [Double]) -> Double {
-    guard let best = factors.indices.min(by: { costs[$0] < costs[$1] }) else { return 1 }
-    guard best > 0, best < factors.count - 1 else { return factors[best] }
-    let (a, b, c) = (costs[best - 1], costs[best], costs[best + 1])
-    let curvature = a - 2 * b + c
-    let shift = curvature > 0 ? 0.5 * (a - c) / curvature : 0
-    return factors[best] * pow(factors[best + 1] / factors[best], shift)
   }
 }
