@@ -19,6 +19,12 @@ package struct Patch: Hashable, Sendable {
   package var gradient: SIMD2<Float>
   /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
   package var cost: Float
+
+  package init(inverseDepth: Float, gradient: SIMD2<Float>, cost: Float) {
+    self.inverseDepth = inverseDepth
+    self.gradient = gradient
+    self.cost = cost
+  }
 }
 
 /// The patches of one view, and which of them were accepted.
@@ -26,9 +32,9 @@ package final class PatchMap: @unchecked Sendable {
   package let view: PatchView
   /// Positions, among all maps, of the views that may confirm patches of this one.
   package let neighbors: [Int32]
-  // Each is written by the one call that works on this map.
+  // Written by one call at a time; `PatchStereo` says in which order calls go.
   let patches: UnsafeMutablePointer<ck_patch>
-  let accepted: UnsafeMutablePointer<UInt8>
+  let states: UnsafeMutablePointer<UInt8>
   var count: Int { view.width * view.height }
 
   package init(view: PatchView, neighbors: [Int]) {
@@ -38,30 +44,55 @@ package final class PatchMap: @unchecked Sendable {
     patches = .allocate(capacity: count)
     patches.initialize(
       repeating: ck_patch(inverse_depth: 0, gradient_x: 0, gradient_y: 0, cost: 2), count: count)
-    accepted = .allocate(capacity: count)
-    accepted.initialize(repeating: 0, count: count)
+    states = .allocate(capacity: count)
+    states.initialize(repeating: 0, count: count)
   }
 
   deinit {
     patches.deallocate()
-    accepted.deallocate()
+    states.deallocate()
   }
 
   /// The patch at column `x`, row `y`.
   package subscript(x: Int, y: Int) -> Patch {
-    let raw = patches[y * view.width + x]
-    return Patch(
-      inverseDepth: raw.inverse_depth, gradient: [raw.gradient_x, raw.gradient_y], cost: raw.cost)
+    get {
+      let raw = patches[y * view.width + x]
+      return Patch(
+        inverseDepth: raw.inverse_depth, gradient: [raw.gradient_x, raw.gradient_y],
+        cost: raw.cost)
+    }
+    set {
+      patches[y * view.width + x] = ck_patch(
+        inverse_depth: newValue.inverseDepth, gradient_x: newValue.gradient.x,
+        gradient_y: newValue.gradient.y, cost: newValue.cost)
+    }
   }
 
   /// Patches that passed the filter.
-  package var acceptedCount: Int { (0..<count).reduce(0) { $0 + Int(accepted[$1]) } }
+  package var acceptedCount: Int { (0..<count).reduce(0) { $0 + (states[$1] != 0 ? 1 : 0) } }
 
-  package func isAccepted(_ x: Int, _ y: Int) -> Bool { accepted[y * view.width + x] != 0 }
+  package func isAccepted(_ x: Int, _ y: Int) -> Bool { states[y * view.width + x] != 0 }
 }
 
 /// Patch multi-view stereo on pinhole views (Furukawa and Ponce, PAMI 2010).
 package enum PatchStereo {
+  /// Instructions of the inner loops; results differ by rounding only.
+  package enum Instructions: String, CaseIterable, Codable, Sendable {
+    case automatic, portable, avx2, avx512
+
+    /// Whether this processor has them.
+    package var isSupported: Bool { ck_patches_supported(raw) }
+
+    fileprivate var raw: ck_patch_instructions {
+      switch self {
+      case .automatic: ck_patch_automatic
+      case .portable: ck_patch_portable
+      case .avx2: ck_patch_avx2
+      case .avx512: ck_patch_avx512
+      }
+    }
+  }
+
   /// How patches are made.
   package struct Options: Hashable, Codable, Sendable {
     /// Resolutions, each half of the next.
@@ -79,15 +110,19 @@ package enum PatchStereo {
     /// Standard deviation of the photos' noise in grey levels.
     package var noise: Float = 1
     package var seed: UInt32 = 1
+    package var instructions = Instructions.automatic
 
     package init() {}
   }
 
   /// Which patches are kept and how they are joined.
   package struct FilterOptions: Hashable, Codable, Sendable {
-    /// A patch whose 1 − ZNCC is higher does not count.
+    /// Largest 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm.
     package var photometricThreshold: Float = 0.4
-    /// Other views that must agree.
+    /// Largest 1 − ZNCC of a patch; between the two thresholds, where texture is weak, one more view
+    /// must agree.
+    package var weakTextureThreshold: Float = 0.6
+    /// Other views that must agree; all but one where there are fewer, but always one.
     package var minimumAgreeingViews = 2
     /// Pixels between a patch and its confirmation.
     package var reprojectionThreshold: Float = 1
@@ -96,7 +131,7 @@ package enum PatchStereo {
     /// Largest angle between normals in degrees.
     package var normalThresholdDegrees: Float = 60
     /// Relative distance behind a patch at which another view sees through it.
-    package var contradictionThreshold: Float = 0.02
+    package var contradictionThreshold: Float = 0.01
     /// Connected patches fewer than this are removed.
     package var minimumIsland = 30
     /// Pixels within which confirmations are fused.
@@ -133,23 +168,26 @@ package enum PatchStereo {
   ) throws {
     var rawOptions = options.raw
     try withRawMaps(maps) { raw in
-      try withKernel(control) { _ in
-        ck_patches_filter(maps[index].accepted, raw, raw.count, index, &rawOptions)
+      try withKernel(control) {
+        ck_patches_filter(maps[index].states, raw, raw.count, index, &rawOptions, $0)
       }
     }
   }
 
-  /// Fuses the accepted patches of `maps[index]` that no agreeing view holds at a lower cost.
+  /// Fuses the accepted patches of `maps[index]` with those of other views that agree with them.
+  ///
+  /// Call once all maps are filtered, for all maps in ascending order: patches of later maps that
+  /// become part of a point are not fused again.
   package static func fuse(
     _ maps: [PatchMap], index: Int, options: FilterOptions, control: KernelControl
   ) throws -> PointCloud {
     var rawOptions = options.raw
     var fused = [ck_fused_patch](repeating: ck_fused_patch(), count: maps[index].count)
     var count = 0
-    let accepted = maps.map { Optional(UnsafePointer($0.accepted)) }
+    let states = maps.map { Optional($0.states) }
     try withRawMaps(maps) { raw in
-      try withKernel(control) { _ in
-        ck_patches_fuse(&fused, &count, raw, accepted, raw.count, index, &rawOptions)
+      try withKernel(control) {
+        ck_patches_fuse(&fused, &count, raw, states, raw.count, index, &rawOptions, $0)
       }
     }
     return PointCloud(fused.prefix(count), photos: maps.map(\.view.photo))
@@ -180,7 +218,7 @@ extension PatchStereo.Options {
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
       finest_sources: Int32(finestSources), bilateral_contrast: bilateralContrast, noise: noise,
-      seed: seed)
+      seed: seed, instructions: instructions.raw)
   }
 }
 
@@ -188,6 +226,7 @@ extension PatchStereo.FilterOptions {
   fileprivate var raw: ck_patch_filter_options {
     ck_patch_filter_options(
       photometric_threshold: photometricThreshold,
+      weak_texture_threshold: max(photometricThreshold, weakTextureThreshold),
       minimum_agreeing: Int32(minimumAgreeingViews),
       reprojection_threshold: reprojectionThreshold, depth_threshold: depthThreshold,
       normal_cosine: cosine(degrees: normalThresholdDegrees),

@@ -32,6 +32,17 @@ typedef struct {
   float cost;
 } ck_patch;
 
+/// Which instructions the inner loops use. Results differ by rounding only.
+typedef enum {
+  ck_patch_automatic = 0,
+  ck_patch_portable = 1,
+  ck_patch_avx2 = 2,
+  ck_patch_avx512 = 3,
+} ck_patch_instructions;
+
+/// Whether this processor has the instructions.
+bool ck_patches_supported(ck_patch_instructions instructions);
+
 typedef struct {
   /// Resolutions, each half of the next.
   int32_t level_count;
@@ -48,6 +59,7 @@ typedef struct {
   /// Standard deviation of the photos' noise in grey levels.
   float noise;
   uint32_t seed;
+  ck_patch_instructions instructions;
 } ck_patch_options;
 
 /// Makes the patches of one reference view, coarse to fine (Furukawa and Ponce, PAMI 2010, with the
@@ -72,9 +84,11 @@ typedef struct {
 } ck_patch_map;
 
 typedef struct {
-  /// A patch of a higher cost does not count.
+  /// Largest cost of a patch that `minimum_agreeing` views may confirm.
   float photometric_threshold;
-  /// Other views that must agree.
+  /// Largest cost of a patch; between the two thresholds one more view must agree.
+  float weak_texture_threshold;
+  /// Other views that must agree; all but one where there are fewer, but always one.
   int32_t minimum_agreeing;
   /// Pixels between a patch and its confirmation.
   float reprojection_threshold;
@@ -90,11 +104,22 @@ typedef struct {
   float fusion_threshold;
 } ck_patch_filter_options;
 
-/// Marks with 1 the patches of map `index` that enough other views confirm and none contradicts.
+/// What has become of the patch of a pixel.
+typedef enum {
+  ck_patch_rejected = 0,
+  /// Passed the filter.
+  ck_patch_accepted = 1,
+  /// Passed the filter and is part of a point of another view.
+  ck_patch_fused = 2,
+} ck_patch_state;
+
+/// Marks the patches of map `index` that enough other views confirm and none contradicts as
+/// accepted, all others as rejected.
 ///
-/// `accepted` holds `width × height` bytes of that view.
-ck_status ck_patches_filter(uint8_t* accepted, const ck_patch_map* maps, size_t map_count,
-                            size_t index, const ck_patch_filter_options* options);
+/// `states` holds `width × height` bytes of that view.
+ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* maps, size_t map_count,
+                            size_t index, const ck_patch_filter_options* options,
+                            const ck_control* control);
 
 /// A fused patch.
 typedef struct {
@@ -110,12 +135,14 @@ typedef struct {
   uint16_t photos[16];
 } ck_fused_patch;
 
-/// Fuses the accepted patches of map `index` that no agreeing view holds at a lower cost.
+/// Fuses the accepted patches of map `index` with those of other views that agree with them.
 ///
-/// `accepted` holds a mask a map. `fused` has room for as many patches as the view has pixels.
+/// `states` are the states of all maps, as the filter left them before the first call. Call for all
+/// maps in ascending order: patches of later maps that become part of a point are marked as fused
+/// and give no point of their own. `fused` has room for as many patches as the view has pixels.
 ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* maps,
-                          const uint8_t* const* accepted, size_t map_count, size_t index,
-                          const ck_patch_filter_options* options);
+                          uint8_t* const* states, size_t map_count, size_t index,
+                          const ck_patch_filter_options* options, const ck_control* control);
 
 #ifdef __cplusplus
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <vector>
 
 #include "core/guard.h"
@@ -6,15 +7,26 @@
 namespace ck::patches {
 namespace {
 
+/// Other views that must agree with a patch of this cost.
+///
+/// Where texture is weak the correlation says little, and one more view must agree instead. Where
+/// there are few other views, all but one need not agree.
+int required_views(const Map& map, const ck_patch& patch, const ck_patch_filter_options& options) {
+  const int neighbors = static_cast<int>(map.raw->neighbor_count);
+  const int regular = std::min(options.minimum_agreeing, std::max(1, neighbors - 1));
+  return patch.cost < options.photometric_threshold ? regular : regular + 1;
+}
+
 /// Keeps patches that enough other views confirm and that no more views see through.
-void filter_by_visibility(uint8_t* accepted, const std::vector<Map>& maps, size_t index,
-                          const ck_patch_filter_options& options) {
+void filter_by_visibility(uint8_t* states, const std::vector<Map>& maps, size_t index,
+                          const ck_patch_filter_options& options, const ck_control* control) {
   const Map& reference = maps[index];
   for (int y = 0; y < reference.height; ++y) {
+    step(control, static_cast<double>(y) / reference.height);
     for (int x = 0; x < reference.width; ++x) {
-      uint8_t& keep = accepted[static_cast<size_t>(y) * reference.width + x];
-      keep = 0;
-      const ck_patch* patch = reference.patch(x, y, options.photometric_threshold);
+      uint8_t& state = states[static_cast<size_t>(y) * reference.width + x];
+      state = ck_patch_rejected;
+      const ck_patch* patch = reference.patch(x, y, options.weak_texture_threshold);
       if (!patch) continue;
       const Vector3 world = point_of(reference, *patch, x, y);
       const Vector3 normal = reference.normal(*patch, x, y);
@@ -25,18 +37,20 @@ void filter_by_visibility(uint8_t* accepted, const std::vector<Map>& maps, size_
         agreeing += kind == Confirmation::kAgrees;
         contradicting += kind == Confirmation::kSeesThrough;
       }
-      keep = agreeing >= options.minimum_agreeing && contradicting <= agreeing / 2;
+      const bool passes = agreeing >= required_views(reference, *patch, options) &&
+                          contradicting <= agreeing / 2;
+      if (passes) state = ck_patch_accepted;
     }
   }
 }
 
 /// Removes connected patches that are few; neighbours connect where their depths do.
-void remove_islands(uint8_t* accepted, const Map& map, int minimum) {
+void remove_islands(uint8_t* states, const Map& map, int minimum) {
   const int w = map.width, h = map.height;
   std::vector<uint8_t> visited(static_cast<size_t>(w) * h, 0);
   std::vector<int> island;
   for (int start = 0; start < w * h; ++start) {
-    if (!accepted[start] || visited[start]) continue;
+    if (!states[start] || visited[start]) continue;
     island.assign(1, start);
     visited[start] = 1;
     for (size_t next = 0; next < island.size(); ++next) {
@@ -45,27 +59,28 @@ void remove_islands(uint8_t* accepted, const Map& map, int minimum) {
       const int around[4] = {x > 0 ? cell - 1 : -1, x + 1 < w ? cell + 1 : -1,
                              y > 0 ? cell - w : -1, y + 1 < h ? cell + w : -1};
       for (int other : around) {
-        if (other < 0 || visited[other] || !accepted[other]) continue;
+        if (other < 0 || visited[other] || !states[other]) continue;
         if (std::abs(map.raw->patches[other].inverse_depth / depth - 1) > 0.02f) continue;
         visited[other] = 1;
         island.push_back(other);
       }
     }
     if (static_cast<int>(island.size()) >= minimum) continue;
-    for (int cell : island) accepted[cell] = 0;
+    for (int cell : island) states[cell] = 0;
   }
 }
 
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_filter(uint8_t* accepted, const ck_patch_map* maps, size_t map_count,
-                            size_t index, const ck_patch_filter_options* options) {
+ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* maps, size_t map_count,
+                            size_t index, const ck_patch_filter_options* options,
+                            const ck_control* control) {
   return ck::guarded([&] {
     using namespace ck::patches;
-    ck::require(accepted && maps && options && index < map_count, "missing argument");
+    ck::require(states && maps && options && index < map_count, "missing argument");
     const std::vector<Map> all(maps, maps + map_count);
-    filter_by_visibility(accepted, all, index, *options);
-    remove_islands(accepted, all[index], options->minimum_island);
+    filter_by_visibility(states, all, index, *options, control);
+    remove_islands(states, all[index], options->minimum_island);
   });
 }

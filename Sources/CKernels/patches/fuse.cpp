@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/guard.h"
+#include "core/parallel.h"
 #include "patches/map.h"
 
 namespace ck::patches {
@@ -71,50 +71,83 @@ ck_fused_patch fuse(Group& group, const Map& reference) {
   return result;
 }
 
-/// Collects who agrees with a patch; false when an agreeing view holds the surface at less cost.
-bool collect(Group& group, const std::vector<Map>& maps, const uint8_t* const* accepted,
-             size_t index, int x, int y, const ck_patch_filter_options& options) {
-  const Map& reference = maps[index];
-  const ck_patch& patch = reference.raw->patches[static_cast<size_t>(y) * reference.width + x];
-  const Vector3 world = point_of(reference, patch, x, y);
-  const Vector3 normal = reference.normal(patch, x, y);
-  group.clear();
-  group.add(reference, index, x, y, world);
-  for (size_t n = 0; n < reference.raw->neighbor_count; ++n) {
-    const auto other = static_cast<size_t>(reference.raw->neighbors[n]);
-    const auto found = confirm(reference, maps[other], x, y, world, normal, options);
-    if (found.kind != Confirmation::kAgrees) continue;
-    const size_t cell = static_cast<size_t>(found.y) * maps[other].width + found.x;
-    if (!accepted[other][cell]) continue;
-    const float cost = maps[other].raw->patches[cell].cost;
-    if (cost < patch.cost || (cost == patch.cost && other < index)) return false;
-    if (found.distance <= options.fusion_threshold) {
-      group.add(maps[other], other, found.x, found.y, found.point);
+/// Fuses the accepted patches of one view, row by row.
+class Fusion {
+ public:
+  Fusion(const std::vector<Map>& maps, uint8_t* const* states, size_t index,
+         const ck_patch_filter_options& options)
+      : maps_(maps), states_(states), index_(index), options_(options) {}
+
+  std::vector<ck_fused_patch> row(int y) const {
+    const Map& reference = maps_[index_];
+    std::vector<ck_fused_patch> fused;
+    Group group;
+    for (int x = 0; x < reference.width; ++x) {
+      if (load(index_, x, y) != ck_patch_accepted) continue;
+      collect(group, x, y);
+      fused.push_back(fuse(group, reference));
+    }
+    return fused;
+  }
+
+ private:
+  uint8_t load(size_t map, int x, int y) const {
+    return __atomic_load_n(&states_[map][cell(map, x, y)], __ATOMIC_RELAXED);
+  }
+
+  size_t cell(size_t map, int x, int y) const {
+    return static_cast<size_t>(y) * maps_[map].width + x;
+  }
+
+  /// Collects the accepted patches that agree with one and marks those of later views as fused.
+  ///
+  /// Rows run at once: marks are only ever set, and never in this view, so order doesn't matter.
+  void collect(Group& group, int x, int y) const {
+    const Map& reference = maps_[index_];
+    const ck_patch& patch = reference.raw->patches[cell(index_, x, y)];
+    const Vector3 world = point_of(reference, patch, x, y);
+    const Vector3 normal = reference.normal(patch, x, y);
+    group.clear();
+    group.add(reference, index_, x, y, world);
+    for (size_t n = 0; n < reference.raw->neighbor_count; ++n) {
+      const auto other = static_cast<size_t>(reference.raw->neighbors[n]);
+      const auto found = confirm(reference, maps_[other], x, y, world, normal, options_);
+      if (found.kind != Confirmation::kAgrees || !load(other, found.x, found.y)) continue;
+      if (found.distance > options_.fusion_threshold) continue;
+      group.add(maps_[other], other, found.x, found.y, found.point);
+      if (other > index_) {
+        __atomic_store_n(&states_[other][cell(other, found.x, found.y)],
+                         static_cast<uint8_t>(ck_patch_fused), __ATOMIC_RELAXED);
+      }
     }
   }
-  return true;
-}
+
+  const std::vector<Map>& maps_;
+  uint8_t* const* states_;
+  size_t index_;
+  const ck_patch_filter_options& options_;
+};
 
 }  // namespace
 }  // namespace ck::patches
 
 ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* maps,
-                          const uint8_t* const* accepted, size_t map_count, size_t index,
-                          const ck_patch_filter_options* options) {
+                          uint8_t* const* states, size_t map_count, size_t index,
+                          const ck_patch_filter_options* options, const ck_control* control) {
   return ck::guarded([&] {
     using namespace ck::patches;
-    ck::require(fused && fused_count && maps && accepted && options && index < map_count,
+    ck::require(fused && fused_count && maps && states && options && index < map_count,
                 "missing argument");
     const std::vector<Map> all(maps, maps + map_count);
-    const Map& reference = all[index];
-    Group group;
+    const Fusion fusion(all, states, index, *options);
+    std::vector<std::vector<ck_fused_patch>> rows(static_cast<size_t>(all[index].height));
+    ck::parallel_for(control, rows.size(), [&](size_t y) {
+      rows[y] = fusion.row(static_cast<int>(y));
+    });
     *fused_count = 0;
-    for (int y = 0; y < reference.height; ++y) {
-      for (int x = 0; x < reference.width; ++x) {
-        if (!accepted[index][static_cast<size_t>(y) * reference.width + x]) continue;
-        if (!collect(group, all, accepted, index, x, y, *options)) continue;
-        fused[(*fused_count)++] = fuse(group, reference);
-      }
+    for (const auto& row : rows) {
+      fused = std::copy(row.begin(), row.end(), fused);
+      *fused_count += row.size();
     }
   });
 }

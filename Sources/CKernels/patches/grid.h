@@ -40,7 +40,7 @@ struct Grid {
 struct Comparison {
   int width = 0, height = 0;
   const uint8_t* luma = nullptr;
-  std::vector<Warp> warps;
+  Warps warps;
   float bilateral_contrast = 10;
   /// Variance of the photos' noise.
   float noise_variance = 1;
@@ -65,19 +65,29 @@ struct alignas(64) ReferencePatch {
   float deviation;
 };
 
+/// What the sources show where a plane puts the patch: computed with the score, used by the step.
+struct alignas(64) Samples {
+  /// Grey values by source.
+  float values[kMaxSources][kTexels];
+  float mean[kMaxSources], inverse_deviation[kMaxSources];
+  /// Motion of the patch with inverse depth, in pixels of the reference.
+  float motion_x[kMaxSources], motion_y[kMaxSources];
+};
+
 /// The inner loops, compiled for each instruction set.
 struct Kernels {
   void (*prepare)(ReferencePatch& patch, const Comparison& comparison, int x, int y);
   /// `sources` is a bit mask of the sources to compare with.
   Score (*score)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
-                 const Plane& plane, uint8_t sources);
-  /// One Gauss–Newton step on inverse depth and gradient over `sources`.
-  bool (*step)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
-               const Plane& plane, uint8_t sources, Plane& result);
+                 const Plane& plane, uint8_t sources, Samples& samples);
+  /// One Gauss–Newton step on inverse depth and gradient over `sources`, which were scored at
+  /// `plane`. False where they do not determine one.
+  bool (*step)(const ReferencePatch& patch, const Samples& samples, const Plane& plane,
+               uint8_t sources, Plane& result);
 };
 
-/// The fastest kernels that this processor runs.
-const Kernels& kernels();
+/// The kernels for the instructions; automatic: the fastest that this processor has.
+const Kernels& kernels(ck_patch_instructions instructions);
 const Kernels& portable_kernels();
 const Kernels& avx2_kernels();
 const Kernels& avx512_kernels();

@@ -36,7 +36,7 @@ Confirmation confirm(const Map& reference, const Map& other, int x, int y, const
   }
   result.x = static_cast<int>(pixel.x());
   result.y = static_cast<int>(pixel.y());
-  const ck_patch* patch = other.patch(result.x, result.y, options.photometric_threshold);
+  const ck_patch* patch = other.patch(result.x, result.y, options.weak_texture_threshold);
   if (!patch) return result;
   // The other view's plane, continued from the centre of its cell to the very pixel.
   const float w = patch->inverse_depth + patch->gradient_x * (pixel.x() - result.x - 0.5f) +

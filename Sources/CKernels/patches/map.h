@@ -13,10 +13,10 @@ using Vector3 = Eigen::Vector3f;
 struct Map {
   explicit Map(const ck_patch_map& map);
 
-  /// The patch of the cell, or null where it has none or one of too high a cost.
-  const ck_patch* patch(int x, int y, float photometric_threshold) const {
+  /// The patch of the cell, or null where it has none or one of this cost or a higher.
+  const ck_patch* patch(int x, int y, float threshold) const {
     const ck_patch& p = raw->patches[static_cast<size_t>(y) * width + x];
-    return p.inverse_depth > 0 && p.cost < photometric_threshold ? &p : nullptr;
+    return p.inverse_depth > 0 && p.cost < threshold ? &p : nullptr;
   }
 
   /// The viewing ray of a pixel at depth 1, in the camera's frame.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/guard.h"
 #include "patches/expand.h"
@@ -29,7 +30,8 @@ std::vector<std::vector<Image>> make_pyramids(const ck_patch_view& reference,
 void bound_depth(Comparison& comparison, const ck_patch_seed* seeds, size_t count) {
   std::vector<float> values;
   for (size_t i = 0; i < count; ++i) {
-    if (seeds[i].inverse_depth > 0) values.push_back(seeds[i].inverse_depth);
+    const float w = seeds[i].inverse_depth;
+    if (w > 0 && std::isfinite(w)) values.push_back(w);
   }
   if (values.empty()) throw Degenerate("the view has no sparse points to start from");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -55,7 +57,7 @@ Comparison compare(const ck_patch_view& reference, const ck_patch_view* sources,
   c.cx = static_cast<float>(reference.cx * scale);
   c.cy = static_cast<float>(reference.cy * scale);
   for (size_t s = 0; s + 1 < pyramids.size(); ++s) {
-    c.warps.push_back(make_warp(reference, sources[s], scale, pyramids[s + 1][level]));
+    add_warp(c.warps, reference, sources[s], scale, pyramids[s + 1][level]);
   }
   return c;
 }
@@ -105,8 +107,9 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
       sweep.refinement_steps = is_coarsest && levels > 1 ? 0 : options.refinement_steps;
       sweep.uses_kept_sources = level == 0 && levels > 1;
       sweep.seed = options.seed + static_cast<uint32_t>(16 * level + i);
-      expand(grid, comparison, kernels(), sweep, control,
-             progress + (end - progress) * i / sweeps, progress + (end - progress) * (i + 1) / sweeps);
+      expand(grid, comparison, kernels(options.instructions), sweep, control,
+             progress + (end - progress) * i / sweeps,
+             progress + (end - progress) * (i + 1) / sweeps);
     }
     progress = end;
   }

@@ -4,9 +4,6 @@
 namespace ck::patches {
 namespace {
 
-typedef float F8 __attribute__((ext_vector_type(8)));
-typedef float F4 __attribute__((ext_vector_type(4)));
-
 #define CK_INLINE inline __attribute__((always_inline))
 
 const F16 kDx = {-2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2};
@@ -26,43 +23,60 @@ CK_INLINE F16 load(const float* p) {
 
 CK_INLINE void store(float* p, const F16& v) { __builtin_memcpy(p, &v, sizeof v); }
 
-/// Where a patch lies in a source: its centre and the affine map of the offsets.
-struct Footprint {
-  float u, v, inverse_z;
-  float ax, ay, bx, by;
-};
-
-/// False where the patch leaves the source, is turned over or changes its size too much.
-CK_INLINE bool locate(const Warp& t, int x, int y, const Plane& p, Footprint& f) {
-  const float fx = static_cast<float>(x), fy = static_cast<float>(y);
-  const float qx = t.base[0] + fx * t.column0[0] + fy * t.column1[0] + p.w * t.epipole[0];
-  const float qy = t.base[1] + fx * t.column0[1] + fy * t.column1[1] + p.w * t.epipole[1];
-  const float qz = t.base[2] + fx * t.column0[2] + fy * t.column1[2] + p.w * t.epipole[2];
-  if (!(qz > 1e-6f)) return false;
-  f.inverse_z = 1 / qz;
-  f.u = qx * f.inverse_z;
-  f.v = qy * f.inverse_z;
-  const float cz = t.column0[2] + p.gx * t.epipole[2], dz = t.column1[2] + p.gy * t.epipole[2];
-  f.ax = (t.column0[0] + p.gx * t.epipole[0] - f.u * cz) * f.inverse_z;
-  f.ay = (t.column0[1] + p.gx * t.epipole[1] - f.v * cz) * f.inverse_z;
-  f.bx = (t.column1[0] + p.gy * t.epipole[0] - f.u * dz) * f.inverse_z;
-  f.by = (t.column1[1] + p.gy * t.epipole[1] - f.v * dz) * f.inverse_z;
-  const float area = f.ax * f.by - f.ay * f.bx;
-  if (!(area > 0.1f && area < 8)) return false;
-  const float eu = 2 * (std::fabs(f.ax) + std::fabs(f.bx));
-  const float ev = 2 * (std::fabs(f.ay) + std::fabs(f.by));
-  return f.u - eu > 0.5f && f.v - ev > 0.5f && f.u + eu < t.width - 1.5f &&
-         f.v + ev < t.height - 1.5f;
+CK_INLINE F8 load8(const float* p) {
+  F8 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
 }
 
-/// The source's grey values at the 16 texels, bilinearly.
-CK_INLINE F16 sample(const Warp& t, const Footprint& f) {
-  const F16 u = (f.u - 0.5f) + kDx * f.ax + kDy * f.bx;
-  const F16 v = (f.v - 0.5f) + kDx * f.ay + kDy * f.by;
+CK_INLINE void store8(float* p, const F8& v) { __builtin_memcpy(p, &v, sizeof v); }
+
+CK_INLINE F8 absolute(const F8& v) { return __builtin_elementwise_abs(v); }
+
+/// Where a patch lies in each source: its centre and the affine map of the offsets.
+struct Footprints {
+  F8 u, v, ax, ay, bx, by;
+  /// Motion of the patch with inverse depth, in pixels of the reference.
+  F8 motion_x, motion_y;
+  /// −1 where the patch lies in the source, is not turned over and keeps about its size.
+  I8 is_valid;
+};
+
+CK_INLINE void locate(const Warps& t, int x, int y, const Plane& p, Footprints& f) {
+  const float fx = static_cast<float>(x), fy = static_cast<float>(y);
+  const F8 ex = load8(t.epipole[0]), ey = load8(t.epipole[1]), ez = load8(t.epipole[2]);
+  const F8 cx = load8(t.column0[0]), cy = load8(t.column0[1]), cz = load8(t.column0[2]);
+  const F8 dx = load8(t.column1[0]), dy = load8(t.column1[1]), dz = load8(t.column1[2]);
+  const F8 qx = load8(t.base[0]) + fx * cx + fy * dx + p.w * ex;
+  const F8 qy = load8(t.base[1]) + fx * cy + fy * dy + p.w * ey;
+  const F8 qz = load8(t.base[2]) + fx * cz + fy * dz + p.w * ez;
+  const F8 inverse_z = 1.0f / qz;
+  f.u = qx * inverse_z;
+  f.v = qy * inverse_z;
+  const F8 scale_x = cz + p.gx * ez, scale_y = dz + p.gy * ez;
+  f.ax = (cx + p.gx * ex - f.u * scale_x) * inverse_z;
+  f.ay = (cy + p.gx * ey - f.v * scale_x) * inverse_z;
+  f.bx = (dx + p.gy * ex - f.u * scale_y) * inverse_z;
+  f.by = (dy + p.gy * ey - f.v * scale_y) * inverse_z;
+  const F8 area = f.ax * f.by - f.ay * f.bx;
+  const F8 eu = 2.0f * (absolute(f.ax) + absolute(f.bx));
+  const F8 ev = 2.0f * (absolute(f.ay) + absolute(f.by));
+  f.is_valid = (qz > 1e-6f) & (area > 0.1f) & (area < 8.0f) & (f.u - eu > 0.5f) &
+               (f.v - ev > 0.5f) & (f.u + eu < load8(t.limit_u)) & (f.v + ev < load8(t.limit_v));
+  const F8 du = (ex - f.u * ez) * inverse_z, dv = (ey - f.v * ez) * inverse_z;
+  const F8 inverse_area = 1.0f / area;
+  f.motion_x = (f.by * du - f.bx * dv) * inverse_area;
+  f.motion_y = (f.ax * dv - f.ay * du) * inverse_area;
+}
+
+/// The grey values of source `s` at the 16 texels, bilinearly.
+CK_INLINE F16 sample(const Warps& t, const Footprints& f, int s) {
+  const F16 u = (f.u[s] - 0.5f) + kDx * f.ax[s] + kDy * f.bx[s];
+  const F16 v = (f.v[s] - 0.5f) + kDx * f.ay[s] + kDy * f.by[s];
   const I16 iu = __builtin_convertvector(u, I16), iv = __builtin_convertvector(v, I16);
   const F16 ru = u - __builtin_convertvector(iu, F16), rv = v - __builtin_convertvector(iv, F16);
   I16 word;
-  gather(word, t.packed, iv * t.width + iu);
+  gather(word, t.packed[s], iv * t.stride[s] + iu);
   const F16 p00 = __builtin_convertvector(word & 255, F16);
   const F16 p10 = __builtin_convertvector((word >> 8) & 255, F16);
   const F16 p01 = __builtin_convertvector((word >> 16) & 255, F16);
@@ -100,34 +114,16 @@ void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
   store(patch.gradient_y, load(gy) * scale);
 }
 
-Score score(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
-            uint8_t sources) {
-  float costs[kMaxSources];
-  const F16 weight = load(patch.weight), weighted = load(patch.weighted);
-  const int count = static_cast<int>(c.warps.size());
+/// The mean of the two lowest costs, and the sources of the lowest ones.
+CK_INLINE Score summarise(const float* costs, int count, int kept_sources) {
   float best = 2, second = 2;
   for (int s = 0; s < count; ++s) {
-    costs[s] = 2;
-    Footprint f;
-    if (!(sources >> s & 1) || !locate(c.warps[s], x, y, plane, f)) continue;
-    const F16 value = sample(c.warps[s], f);
-    const F16 wv = weight * value;
-    const float mean = sum(wv);
-    const float variance = sum(wv * value) - mean * mean;
-    const float covariance = sum(weighted * value);
-    const float deviation = std::sqrt(std::max(variance, 0.0f) + c.noise_variance);
-    const float cost = 1 - covariance / deviation * patch.confidence;
-    costs[s] = cost;
-    if (cost < best) {
-      second = best;
-      best = cost;
-    } else if (cost < second) {
-      second = cost;
-    }
+    second = std::min(second, std::max(best, costs[s]));
+    best = std::min(best, costs[s]);
   }
   Score result;
   result.cost = count == 1 ? best : 0.5f * (best + second);
-  for (int kept = 0; kept < c.kept_sources; ++kept) {
+  for (int kept = 0; kept < kept_sources; ++kept) {
     int argmin = -1;
     for (int s = 0; s < count; ++s) {
       if (costs[s] < 1 && !(result.best >> s & 1) && (argmin < 0 || costs[s] < costs[argmin])) {
@@ -140,27 +136,45 @@ Score score(const ReferencePatch& patch, const Comparison& c, int x, int y, cons
   return result;
 }
 
-bool step(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
+Score score(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
+            uint8_t sources, Samples& samples) {
+  Footprints f;
+  locate(c.warps, x, y, plane, f);
+  const F16 weight = load(patch.weight), weighted = load(patch.weighted);
+  F8 mean = 0, square = 0, covariance = 0;
+  for (int s = 0; s < c.warps.count; ++s) {
+    if (!(sources >> s & 1) || !f.is_valid[s]) continue;
+    const F16 value = sample(c.warps, f, s);
+    const F16 weighted_value = weight * value;
+    mean[s] = sum(weighted_value);
+    square[s] = sum(weighted_value * value);
+    covariance[s] = sum(weighted * value);
+    store(samples.values[s], value);
+  }
+  const F8 variance = __builtin_elementwise_max(square - mean * mean, F8(0)) + c.noise_variance;
+  const F8 inverse_deviation = 1.0f / __builtin_elementwise_sqrt(variance);
+  const F8 similarity = covariance * inverse_deviation * patch.confidence;
+  store8(samples.mean, mean);
+  store8(samples.inverse_deviation, inverse_deviation);
+  store8(samples.motion_x, f.motion_x);
+  store8(samples.motion_y, f.motion_y);
+  float costs[kMaxSources];
+  for (int s = 0; s < c.warps.count; ++s) {
+    costs[s] = (sources >> s & 1) && f.is_valid[s] ? 1 - similarity[s] : 2;
+  }
+  return summarise(costs, c.warps.count, c.kept_sources);
+}
+
+bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plane,
           uint8_t sources, Plane& result) {
   const F16 weight = load(patch.weight), reference = load(patch.value);
   const F16 gx = load(patch.gradient_x), gy = load(patch.gradient_y);
   F16 squares = 0, products = 0;
-  for (int s = 0; s < static_cast<int>(c.warps.size()); ++s) {
-    Footprint f;
-    const Warp& t = c.warps[s];
-    if (!(sources >> s & 1) || !locate(t, x, y, plane, f)) continue;
-    const F16 value = sample(t, f);
-    const F16 wv = weight * value;
-    const float mean = sum(wv);
-    const float variance = std::max(sum(wv * value) - mean * mean, 0.0f);
-    const F16 residual = (value - mean) * (1 / std::sqrt(variance + c.noise_variance)) - reference;
-    // The motion of the texel with inverse depth, taken back to the reference's pixels.
-    const float du = (t.epipole[0] - f.u * t.epipole[2]) * f.inverse_z;
-    const float dv = (t.epipole[1] - f.v * t.epipole[2]) * f.inverse_z;
-    const float inverse_area = 1 / (f.ax * f.by - f.ay * f.bx);
-    const float mx = (f.by * du - f.bx * dv) * inverse_area;
-    const float my = (f.ax * dv - f.ay * du) * inverse_area;
-    const F16 slope = gx * mx + gy * my;
+  for (int s = 0; s < kMaxSources; ++s) {
+    if (!(sources >> s & 1)) continue;
+    const F16 value = load(samples.values[s]);
+    const F16 residual = (value - samples.mean[s]) * samples.inverse_deviation[s] - reference;
+    const F16 slope = gx * samples.motion_x[s] + gy * samples.motion_y[s];
     squares += weight * slope * slope;
     products += weight * slope * residual;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
 #include <unordered_map>
@@ -22,7 +23,8 @@ std::vector<Vertex> vertices_of(const Grid& grid, const ck_patch_seed* seeds, si
   for (size_t i = 0; i < count; ++i) {
     const Vertex v{static_cast<float>(seeds[i].x * scale), static_cast<float>(seeds[i].y * scale),
                    seeds[i].inverse_depth};
-    if (v.x >= 0 && v.y >= 0 && v.x < grid.width && v.y < grid.height && v.w > 0) all.push_back(v);
+    if (v.x >= 0 && v.y >= 0 && v.x < grid.width && v.y < grid.height && v.w > 0 &&
+        std::isfinite(v.w)) all.push_back(v);
   }
   const auto pixel = [&](const Vertex& v) {
     return static_cast<int>(v.y) * grid.width + static_cast<int>(v.x);

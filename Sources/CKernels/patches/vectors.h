@@ -7,8 +7,11 @@
 
 namespace ck::patches {
 
-/// Sixteen lanes; the compiler maps them to what the target has.
+/// Sixteen texels, eight sources; the compiler maps them to what the target has.
 typedef float F16 __attribute__((ext_vector_type(16)));
+typedef float F8 __attribute__((ext_vector_type(8)));
+typedef float F4 __attribute__((ext_vector_type(4)));
+typedef int32_t I8 __attribute__((ext_vector_type(8)));
 typedef int32_t I16 __attribute__((ext_vector_type(16)));
 
 }  // namespace ck::patches

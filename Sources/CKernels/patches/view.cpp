@@ -51,8 +51,8 @@ Matrix calibration(const ck_patch_view& view, double scale) {
 
 }  // namespace
 
-Warp make_warp(const ck_patch_view& reference, const ck_patch_view& source, double scale,
-               const Image& image) {
+void add_warp(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
+              double scale, const Image& image) {
   const Eigen::Map<const Matrix> r_ref(reference.rotation), r_src(source.rotation);
   const Eigen::Map<const Eigen::Vector3d> t_ref(reference.translation),
       t_src(source.translation);
@@ -63,17 +63,17 @@ Warp make_warp(const ck_patch_view& reference, const ck_patch_view& source, doub
   const Eigen::Vector3d epipole = k_src * translation;
   // Pixel (0, 0) has its centre at (0.5, 0.5).
   const Eigen::Vector3d base = homography * Eigen::Vector3d(0.5, 0.5, 1);
-  Warp warp;
+  const int lane = warps.count++;
   for (int i = 0; i < 3; ++i) {
-    warp.column0[i] = static_cast<float>(homography(i, 0));
-    warp.column1[i] = static_cast<float>(homography(i, 1));
-    warp.base[i] = static_cast<float>(base(i));
-    warp.epipole[i] = static_cast<float>(epipole(i));
+    warps.column0[i][lane] = static_cast<float>(homography(i, 0));
+    warps.column1[i][lane] = static_cast<float>(homography(i, 1));
+    warps.base[i][lane] = static_cast<float>(base(i));
+    warps.epipole[i][lane] = static_cast<float>(epipole(i));
   }
-  warp.width = image.width;
-  warp.height = image.height;
-  warp.packed = image.packed.data();
-  return warp;
+  warps.limit_u[lane] = static_cast<float>(image.width) - 1.5f;
+  warps.limit_v[lane] = static_cast<float>(image.height) - 1.5f;
+  warps.stride[lane] = image.width;
+  warps.packed[lane] = image.packed.data();
 }
 
 }  // namespace ck::patches

@@ -30,16 +30,22 @@ Image half(const Image& image);
 /// Fills `packed`.
 void pack(Image& image);
 
-/// Where the reference's pixels go in a source:
+/// Where the reference's pixels go in its sources, a lane a source:
 /// q = base + x · column0 + y · column1 + inverse depth · epipole, u = q.xy / q.z.
-struct Warp {
-  float column0[3], column1[3], base[3], epipole[3];
-  int width, height;
-  const uint32_t* packed;
+///
+/// Lanes without source are zero, which no pixel projects to.
+struct alignas(32) Warps {
+  int count = 0;
+  float column0[3][kMaxSources] = {}, column1[3][kMaxSources] = {};
+  float base[3][kMaxSources] = {}, epipole[3][kMaxSources] = {};
+  /// Largest coordinates that can be sampled.
+  float limit_u[kMaxSources] = {}, limit_v[kMaxSources] = {};
+  int stride[kMaxSources] = {};
+  const uint32_t* packed[kMaxSources] = {};
 };
 
-/// A source against the reference, both reduced to `scale` of their size.
-Warp make_warp(const ck_patch_view& reference, const ck_patch_view& source, double scale,
-               const Image& image);
+/// Appends a source to the reference's, both reduced to `scale` of their size.
+void add_warp(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
+              double scale, const Image& image);
 
 }  // namespace ck::patches

@@ -67,11 +67,15 @@ package struct PointCloudGeneration {
     _ = try context.control.parallelMap(maps.count) { [options] index in
       let map = maps[index]
       let start = Double(index) / Double(maps.count)
-      try PatchStereo.reconstruct(
-        map, sources: map.neighbors.map { maps[Int($0)].view },
-        seeds: seeds[map.view.photo.index].compactMap { map.view.seed(at: $0) },
-        options: options.patches,
-        control: context.control.part(from: start, to: start + 1 / Double(maps.count)))
+      do {
+        try PatchStereo.reconstruct(
+          map, sources: map.neighbors.map { maps[Int($0)].view },
+          seeds: seeds[map.view.photo.index].compactMap { map.view.seed(at: $0) },
+          options: options.patches,
+          control: context.control.part(from: start, to: start + 1 / Double(maps.count)))
+      } catch KernelError.degenerate {
+        // A view that shows none of its sparse points gives no patches; others may do without it.
+      }
     }
   }
 
@@ -87,10 +91,13 @@ package struct PointCloudGeneration {
   }
 
   private func fuse(_ maps: [PatchMap], _ context: StageContext) throws -> PointCloud {
-    let parts = try context.control.parallelMap(maps.count) { [options] index in
-      try PatchStereo.fuse(maps, index: index, options: options.filter, control: context.control)
+    try maps.indices.reduce(into: PointCloud()) { cloud, index in
+      try context.step(index, of: maps.count)
+      let (start, end) = (Double(index), Double(index + 1))
+      let part = context.part(from: start / Double(maps.count), to: end / Double(maps.count))
+      cloud.append(
+        try PatchStereo.fuse(maps, index: index, options: options.filter, control: part.control))
     }
-    return parts.reduce(into: PointCloud()) { $0.append($1) }
   }
 
   /// The sparse points that each photo observes, by photo id.

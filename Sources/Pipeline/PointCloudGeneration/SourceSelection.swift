@@ -29,6 +29,7 @@ struct SourceSelection {
           let (a, b) = (first.photo.index, second.photo.index)
           guard let c = centers[a], let d = centers[b] else { continue }
           let weight = weight(of: point.position, from: c, and: d)
+          guard weight.isFinite else { continue }
           scores[a][b] += weight
           scores[b][a] += weight
           shared[a][b] += 1

@@ -1,0 +1,180 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+/// Patches of rendered views whose depth is known.
+@Suite struct PatchStereoTests {
+  static let scene = RaycastScene()
+
+  /// The maps of all views, each with all others as sources.
+  static func maps(
+    _ scene: RaycastScene, _ options: PatchStereo.Options = PatchStereo.Options(),
+    seeds perturb: (PatchSeed) -> PatchSeed = { $0 }, control: KernelControl = KernelControl()
+  ) throws -> [PatchMap] {
+    let views = scene.views.map { PatchView($0) }
+    return try views.indices.map { index in
+      let map = PatchMap(view: views[index], neighbors: views.indices.filter { $0 != index })
+      let seeds = scene.reconstruction.points.compactMap { point -> PatchSeed? in
+        guard point.track.contains(where: { $0.photo.index == index }) else { return nil }
+        let seen = views[index].cameraFromWorld * point.position
+        let pixel = views[index].camera.project(seen)
+        return perturb(
+          PatchSeed(pixel: SIMD2<Float>(pixel), inverseDepth: Float(1 / seen.z)))
+      }
+      try PatchStereo.reconstruct(
+        map, sources: views.indices.filter { $0 != index }.map { views[$0] }, seeds: seeds,
+        options: options, control: control)
+      return map
+    }
+  }
+
+  /// Median relative depth error of good patches in the middle of a view, and their share.
+  static func depthError(
+    _ map: PatchMap, _ scene: RaycastScene, view: Int
+  ) -> (median: Double, share: Double) {
+    var errors: [Double] = []
+    var count = 0
+    for y in stride(from: 30, to: 110, by: 2) {
+      for x in stride(from: 20, to: 140, by: 2) {
+        guard let truth = scene.depth(view, x, y) else { continue }
+        count += 1
+        guard map[x, y].cost < 0.4 else { continue }
+        errors.append(abs(1 / Double(map[x, y].inverseDepth) / truth - 1))
+      }
+    }
+    return (errors.sorted()[errors.count / 2], Double(errors.count) / Double(count))
+  }
+
+  @Test func depthsAreRight() throws {
+    let maps = try Self.maps(Self.scene)
+    for view in maps.indices {
+      let error = Self.depthError(maps[view], Self.scene, view: view)
+      #expect(error.median < 0.002)
+      #expect(error.share > 0.7)
+    }
+  }
+
+  @Test func gaussNewtonConvergesFromPerturbedSeeds() throws {
+    // Depths that are wrong by up to 2 % and no random planes: only the steps can repair that.
+    var options = PatchStereo.Options()
+    options.perturbations = 0
+    var random = SeededGenerator(seed: 5)
+    let perturb = { (seed: PatchSeed) -> PatchSeed in
+      let factor = Float(1 + 0.04 * (random.uniform() - 0.5))
+      return PatchSeed(pixel: seed.pixel, inverseDepth: seed.inverseDepth * factor)
+    }
+    let maps = try Self.maps(Self.scene, options, seeds: perturb)
+    options.refinementSteps = 0
+    random = SeededGenerator(seed: 5)
+    let unrefined = try Self.maps(Self.scene, options, seeds: perturb)
+    let error = Self.depthError(maps[2], Self.scene, view: 2)
+    #expect(error.median < 0.003)
+    #expect(error.median < 0.7 * Self.depthError(unrefined[2], Self.scene, view: 2).median)
+  }
+
+  @Test(arguments: PatchStereo.Instructions.allCases.filter(\.isSupported))
+  func instructionsAgree(_ instructions: PatchStereo.Instructions) throws {
+    var options = PatchStereo.Options()
+    options.instructions = .portable
+    let expected = try Self.maps(Self.scene, options)[2]
+    options.instructions = instructions
+    let map = try Self.maps(Self.scene, options)[2]
+    var (close, count) = (0, 0)
+    for y in 20..<110 {
+      for x in 20..<140 where expected[x, y].cost < 0.3 {
+        count += 1
+        let ratio = map[x, y].inverseDepth / expected[x, y].inverseDepth
+        close += abs(ratio - 1) < 0.002 ? 1 : 0
+      }
+    }
+    #expect(count > 1000)
+    #expect(Double(close) > 0.97 * Double(count))
+  }
+
+  @Test func pointsLieOnTheSurface() throws {
+    let maps = try Self.maps(Self.scene)
+    let cloud = try Self.fused(maps)
+    #expect(cloud.count > 3000)
+    let distances = cloud.positions.map { Self.scene.distance(to: SIMD3<Double>($0)) }.sorted()
+    #expect(distances[cloud.count / 2] < 0.008)
+    #expect(distances[cloud.count * 95 / 100] < 0.04)
+    var angles: [Double] = []
+    for index in 0..<cloud.count {
+      // Two others confirm a patch, and the cloud knows all three.
+      #expect(cloud.visiblePhotos(of: index).count >= 2)
+      #expect(cloud.visiblePhotos(of: index).elementsEqual(cloud.visiblePhotos(of: index).sorted()))
+      let (p, n) = (SIMD3<Double>(cloud.positions[index]), SIMD3<Double>(cloud.normals[index]))
+      let truth: SIMD3<Double> = p.y < -1.1 ? [0, 1, 0] : p.normalized
+      angles.append(acos(min(1, n.dot(truth))) * 180 / .pi)
+      let photo = Int(cloud.visiblePhotos(of: index).first ?? 0)
+      #expect((Self.scene.views[photo].cameraFromWorld.center - p).dot(n) > 0)
+    }
+    #expect(angles.sorted()[angles.count / 2] < 10)
+  }
+
+  @Test func aFloaterGoes() throws {
+    let maps = try Self.maps(Self.scene)
+    // A confident patch of 20 × 20 pixels half way to the ball, in one view only and in two.
+    let region = (60..<80, 50..<70)
+    for view in [2, 3] {
+      for y in region.1 {
+        for x in region.0 {
+          maps[view][x, y] = Patch(
+            inverseDepth: 2 * maps[view][x, y].inverseDepth, gradient: .zero, cost: 0.01)
+        }
+      }
+    }
+    for index in maps.indices {
+      try PatchStereo.filter(
+        maps, index: index, options: PatchStereo.FilterOptions(), control: KernelControl())
+    }
+    let left = region.1.flatMap { y in region.0.map { ($0, y) } }
+      .filter { maps[2].isAccepted($0.0, $0.1) }
+    #expect(left.isEmpty)
+    #expect(maps[1].acceptedCount > 2000)
+  }
+
+  @Test func nothingComesOfNoTexture() throws {
+    var options = RaycastScene.Options()
+    options.isUniform = true
+    let scene = RaycastScene(options)
+    let cloud = try Self.fused(Self.maps(scene))
+    #expect(cloud.count < 200)  // The outline of the ball against the floor is all there is.
+  }
+
+  @Test func cancellingStops() throws {
+    let flag = CancellationFlag()
+    let control = KernelControl(flag: flag) { if $0 > 0.1 { flag.cancel() } }
+    #expect(throws: CancellationError.self) { try Self.maps(Self.scene, control: control) }
+  }
+
+  @Test func aViewWithoutSeedsIsDegenerate() throws {
+    let views = Self.scene.views.map { PatchView($0) }
+    let map = PatchMap(view: views[0], neighbors: [1])
+    #expect(throws: KernelError.self) {
+      try PatchStereo.reconstruct(
+        map, sources: [views[1]], seeds: [], options: PatchStereo.Options(),
+        control: KernelControl())
+    }
+    let broken = [PatchSeed(pixel: [.nan, 3], inverseDepth: .infinity)]
+    #expect(throws: KernelError.self) {
+      try PatchStereo.reconstruct(
+        map, sources: [views[1]], seeds: broken, options: PatchStereo.Options(),
+        control: KernelControl())
+    }
+  }
+
+  static func fused(
+    _ maps: [PatchMap], control: KernelControl = KernelControl()
+  ) throws -> PointCloud {
+    let options = PatchStereo.FilterOptions()
+    for index in maps.indices {
+      try PatchStereo.filter(maps, index: index, options: options, control: control)
+    }
+    return try maps.indices.reduce(into: PointCloud()) {
+      $0.append(try PatchStereo.fuse(maps, index: $1, options: options, control: control))
+    }
+  }
+}
