@@ -80,6 +80,9 @@ var cliDependencies: [Target.Dependency] = [
     .target(
       name: "TestSupport", dependencies: ["SceneModel", "Kernels", "Formats"],
       path: "Tests/TestSupport", swiftSettings: strict),
+    .executableTarget(
+      name: "render-fixtures", dependencies: ["TestSupport", "SceneModel", "Kernels", "Formats"],
+      path: "Tests/FixtureRenderer", swiftSettings: strict),
     .testTarget(
       name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),

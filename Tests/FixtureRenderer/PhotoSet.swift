@@ -1,0 +1,48 @@
+import Formats
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+
+/// Photos of a rendered scene with its cameras and surface as files.
+struct PhotoSet {
+  var scene: RenderedScene
+  var exif: ExifFields?
+  var quality: Float
+
+  /// Writes `images/*.jpg`, `gt/cameras.json` and `gt/mesh.ply`.
+  func write(to folder: URL, _ control: KernelControl) throws {
+    for (index, image) in try scene.photos(control).enumerated() {
+      var bytes = try ImageCodec.encodeJPEG(image, quality: quality)
+      if let exif { bytes = ExifWriter.jpeg(bytes, with: exif) }
+      try writeFile(bytes, folder.appendingPathComponent("images/\(RenderedScene.name(index))"))
+    }
+    try writeFile(Array(camerasJSON.utf8), folder.appendingPathComponent("gt/cameras.json"))
+    var mesh = scene.object
+    mesh.normals = []
+    try writeFile(PLY.encode(mesh), folder.appendingPathComponent("gt/mesh.ply"))
+  }
+
+  /// A list of name, K, R and t: `x_camera = R x_world + t`, x right, y down, z forward, pixel
+  /// origin at the corner of the top-left pixel.
+  private var camerasJSON: String {
+    let camera = scene.camera
+    let k = [
+      [camera.focalLength.x, 0, camera.principalPoint.x],
+      [0, camera.focalLength.y, camera.principalPoint.y], [0, 0, 1],
+    ]
+    let entries = scene.poses.enumerated().map { index, pose in
+      let m = pose.rotation.matrix
+      let r = [m.row0, m.row1, m.row2].map { [$0.x, $0.y, $0.z] }
+      let t = [pose.translation.x, pose.translation.y, pose.translation.z]
+      return "{\"name\": \"\(RenderedScene.name(index))\", \"K\": \(k), \"R\": \(r), \"t\": \(t)}"
+    }
+    return "[\n" + entries.joined(separator: ",\n") + "\n]\n"
+  }
+}
+
+func writeFile(_ bytes: [UInt8], _ url: URL) throws {
+  try FileManager.default.createDirectory(
+    at: url.deletingLastPathComponent(), withIntermediateDirectories: true)
+  try Data(bytes).write(to: url)
+}

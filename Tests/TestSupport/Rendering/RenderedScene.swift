@@ -1,0 +1,185 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// A scene with known surface, cameras and light, rendered by ray casting: photos for tests.
+///
+/// World: right-handed, +y up, metres. Surfaces are matt and the light is fixed, so that a point
+/// has the same colour in every photo but for sensor noise.
+package struct RenderedScene: Sendable {
+  /// A mesh with vertex normals, and what it looks like.
+  package struct Surface: Sendable {
+    package var mesh: Mesh
+    package var texture: SolidTexture
+
+    package init(mesh: Mesh, texture: SolidTexture) {
+      self.mesh = mesh
+      self.texture = texture
+    }
+  }
+
+  /// The surface that a reconstruction should find; the reference to score against.
+  package let object: Mesh
+  /// Of all photos.
+  package let camera: Camera
+  /// `cameraFromWorld` by photo.
+  package let poses: [RigidTransform]
+  /// Standard deviation of the sensor noise in gray levels.
+  package var noise = 1.2
+  /// Rays a pixel and direction: 2 casts four rays.
+  package var samplesPerSide = 2
+
+  private let surfaces: [Surface]
+  private let caster: RayCaster
+  /// Surface and triangle in it of each of the caster's triangles.
+  private let parts: [(surface: Int, triangle: Int)]
+  private let light = SIMD3<Float>(0.45, 0.8, 0.5).normalized
+  private let seed: UInt64
+
+  /// `object` is what is to be reconstructed, `surroundings` what else is seen.
+  package init(
+    object: Surface, surroundings: [Surface], camera: Camera, poses: [RigidTransform],
+    seed: UInt64 = 1
+  ) {
+    self.object = object.mesh
+    self.camera = camera
+    self.poses = poses
+    self.seed = seed
+    surfaces = [object] + surroundings
+    var corners: [(SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)] = []
+    var parts: [(surface: Int, triangle: Int)] = []
+    for (index, surface) in surfaces.enumerated() {
+      let p = surface.mesh.positions
+      for (number, t) in surface.mesh.triangles.enumerated() {
+        corners.append((p[Int(t.a)], p[Int(t.b)], p[Int(t.c)]))
+        parts.append((index, number))
+      }
+    }
+    caster = RayCaster(corners)
+    self.parts = parts
+  }
+
+  /// Renders a photo: RGB, sRGB-encoded.
+  package func photo(
+    _ index: Int, _ control: KernelControl = KernelControl()
+  ) throws -> RasterImage {
+    let rows = try control.parallelMap(camera.height) { row in renderRow(row, index) }
+    return RasterImage(
+      width: camera.width, height: camera.height, channels: 3, pixels: rows.flatMap { $0 })
+  }
+
+  /// All photos in order.
+  package func photos(_ control: KernelControl = KernelControl()) throws -> [RasterImage] {
+    try poses.indices.map { try photo($0, control) }
+  }
+
+  /// The z of the surface seen at each pixel's centre in the camera frame; 0 where there is none.
+  package func depth(_ index: Int) -> [Float] {
+    (0..<camera.height).flatMap { row in
+      (0..<camera.width).map { column in
+        let ray = ray(through: SIMD2(Double(column) + 0.5, Double(row) + 0.5), of: index)
+        return caster.hit(from: ray.origin, along: ray.direction)?.distance ?? 0
+      }
+    }
+  }
+
+  /// Whether photo `index` sees a point of a surface.
+  package func isVisible(_ point: SIMD3<Double>, in index: Int) -> Bool {
+    let inCamera = poses[index] * point
+    guard inCamera.z > 0 else { return false }
+    let pixel = camera.project(inCamera)
+    guard pixel.x > 0, pixel.y > 0, pixel.x < Double(camera.width),
+      pixel.y < Double(camera.height)
+    else { return false }
+    let origin = SIMD3<Float>(poses[index].center)
+    return !caster.isBlocked(
+      from: origin, along: SIMD3<Float>(point) - origin, farthest: 0.999)
+  }
+
+  /// The exact cameras with about `pointCount` exact points of the object, seen by two photos or
+  /// more: what a perfect alignment would find.
+  package func reconstruction(pointCount: Int = 500) -> Reconstruction {
+    let photos = poses.indices.map { index in
+      Photo(
+        id: ID(index), sampleID: index, name: Self.name(index),
+        url: URL(fileURLWithPath: "/" + Self.name(index)), width: camera.width,
+        height: camera.height, orientation: 1, camera: ID(0))
+    }
+    let step = max(1, object.positions.count / max(1, pointCount))
+    let points = stride(from: 0, to: object.positions.count, by: step).compactMap { vertex in
+      let position = SIMD3<Double>(object.positions[vertex])
+      let track = poses.indices.filter { isVisible(position, in: $0) }.map {
+        Observation(
+          photo: ID($0), feature: Int32(vertex), pixel: camera.project(poses[$0] * position))
+      }
+      return track.count < 2 ? nil : ScenePoint(position: position, track: track)
+    }
+    return Reconstruction(cameras: [camera], photos: photos, poses: poses, points: points)
+  }
+
+  /// The file name of a photo: `view_00.jpg`.
+  package static func name(_ index: Int) -> String {
+    "view_\(index < 10 ? "0" : "")\(index).jpg"
+  }
+
+  /// The direction has depth 1 in the camera frame, so that a hit's distance is its depth.
+  private func ray(
+    through pixel: SIMD2<Double>, of index: Int
+  ) -> (origin: SIMD3<Float>, direction: SIMD3<Float>) {
+    let ray = camera.unproject(pixel)
+    let direction = poses[index].rotation.conjugate * SIMD3(ray.x, ray.y, 1)
+    return (SIMD3<Float>(poses[index].center), SIMD3<Float>(direction))
+  }
+
+  private func renderRow(_ row: Int, _ index: Int) -> [UInt8] {
+    var generator = SeededGenerator(
+      seed: seed &* 1_000_003 &+ UInt64(index) &* 65_537 &+ UInt64(row))
+    var pixels: [UInt8] = []
+    pixels.reserveCapacity(camera.width * 3)
+    for column in 0..<camera.width {
+      var sum = SIMD3<Float>.zero
+      for sample in 0..<samplesPerSide * samplesPerSide {
+        let offset = SIMD2(Double(sample % samplesPerSide), Double(sample / samplesPerSide)) + 0.5
+        let pixel = SIMD2(Double(column), Double(row)) + offset / Double(samplesPerSide)
+        sum += radiance(ray(through: pixel, of: index))
+      }
+      let linear = sum / Float(samplesPerSide * samplesPerSide)
+      let noise = generator.normal3() * self.noise
+      for channel in 0..<3 {
+        let encoded = 255 * Self.encode(Double(linear[channel])) + noise[channel]
+        pixels.append(UInt8(min(max(encoded.rounded(), 0), 255)))
+      }
+    }
+    return pixels
+  }
+
+  /// Linear RGB that comes along a ray.
+  private func radiance(
+    _ ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)
+  ) -> SIMD3<Float> {
+    guard let hit = caster.hit(from: ray.origin, along: ray.direction) else {
+      // A plain backdrop without detail, a little lighter towards the top.
+      let height = 0.5 + 0.5 * ray.direction.normalized.y
+      return SIMD3(0.10, 0.11, 0.12) + SIMD3(0.12, 0.13, 0.15) * height
+    }
+    let part = parts[hit.triangle]
+    let surface = surfaces[part.surface]
+    let t = surface.mesh.triangles[part.triangle]
+    let n = surface.mesh.normals
+    let normal =
+      (n[Int(t.a)] * (1 - hit.u - hit.v) + n[Int(t.b)] * hit.u + n[Int(t.c)] * hit.v).normalized
+    let point = ray.origin + ray.direction * hit.distance
+    let facing = max(0.2, abs(normal.dot(ray.direction.normalized)))
+    let footprint = hit.distance / Float(camera.focalLength.x) / facing
+    let albedo = surface.texture.color(at: point, footprint: footprint)
+    let sun = max(0, normal.dot(light))
+    let isLit = sun > 0 && !caster.isBlocked(from: point + normal * 1e-3, along: light)
+    return albedo * (0.42 + 0.16 * normal.y + (isLit ? 0.85 * sun : 0))
+  }
+
+  /// sRGB transfer function.
+  private static func encode(_ linear: Double) -> Double {
+    let value = min(max(linear, 0), 1)
+    return value <= 0.003_130_8 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055
+  }
+}

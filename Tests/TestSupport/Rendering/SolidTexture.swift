@@ -1,0 +1,81 @@
+import SceneModel
+
+/// A colour for every point of space: smooth noise of many octaves between a few colours.
+///
+/// Fixed to space, so that photos from all sides agree, and without seams.
+package struct SolidTexture: Sendable {
+  /// Linear RGB, 0…1, from the lowest noise value to the highest.
+  package var palette: [SIMD3<Float>]
+  /// Wavelength of the coarsest octave in world units; each further one is finer by 2.1.
+  package var wavelength: Float
+  package var octaves: Int
+  package var seed: UInt32
+  /// How far the noise is spread; more makes flat patches with sharp borders.
+  package var contrast: Float
+
+  package init(
+    palette: [SIMD3<Float>], wavelength: Float, octaves: Int, seed: UInt32, contrast: Float = 2.2
+  ) {
+    self.palette = palette
+    self.wavelength = wavelength
+    self.octaves = octaves
+    self.seed = seed
+    self.contrast = contrast
+  }
+
+  /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't show are left out.
+  package func color(at point: SIMD3<Float>, footprint: Float) -> SIMD3<Float> {
+    var (sum, total, amplitude, length) = (Float(0), Float(0), Float(1), wavelength)
+    var p = point
+    for octave in 0..<octaves {
+      let visible = min(max(length / max(footprint, 1e-12) - 1.5, 0), 1)
+      if visible > 0 {
+        let value = Self.noise(p / length, seed &+ UInt32(octave) &* 0x9E37_79B9)
+        sum += amplitude * visible * (value - 0.5)
+      }
+      total += amplitude
+      amplitude *= 0.8
+      length /= 2.1
+      // Turned, so that the lattices of the octaves don't line up.
+      p = SIMD3(
+        0.36 * p.x + 0.48 * p.y - 0.8 * p.z, -0.8 * p.x + 0.6 * p.y,
+        0.48 * p.x + 0.64 * p.y + 0.6 * p.z)
+    }
+    let spread = 0.5 + contrast * sum / total * Float(octaves).squareRoot()
+    return palette(at: min(max(spread, 0), 1))
+  }
+
+  private func palette(at value: Float) -> SIMD3<Float> {
+    guard palette.count > 1 else { return palette.first ?? SIMD3(repeating: 0.5) }
+    let position = value * Float(palette.count - 1)
+    let index = min(Int(position), palette.count - 2)
+    let t = position - Float(index)
+    return palette[index] * (1 - t) + palette[index + 1] * t
+  }
+
+  /// Value noise on the integer lattice, 0…1, with continuous slope.
+  package static func noise(_ p: SIMD3<Float>, _ seed: UInt32) -> Float {
+    let cell = p.rounded(.down)
+    let f = p - cell
+    let s = f * f * (3 - 2 * f)
+    let i = SIMD3<Int32>(cell)
+    let x = SIMD2(UInt32(bitPattern: i.x), UInt32(bitPattern: i.x &+ 1)) &* 0x9E37_79B1
+    let y = SIMD2(UInt32(bitPattern: i.y), UInt32(bitPattern: i.y &+ 1)) &* 0x85EB_CA77
+    let z = SIMD2(UInt32(bitPattern: i.z), UInt32(bitPattern: i.z &+ 1)) &* 0xC2B2_AE3D
+    var corners = SIMD8(
+      x[0] ^ y[0] ^ z[0], x[1] ^ y[0] ^ z[0], x[0] ^ y[1] ^ z[0], x[1] ^ y[1] ^ z[0],
+      x[0] ^ y[0] ^ z[1], x[1] ^ y[0] ^ z[1], x[0] ^ y[1] ^ z[1], x[1] ^ y[1] ^ z[1])
+    corners ^= SIMD8(repeating: seed)
+    corners ^= corners &>> 15
+    corners = corners &* 0x2C1B_3C6D
+    corners ^= corners &>> 12
+    corners = corners &* 0x297A_2D39
+    corners ^= corners &>> 15
+    let values = SIMD8<Float>(corners &>> 8) / Float(1 << 24)
+    let front = values.lowHalf
+    let back = values.highHalf
+    let inZ = front + (back - front) * s.z
+    let inY = inZ.lowHalf + (inZ.highHalf - inZ.lowHalf) * s.y
+    return inY.x + (inY.y - inY.x) * s.x
+  }
+}
