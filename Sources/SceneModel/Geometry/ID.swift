@@ -5,10 +5,14 @@
 package struct ID<Entity>: Hashable, Comparable, Codable, Sendable {
   package var rawValue: Int32
 
-  package init(_ index: Int) { rawValue = Int32(index) }
+  @inlinable package init(_ index: Int) { rawValue = Int32(index) }
 
   /// The position of the entity in its array.
-  package var index: Int { Int(rawValue) }
+  @inlinable package var index: Int { Int(rawValue) }
 
-  package static func < (lhs: Self, rhs: Self) -> Bool { lhs.rawValue < rhs.rawValue }
+  @inlinable package static func < (lhs: Self, rhs: Self) -> Bool { lhs.rawValue < rhs.rawValue }
+
+  @inlinable package static func == (lhs: Self, rhs: Self) -> Bool { lhs.rawValue == rhs.rawValue }
+
+  @inlinable package func hash(into hasher: inout Hasher) { hasher.combine(rawValue) }
 }

@@ -13,7 +13,7 @@ extension RenderedScene {
     meshColumns: Int = 120, seed: UInt64 = 1
   ) -> RenderedScene {
     let lowerCount = photoCount - upperCount
-    let target = SIMD3<Double>(0, 0.125, 0)
+    let target = SIMD3<Double>(0, 0.128, 0)
     let poses = (0..<photoCount).map { index in
       let isLower = index < lowerCount
       let turn =
@@ -24,7 +24,7 @@ extension RenderedScene {
       let azimuth = 2 * .pi * turn
       let offset = SIMD3(
         cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth))
-      return SyntheticScene.lookingAt(target, from: target + offset * 0.72)
+      return SyntheticScene.lookingAt(target, from: target + offset * 0.6)
     }
     let focalLength = Double(width) * 1.15
     return RenderedScene(
@@ -35,7 +35,7 @@ extension RenderedScene {
             [0.05, 0.035, 0.03], [0.42, 0.16, 0.08], [0.62, 0.50, 0.34], [0.16, 0.28, 0.30],
             [0.85, 0.80, 0.68],
           ],
-          wavelength: 0.05, octaves: 5, seed: UInt32(truncatingIfNeeded: seed))),
+          wavelength: 0.05, octaves: 6, seed: UInt32(truncatingIfNeeded: seed))),
       surroundings: [
         Surface(
           mesh: tableMesh(halfSide: 0.5),

@@ -174,7 +174,7 @@ package struct RenderedScene: Sendable {
     let albedo = surface.texture.color(at: point, footprint: footprint)
     let sun = max(0, normal.dot(light))
     let isLit = sun > 0 && !caster.isBlocked(from: point + normal * 1e-3, along: light)
-    return albedo * (0.42 + 0.16 * normal.y + (isLit ? 0.85 * sun : 0))
+    return albedo * (0.36 + 0.14 * normal.y + (isLit ? 0.62 * sun : 0))
   }
 
   /// sRGB transfer function.

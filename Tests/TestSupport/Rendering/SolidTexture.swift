@@ -25,13 +25,14 @@ package struct SolidTexture: Sendable {
 
   /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't show are left out.
   package func color(at point: SIMD3<Float>, footprint: Float) -> SIMD3<Float> {
-    var (sum, total, amplitude, length) = (Float(0), Float(0), Float(1), wavelength)
+    var (sum, fine, total, amplitude, length) = (Float(0), Float(0), Float(0), Float(1), wavelength)
     var p = point
     for octave in 0..<octaves {
       let visible = min(max(length / max(footprint, 1e-12) - 1.5, 0), 1)
       if visible > 0 {
         let value = Self.noise(p / length, seed &+ UInt32(octave) &* 0x9E37_79B9)
         sum += amplitude * visible * (value - 0.5)
+        if octave >= 2 { fine += amplitude * visible * (value - 0.5) }
       }
       total += amplitude
       amplitude *= 0.8
@@ -41,8 +42,11 @@ package struct SolidTexture: Sendable {
         0.36 * p.x + 0.48 * p.y - 0.8 * p.z, -0.8 * p.x + 0.6 * p.y,
         0.48 * p.x + 0.64 * p.y + 0.6 * p.z)
     }
-    let spread = 0.5 + contrast * sum / total * Float(octaves).squareRoot()
-    return palette(at: min(max(spread, 0), 1))
+    let spread = contrast * sum / total * Float(octaves).squareRoot()
+    let position = 0.5 + 0.5 * spread / (0.5 + abs(spread))
+    // The fine octaves also darken and lighten, so that no patch is flat.
+    let shade = min(max(1 + 1.6 * fine / total * Float(octaves).squareRoot(), 0.35), 1.5)
+    return palette(at: position) * shade
   }
 
   private func palette(at value: Float) -> SIMD3<Float> {
