@@ -65,6 +65,29 @@ ck_status ck_seen_through(const float* positions, size_t position_stride, size_t
                           const float* centers, size_t photo_count, const ck_control* control,
                           uint16_t* counts);
 
+/// A registered photo: pixel (x, y, 1) ~ projection · (world, 1).
+typedef struct {
+  /// Three rows of four.
+  float projection[12];
+  float center[3];
+  float width;
+  float height;
+} ck_posed_photo;
+
+/// Counts for every point of a surface the photos that have it in their frame, face to face and
+/// not hidden by the mesh.
+///
+/// A photo faces a point when the direction to its camera and the point's unit normal have at least
+/// `minimum_cosine`. Rays start `clearance` off the surface. `points` and `normals` are three floats
+/// every `point_stride` bytes.
+ck_status ck_count_viewing_photos(const float* positions, size_t position_stride,
+                                  size_t position_count, const uint32_t* triangles,
+                                  size_t triangle_count, const float* points, const float* normals,
+                                  size_t point_stride, size_t point_count,
+                                  const ck_posed_photo* photos, size_t photo_count,
+                                  float minimum_cosine, float clearance, const ck_control* control,
+                                  uint16_t* counts);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,9 +1,5 @@
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -11,17 +7,9 @@
 #include "core/guard.h"
 #include "core/parallel.h"
 #include "surface/points.h"
+#include "surface/ray_mesh.h"
 
 namespace {
-
-struct DeviceRelease {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
-struct SceneRelease {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using Device = std::unique_ptr<RTCDeviceTy, DeviceRelease>;
-using Scene = std::unique_ptr<RTCSceneTy, SceneRelease>;
 
 /// Marks the triangles that the rays of one photo cross.
 struct Crossings {
@@ -37,33 +25,6 @@ void note(const RTCFilterFunctionNArguments* arguments) {
     crossings->crossed[RTCHitN_primID(arguments->hit, arguments->N, i)] = 1;
     arguments->valid[i] = 0;
   }
-}
-
-Scene make_scene(RTCDevice device, const ck::StridedPoints& positions, const uint32_t* triangles,
-                 size_t triangle_count) {
-  Scene scene(rtcNewScene(device));
-  rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), std::max<size_t>(1, positions.count)));
-  auto* indices = static_cast<uint32_t*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(uint32_t), std::max<size_t>(1, triangle_count)));
-  if (!vertices || !indices) {
-    rtcReleaseGeometry(geometry);
-    throw std::bad_alloc();
-  }
-  for (size_t i = 0; i < positions.count; ++i) {
-    std::memcpy(vertices + 3 * i, positions[i], 3 * sizeof(float));
-  }
-  std::memcpy(indices, triangles, triangle_count * 3 * sizeof(uint32_t));
-  rtcSetGeometryIntersectFilterFunction(geometry, note);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene.get(), geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(scene.get());
-  return scene;
 }
 
 /// Casts a ray from `center` that ends `clearance` before `point`.
@@ -112,13 +73,9 @@ ck_status ck_seen_through(const float* positions, size_t position_stride, size_t
     std::fill(counts, counts + triangle_count, 0);
     if (triangle_count == 0 || point_count == 0) return;
     ck::require(points && clearances && photo_offsets && photos && centers, "null pointer");
-    ck::require(std::all_of(triangles, triangles + 3 * triangle_count,
-                            [&](uint32_t i) { return i < position_count; }),
-                "a triangle names a vertex that does not exist");
-    const Device device(rtcNewDevice("threads=1"));
-    if (!device) throw std::runtime_error("embree could not be started");
-    const Scene scene = make_scene(device.get(), {positions, position_stride, position_count},
-                                   triangles, triangle_count);
+    const auto device = ck::surface::make_device();
+    const auto scene = ck::surface::make_scene(
+        device.get(), {positions, position_stride, position_count}, triangles, triangle_count, note);
     const auto seen = points_of_photos(photo_offsets, photos, point_count, photo_count);
     const ck::StridedPoints p{points, point_stride, point_count};
     std::mutex mutex;

@@ -7,8 +7,11 @@ import SceneModel
 /// part of the object encloses on the support, less where the support itself is seen.
 struct BaseClosing {
   struct Options: Hashable, Codable, Sendable {
-    /// What stands lower than this share of the object's height outlines the contact.
-    var outlineHeight = 0.15
+    /// What stands lower than one of these shares of the object's height outlines the contact: the
+    /// lowest that encloses most of what the highest does, so that overhangs are left out.
+    var outlineHeights = [0.03, 0.05, 0.08, 0.11, 0.15]
+    /// How much of it, as share of the area.
+    var enclosedShare = 0.6
     /// Gaps of the outline up to this share of the object's width are closed.
     var closing = 0.06
 
@@ -17,42 +20,53 @@ struct BaseClosing {
 
   var options = Options()
 
-  /// Points on `support` with normals down, in the spacing of `cell`.
-  ///
-  /// `object` is averaged; `seenSupport` are points of the scene that may lie on the support.
+  struct Result: Sendable {
+    /// On the support, in the spacing of the samples; their normals point down.
+    var points: [SIMD3<Float>] = []
+    /// What is lower than this above the support is of the base.
+    var height = 0.0
+  }
+
+  /// `object` is averaged with a spacing of `cell`; `scene` are all points, of which some may lie on
+  /// the support.
   func run(
     object: PointCloud, scene: [SIMD3<Float>], support: StandingPlane, cell: Double
-  ) -> [SIMD3<Float>] {
+  ) -> Result {
     let heights = object.positions.map { support.height(of: SIMD3<Double>($0)) }
-    guard let top = heights.quantile(0.99), top > 4 * support.band else { return [] }
-    let limit = max(3 * support.band, options.outlineHeight * top)
-    let low = object.positions.indices.filter { heights[$0] < limit }
+    guard let top = heights.quantile(0.99), top > 4 * support.band else { return Result() }
+    let limits = options.outlineHeights.map { max(3 * support.band, $0 * top) }
+    guard let highest = limits.last else { return Result() }
+    let low = object.positions.indices.filter { heights[$0] < highest }
     guard
       var grid = SupportGrid(
         low.map { object.positions[$0] }, support, cell: max(1.5 * cell, 0.5 * support.band))
-    else { return [] }
-    for index in low { grid.mark(object.positions[index], .object) }
-    let width = Double(grid.width + grid.height) / 2 * options.closing
-    grid.close(radius: max(2, min(40, Int(width.rounded(.up)))))
+    else { return Result() }
     for position in scene where abs(support.height(of: SIMD3<Double>(position))) < support.band {
-      grid.mark(position, .support)
+      grid.markSupport(position)
     }
-    return grid.contact(spacing: cell)
+    let contacts = limits.map { limit in
+      grid.contact(
+        under: low.filter { heights[$0] < limit }.map { object.positions[$0] },
+        closing: options.closing)
+    }
+    let areas = contacts.map { $0.reduce(0) { $1 ? $0 + 1 : $0 } }
+    let wanted = options.enclosedShare * Double(areas.last ?? 0)
+    guard let index = areas.firstIndex(where: { Double($0) >= wanted }) else { return Result() }
+    return Result(
+      points: grid.points(contacts[index], spacing: cell), height: 2 * limits[index])
   }
 }
 
 /// A grid on the support plane.
 private struct SupportGrid {
-  enum Content { case object, support }
-
-  let width: Int
-  let height: Int
+  private static let margin = 44.0
+  private let width: Int
+  private let height: Int
   private let plane: StandingPlane
   private let (u, v): (SIMD3<Double>, SIMD3<Double>)
   private let origin: SIMD2<Double>
   private let cell: Double
-  private var isObject: [Bool]
-  private var supportCounts: [UInt16]
+  private var isSupport: [Bool]
 
   /// Nil where the points don't span an area or span too large a one.
   init?(_ points: [SIMD3<Float>], _ plane: StandingPlane, cell: Double) {
@@ -68,12 +82,11 @@ private struct SupportGrid {
     let extent = max(high.x - low.x, high.y - low.y)
     guard extent.isFinite, extent > 4 * cell else { return nil }
     self.cell = max(cell, extent / 1500)
-    let margin = 44.0
+    let margin = Self.margin
     origin = low - margin * self.cell
     width = Int((high.x - low.x) / self.cell + 2 * margin) + 1
     height = Int((high.y - low.y) / self.cell + 2 * margin) + 1
-    isObject = Array(repeating: false, count: width * height)
-    supportCounts = Array(repeating: 0, count: width * height)
+    isSupport = Array(repeating: false, count: width * height)
   }
 
   private func index(of position: SIMD3<Float>) -> Int? {
@@ -84,23 +97,27 @@ private struct SupportGrid {
     return Int(y) * width + Int(x)
   }
 
-  mutating func mark(_ position: SIMD3<Float>, _ content: Content) {
-    guard let index = index(of: position) else { return }
-    switch content {
-    case .object: isObject[index] = true
-    case .support: supportCounts[index] = min(1000, supportCounts[index]) + 1
+  mutating func markSupport(_ position: SIMD3<Float>) {
+    if let index = index(of: position) { isSupport[index] = true }
+  }
+
+  /// The cells that an outline encloses and where no support is seen; gaps of the outline of
+  /// `closing` times the grid's mean width are closed.
+  func contact(under outline: [SIMD3<Float>], closing: Double) -> [Bool] {
+    var mask = [Bool](repeating: false, count: width * height)
+    for position in outline {
+      if let index = index(of: position) { mask[index] = true }
     }
+    let side = Double(width + height) / 2 - 2 * Self.margin
+    let radius = max(2, min(Int(Self.margin) - 2, Int((closing * side).rounded(.up))))
+    mask = filled(Self.dilated(mask, width, height, radius))
+    mask = Self.dilated(mask.map { !$0 }, width, height, radius).map { !$0 }
+    return zip(mask, isSupport).map { $0 && !$1 }
   }
 
-  /// Closes gaps of the outline and fills what it encloses.
-  mutating func close(radius: Int) {
-    isObject = Self.dilated(isObject, width, height, radius)
-    fillHoles()
-    isObject = Self.dilated(isObject.map { !$0 }, width, height, radius).map { !$0 }
-  }
-
-  private mutating func fillHoles() {
-    var isOutside = [Bool](repeating: false, count: isObject.count)
+  /// The mask with the holes that it encloses.
+  private func filled(_ mask: [Bool]) -> [Bool] {
+    var isOutside = [Bool](repeating: false, count: mask.count)
     var stack = [0]
     isOutside[0] = true
     while let index = stack.popLast() {
@@ -109,13 +126,13 @@ private struct SupportGrid {
         let (nx, ny) = (x + dx, y + dy)
         guard nx >= 0, ny >= 0, nx < width, ny < height else { continue }
         let next = ny * width + nx
-        if !isOutside[next], !isObject[next] {
+        if !isOutside[next], !mask[next] {
           isOutside[next] = true
           stack.append(next)
         }
       }
     }
-    isObject = isOutside.map { !$0 }
+    return isOutside.map { !$0 }
   }
 
   /// Dilates by a square of side `2 · radius + 1`, by rows and columns.
@@ -141,13 +158,13 @@ private struct SupportGrid {
     return pass(rows, length: height, lines: width, step: width, line: 1)
   }
 
-  /// Points on the plane, `spacing` apart, in the cells of the object where no support is seen.
-  func contact(spacing: Double) -> [SIMD3<Float>] {
+  /// Points on the plane, `spacing` apart, in the cells of a mask.
+  func points(_ mask: [Bool], spacing: Double) -> [SIMD3<Float>] {
     var points: [SIMD3<Float>] = []
     let foot = plane.offset * plane.normal
     let per = max(1, Int((cell / spacing).rounded()))
     for y in 0..<height {
-      for x in 0..<width where isObject[y * width + x] && supportCounts[y * width + x] < 1 {
+      for x in 0..<width where mask[y * width + x] {
         for k in 0..<per * per {
           let a = origin.x + cell * (Double(x) + (Double(k % per) + 0.5) / Double(per))
           let b = origin.y + cell * (Double(y) + (Double(k / per) + 0.5) / Double(per))

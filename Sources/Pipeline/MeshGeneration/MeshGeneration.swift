@@ -30,20 +30,25 @@ package struct MeshGeneration {
       cloud.filtered(by: selection.isKept), context.part(from: 0.15, to: 0.2))
     averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.2, to: 0.25))
     context.notes.count("samples", Double(averaged.cloud.count))
+    var base = BaseClosing.Result()
     if let support = selection.support {
-      let base = BaseClosing().run(
+      base = BaseClosing().run(
         object: averaged.cloud, scene: cloud.positions, support: support,
         cell: averaged.voxelSize)
-      averaged.cloud.append(base: base, normal: -SIMD3<Float>(support.normal))
-      context.notes.count("basePoints", Double(base.count))
+      averaged.cloud.append(base: base.points, normal: -SIMD3<Float>(support.normal))
+      context.notes.count("basePoints", Double(base.points.count))
     }
     var poisson = PoissonSurface()
     poisson.options.maximumDepth = options.maximumDepth
     let closed = try poisson.run(
       averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.25, to: 0.8))
-    let trimmed = try SurfaceTrimming().run(
-      closed, samples: averaged.cloud, scene: cloud, spacing: averaged.voxelSize, reconstruction,
-      context.part(from: 0.8, to: 0.95))
+    var trimming = SurfaceTrimming()
+    trimming.options.closesUnseen = selection.isObject
+    let trimmed = try trimming.run(
+      closed, samples: averaged.cloud, scene: cloud, spacing: averaged.voxelSize,
+      isBase: { point in
+        selection.support.map { $0.height(of: SIMD3<Double>(point)) < base.height } ?? false
+      }, reconstruction, context.part(from: 0.8, to: 0.95))
     let mesh = try MeshCleaning().run(
       trimmed, samples: averaged.cloud, context.part(from: 0.95, to: 1))
     context.notes.count("triangles", Double(mesh.triangles.count))
@@ -55,6 +60,13 @@ package struct MeshGeneration {
     _ cloud: PointCloud?, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> (min: SIMD3<Float>, max: SIMD3<Float>)? {
     try ObjectIsolation().bounds(cloud, reconstruction, context)
+  }
+
+  /// The points that the surface is made of.
+  private struct Selection {
+    var isKept: [Bool]
+    var isObject: Bool
+    var support: StandingPlane?
   }
 
   private func check(_ cloud: PointCloud) throws {
@@ -71,7 +83,7 @@ package struct MeshGeneration {
 
   private func select(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
-  ) throws -> (isKept: [Bool], support: StandingPlane?) {
+  ) throws -> Selection {
     if options.isolatesObject {
       let result = try ObjectIsolation().run(cloud, reconstruction, context)
       if let failure = result.failure {
@@ -81,12 +93,13 @@ package struct MeshGeneration {
         let kept = result.isKept.filter { $0 }.count
         context.notes.count("objectPoints", Double(kept))
         context.notes.count("removedPoints", Double(cloud.count - kept))
-        return (result.isKept, result.support)
+        return Selection(
+          isKept: result.isKept, isObject: true, support: result.support)
       }
     }
     let isKept = try SceneTrimming().run(cloud, reconstruction, context)
     context.notes.count("removedPoints", Double(isKept.filter { !$0 }.count))
-    return (isKept, nil)
+    return Selection(isKept: isKept, isObject: false, support: nil)
   }
 }
 
