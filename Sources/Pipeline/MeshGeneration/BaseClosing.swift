@@ -27,8 +27,8 @@ struct BaseClosing {
     var height = 0.0
   }
 
-  /// `object` is averaged with a spacing of `cell`; `scene` are all points, of which some may lie on
-  /// the support.
+  /// `object` is averaged with a spacing of `cell`; `scene` are all points, of which some may lie
+  /// on the support.
   func run(
     object: PointCloud, scene: [SIMD3<Float>], support: StandingPlane, cell: Double
   ) -> Result {

@@ -51,7 +51,7 @@ struct CloudAveraging {
     var photos: [UInt16] = []
     for cell in 0..<grid.cellCount {
       let points = members[cell]
-      Self.append(points, of: cloud, to: &result)
+      Self.append(points, of: cloud, to: &result, fallback: Float(size))
       photos.removeAll(keepingCapacity: true)
       for point in points { photos.append(contentsOf: cloud.visiblePhotos(of: Int(point))) }
       photos.sort()
@@ -69,7 +69,8 @@ struct CloudAveraging {
 
   /// Appends the weighted mean of some points, without their photos.
   private static func append(
-    _ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud
+    _ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud,
+    fallback: Float
   ) {
     var (position, normal, color) = (SIMD3<Double>(), SIMD3<Double>(), SIMD3<Double>())
     var (consistency, footprint, sum) = (0.0, Float.infinity, 0.0)
@@ -81,7 +82,7 @@ struct CloudAveraging {
       if !cloud.normals.isEmpty { normal += weight * SIMD3<Double>(cloud.normals[i]) }
       if !cloud.colors.isEmpty { color += weight * SIMD3<Double>(cloud.colors[i]) }
       consistency = max(consistency, value)
-      footprint = min(footprint, cloud.footprints[i])
+      if cloud.footprints[i] > 0 { footprint = min(footprint, cloud.footprints[i]) }
       sum += weight
     }
     result.positions.append(SIMD3<Float>(position / sum))
@@ -90,7 +91,7 @@ struct CloudAveraging {
       result.colors.append(SIMD3<UInt8>((color / sum).rounded(.toNearestOrAwayFromZero)))
     }
     result.consistency.append(Float(consistency))
-    result.footprints.append(footprint)
+    result.footprints.append(footprint.isFinite ? footprint : fallback)
   }
 }
 

@@ -1,0 +1,206 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct MeshGenerationTests {
+  func ball(
+    photoCount: Int = 16, keeps: (SIMD3<Double>) -> Bool = { _ in true }
+  ) -> (PointCloud, Reconstruction) {
+    var scene = IsolationScene()
+    scene.photoCount = photoCount
+    let reconstruction = scene.reconstruction(target: .zero)
+    // All sides of the ball have points, also those that no photo sees.
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(
+      center: .zero, radius: 0.5, label: 1, centers: centers + centers.map { -$0 }, keeps: keeps)
+    var cloud = scene.cloud
+    cloud.photoIndices = []
+    for index in 0..<cloud.count {
+      let seen = scene.cloud.visiblePhotos(of: index).filter { Int($0) < photoCount }
+      cloud.photoIndices.append(contentsOf: seen)
+      cloud.photoOffsets[index + 1] = UInt32(cloud.photoIndices.count)
+    }
+    return (cloud, reconstruction)
+  }
+
+  /// Edges with one face only.
+  func openEdges(_ mesh: Mesh) -> Int {
+    var edges = Set<SIMD2<UInt32>>()
+    for t in mesh.triangles {
+      for (a, b) in [(t.a, t.b), (t.b, t.c), (t.c, t.a)] {
+        if edges.remove([b, a]) == nil { edges.insert([a, b]) }
+      }
+    }
+    return edges.count
+  }
+
+  func volume(_ mesh: Mesh) -> Double {
+    mesh.triangles.reduce(0) { sum, t in
+      let (a, b, c) = mesh.corners(of: t)
+      return sum + SIMD3<Double>(a).dot(SIMD3<Double>(b).cross(SIMD3<Double>(c))) / 6
+    }
+  }
+
+  @Test func ballIsRoundClosedAndFacesOut() throws {
+    let (cloud, _) = ball()
+    let mesh = try PoissonSurface().run(cloud, spacing: 0.02, StageContext())
+    let errors = mesh.positions.map { abs($0.length - 0.5) }
+    #expect((errors.max() ?? 1) < 0.005)
+    #expect(openEdges(mesh) == 0)
+    #expect(abs(volume(mesh) / (4 / 3 * .pi * 0.125) - 1) < 0.01)
+  }
+
+  @Test func meshHasNormalsAndColoursOfItsPatches() throws {
+    let (cloud, reconstruction) = ball()
+    let context = StageContext()
+    let mesh = try MeshGeneration().run(cloud, reconstruction, context)
+    #expect(mesh.normals.count == mesh.positions.count)
+    #expect(mesh.colors.allSatisfy { $0 == [200, 100, 50] })
+    for (position, normal) in zip(mesh.positions, mesh.normals) {
+      #expect(normal.dot(position.normalized) > 0.9)
+    }
+    #expect(context.notes.counts["triangles"] == Double(mesh.triangles.count))
+  }
+
+  @Test func threadsDoNotChangeTheMesh() throws {
+    let (cloud, reconstruction) = ball()
+    let meshes = try [1, 2].map { threads in
+      try MeshGeneration().run(
+        cloud, reconstruction, StageContext(control: KernelControl(threadCount: threads)))
+    }
+    #expect(meshes[0].positions == meshes[1].positions)
+    #expect(meshes[0].triangles == meshes[1].triangles)
+    #expect(meshes[0].colors == meshes[1].colors)
+  }
+
+  @Test func closureThatPhotosShouldSeeGoes() throws {
+    // The upper third is missing, and all photos look at it from above.
+    let (cloud, reconstruction) = ball { $0.y < 0.17 }
+    let closed = try PoissonSurface().run(cloud, spacing: 0.02, StageContext())
+    #expect(
+      closed.positions.contains { $0.y > 0.25 || $0.y > 0.15 && $0.x * $0.x + $0.z * $0.z < 0.1 })
+    let trimmed = try SurfaceTrimming().run(
+      closed, samples: cloud, scene: cloud, spacing: 0.02, reconstruction, StageContext())
+    let made = trimmed.triangles.filter { t in
+      let (a, b, c) = trimmed.corners(of: t)
+      let center = (a + b + c) / 3
+      return center.y > 0.28 || center.y > 0.1 && center.x * center.x + center.z * center.z < 0.08
+    }
+    #expect(made.isEmpty)
+    let kept = trimmed.triangles.count { trimmed.corners(of: $0).0.y < 0.15 }
+    #expect(
+      Double(kept) > 0.99
+        * Double(
+          closed.triangles.count {
+            closed.corners(of: $0).0.y < 0.15 && abs(closed.corners(of: $0).0.length - 0.5) < 0.01
+          }))
+  }
+
+  @Test func closureThatNoPhotoSeesStays() throws {
+    // The bottom is missing, where no photo looks.
+    let (cloud, reconstruction) = ball { $0.y > -0.45 }
+    let closed = try PoissonSurface().run(cloud, spacing: 0.02, StageContext())
+    let trimmed = try SurfaceTrimming().run(
+      closed, samples: cloud, scene: cloud, spacing: 0.02, reconstruction, StageContext())
+    #expect(openEdges(trimmed) == 0)
+    var trimming = SurfaceTrimming()
+    trimming.options.closesUnseen = false
+    trimming.options.gapShare = 0
+    let open = try trimming.run(
+      closed, samples: cloud, scene: cloud, spacing: 0.02, reconstruction, StageContext())
+    #expect(openEdges(open) > 10)
+  }
+
+  @Test func floatersGo() throws {
+    var (cloud, reconstruction) = ball()
+    let count = cloud.count
+    for index in stride(from: 0, to: count, by: 30) {
+      cloud.append(cloud, index)
+      cloud.positions[cloud.count - 1] *= 1.5
+    }
+    let mesh = try MeshGeneration().run(cloud, reconstruction, StageContext())
+    #expect(mesh.positions.allSatisfy { abs($0.length - 0.5) < 0.02 })
+  }
+
+  @Test func baseOfABallOnATableIsClosed() throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(center: [0, 0.35, 0], radius: 0.5, label: 1, centers: centers) { $0.y > 0 }
+    scene.addPlane(radius: 2, label: 0, centers: centers) { $0.x * $0.x + $0.z * $0.z > 0.15 }
+    let context = StageContext()
+    let mesh = try MeshGeneration().run(scene.cloud, reconstruction, context)
+    #expect(context.notes.warnings.isEmpty)
+    #expect(openEdges(mesh) == 0)
+    #expect(mesh.positions.allSatisfy { $0.y > -0.03 && $0.y < 0.88 })
+    #expect((context.notes.counts["basePoints"] ?? 0) > 100)
+  }
+
+  @Test func cancellingStopsAtOnce() throws {
+    let (cloud, reconstruction) = ball()
+    let flag = CancellationFlag()
+    let control = KernelControl(flag: flag) { if $0 > 0.4 { flag.cancel() } }
+    #expect(throws: CancellationError.self) {
+      try MeshGeneration().run(cloud, reconstruction, StageContext(control: control))
+    }
+  }
+
+  @Test(arguments: [0, 3, 99]) func tooFewPointsAreAnError(count: Int) throws {
+    let (all, reconstruction) = ball()
+    let cloud = all.filtered(by: (0..<all.count).map { $0 < count })
+    #expect(throws: PipelineError.self) {
+      try MeshGeneration().run(cloud, reconstruction, StageContext())
+    }
+  }
+
+  @Test func pointsThatAreNotFiniteAreLeftOut() throws {
+    var (cloud, reconstruction) = ball()
+    for index in stride(from: 0, to: cloud.count, by: 50) {
+      cloud.positions[index] = [.nan, .infinity, 0]
+      cloud.normals[(index + 7) % cloud.count] = [.nan, 0, 0]
+      cloud.consistency[(index + 13) % cloud.count] = .nan
+      cloud.footprints[(index + 17) % cloud.count] = .nan
+    }
+    let mesh = try MeshGeneration().run(cloud, reconstruction, StageContext())
+    #expect(mesh.positions.allSatisfy { abs($0.length - 0.5) < 0.03 })
+    cloud.positions = cloud.positions.map { _ in [.nan, .nan, .nan] }
+    #expect(throws: PipelineError.self) {
+      try MeshGeneration().run(cloud, reconstruction, StageContext())
+    }
+  }
+
+  @Test func wholeSceneIsKeptWithoutIsolation() throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(center: [0, 0.4, 0], radius: 0.4, label: 1, centers: centers)
+    scene.addPlane(radius: 1.5, label: 0, centers: centers)
+    var options = MeshGeneration.Options()
+    options.isolatesObject = false
+    let mesh = try MeshGeneration(options).run(scene.cloud, reconstruction, StageContext())
+    #expect(mesh.positions.contains { $0.y > 0.75 })
+    #expect(mesh.positions.contains { abs($0.y) < 0.02 && $0.x > 1.4 })
+    #expect(mesh.positions.allSatisfy { $0.y > -0.1 })
+  }
+
+  @Test func cleaningDropsImproperFaces() throws {
+    var mesh = Mesh(positions: [
+      [0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [9, 9, 9], [.nan, 0, 0], [2, 0, 0],
+    ])
+    mesh.triangles = [
+      Triangle(0, 1, 2), Triangle(1, 3, 2), Triangle(2, 0, 1), Triangle(1, 1, 2),
+      Triangle(0, 1, 5), Triangle(0, 1, 6), Triangle(0, 1, 3), Triangle(0, 1, 99),
+    ]
+    let clean = try MeshCleaning().run(mesh, samples: PointCloud(), StageContext())
+    #expect(clean.triangles == [Triangle(0, 1, 2), Triangle(1, 3, 2)])
+    #expect(clean.positions.count == 4)
+    #expect(clean.normals.allSatisfy { $0 == [0, 0, 1] })
+    #expect(throws: PipelineError.self) {
+      try MeshCleaning().run(Mesh(), samples: PointCloud(), StageContext())
+    }
+  }
+}

@@ -1,0 +1,111 @@
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct ObjectIsolationTests {
+  /// A ball on a table with a block of clutter far from the focus.
+  func ballOnTable(tilt: Double = 0) -> (IsolationScene, Reconstruction) {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    let normal = Quaternion(angle: tilt, axis: [0, 0, 1]) * SIMD3<Double>(0, 1, 0)
+    scene.addBall(center: 0.5 * normal, radius: 0.5, label: 1, centers: centers)
+    scene.addPlane(normal: normal, radius: 2.2, label: 0, centers: centers) {
+      ($0 - normal.dot($0) * normal).length > 0.12
+    }
+    let aside = Quaternion(angle: tilt, axis: [0, 0, 1]) * SIMD3<Double>(1.7, 0.1, 0)
+    scene.addBall(center: aside, radius: 0.12, label: 2, centers: centers)
+    return (scene, reconstruction)
+  }
+
+  /// The share of the points with a label that are kept; points within `band` of the support are
+  /// left out, as they belong to both.
+  func keptShare(
+    _ result: ObjectIsolation.Result, _ scene: IsolationScene, label: Int
+  ) -> Double {
+    let members = scene.labels.indices.filter { index in
+      guard scene.labels[index] == label, label != 0, let support = result.support else {
+        return scene.labels[index] == label
+      }
+      return support.height(of: SIMD3<Double>(scene.cloud.positions[index])) > 2 * support.band
+    }
+    return Double(members.filter { result.isKept[$0] }.count) / Double(max(1, members.count))
+  }
+
+  @Test(arguments: [0, 0.1, 0.3]) func objectStaysAndSupportGoes(tilt: Double) throws {
+    let (scene, reconstruction) = ballOnTable(tilt: tilt)
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    #expect(result.failure == nil)
+    #expect(keptShare(result, scene, label: 1) >= 0.99)
+    #expect(keptShare(result, scene, label: 0) <= 0.01)
+    #expect(keptShare(result, scene, label: 2) <= 0.01)
+  }
+
+  @Test func supportIsFoundWhereItIs() throws {
+    let (scene, reconstruction) = ballOnTable(tilt: 0.2)
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    let support = try #require(result.support)
+    let normal = Quaternion(angle: 0.2, axis: [0, 0, 1]) * SIMD3<Double>(0, 1, 0)
+    #expect(support.normal.dot(normal) > 0.9999)
+    #expect(abs(support.offset) < 0.005)
+  }
+
+  @Test func objectInTheAirNeedsNoSupport() throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(center: [0, 0.4, 0], radius: 0.5, label: 1, centers: centers)
+    scene.addBall(center: [8, 0, 0], radius: 1, label: 2, centers: centers)
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    #expect(result.failure == nil)
+    #expect(keptShare(result, scene, label: 1) >= 0.99)
+    #expect(keptShare(result, scene, label: 2) == 0)
+  }
+
+  @Test func twoObjectsAtTheFocusAreBothKept() throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(center: [-0.4, 0.3, 0], radius: 0.3, label: 1, centers: centers)
+    scene.addBall(center: [0.4, 0.3, 0], radius: 0.3, label: 2, centers: centers)
+    scene.addPlane(radius: 2.2, label: 0, centers: centers)
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    #expect(keptShare(result, scene, label: 1) >= 0.99)
+    #expect(keptShare(result, scene, label: 2) >= 0.99)
+    #expect(keptShare(result, scene, label: 0) <= 0.01)
+  }
+
+  @Test func bareTableIsNoObject() throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addPlane(radius: 2.2, label: 0, centers: centers)
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    #expect(result.failure != nil)
+    #expect(result.isKept.allSatisfy { $0 })
+  }
+
+  @Test func boundsOfSparsePointsAreThoseOfTheObject() throws {
+    let (scene, empty) = ballOnTable()
+    var reconstruction = empty
+    for index in stride(from: 0, to: scene.cloud.count, by: 7) {
+      let track = scene.cloud.visiblePhotos(of: index).map {
+        Observation(photo: ID(Int($0)), feature: 0, pixel: .zero)
+      }
+      reconstruction.points.append(
+        ScenePoint(position: SIMD3<Double>(scene.cloud.positions[index]), track: track))
+    }
+    let box = try #require(
+      try MeshGeneration().bounds(nil, reconstruction, StageContext()))
+    #expect((box.max - SIMD3<Float>(0.5, 1, 0.5)).length < 0.08)
+    #expect((box.min - SIMD3<Float>(-0.5, 0, -0.5)).length < 0.15)
+  }
+
+  @Test func boundsOfNothingAreNil() throws {
+    let reconstruction = IsolationScene().reconstruction()
+    #expect(try MeshGeneration().bounds(nil, reconstruction, StageContext()) == nil)
+  }
+}
