@@ -71,9 +71,9 @@ class Simplifier {
     }
   }
 
-  /// Drops the smallest components until no more than `maximum` triangles are left.
-  void drop_components(size_t maximum) {
-    if (alive_ <= maximum) return;
+  /// Drops the smallest components until no more than `maximum` triangles and `maximum_pieces`
+  /// components are left.
+  void drop_components(size_t maximum, size_t maximum_pieces) {
     std::vector<uint32_t> parents(vertices_.size());
     std::iota(parents.begin(), parents.end(), 0u);
     const auto root = [&](uint32_t i) {
@@ -81,8 +81,7 @@ class Simplifier {
       return i;
     };
     for (const Face& f : faces_) {
-      if (f[0] == kNone) continue;
-      for (size_t k = 1; k < 3; ++k) {
+      for (size_t k = 1; f[0] != kNone && k < 3; ++k) {
         const uint32_t a = root(f[0]), b = root(f[k]);
         parents[std::max(a, b)] = std::min(a, b);
       }
@@ -102,12 +101,15 @@ class Simplifier {
       return areas[a] != areas[b] ? areas[a] < areas[b] : a < b;
     });
     std::vector<bool> is_dropped(vertices_.size(), false);
-    for (size_t k = 0; k + 1 < order.size() && alive_ > maximum; ++k) {
+    for (size_t k = 0; k + 1 < order.size(); ++k) {
+      if (alive_ <= maximum && order.size() - k <= maximum_pieces) break;
       is_dropped[order[k]] = true;
       alive_ -= counts[order[k]];
     }
     for (Face& f : faces_) {
-      if (f[0] != kNone && is_dropped[root(f[0])]) f[0] = kNone;
+      if (f[0] == kNone || !is_dropped[root(f[0])]) continue;
+      for (const uint32_t v : f) vertices_[v].faces.clear();
+      f[0] = kNone;
     }
   }
 
@@ -347,10 +349,12 @@ ck_status ck_simplify(float* positions, size_t* position_count, size_t position_
     ck::step(control, 0);
     ck::texture::Simplifier simplifier(positions, *position_count, position_stride, triangles,
                                        *triangle_count);
+    // No closed piece has fewer than four triangles: many crumbs would take the budget.
+    simplifier.drop_components(*triangle_count, std::max<size_t>(1, maximum_count / 16));
     // What is refused in one pass may be allowed after its surroundings have changed. A limit on
     // the triangles' shape does harm: it stops what would mend the slivers of the input.
     for (const double cosine : {0.2, 0.2, 0.0}) simplifier.run(maximum_count, cosine, control);
-    simplifier.drop_components(maximum_count);
+    simplifier.drop_components(maximum_count, maximum_count);
     simplifier.copy(positions, position_count, position_stride, triangles, triangle_count);
   });
 }

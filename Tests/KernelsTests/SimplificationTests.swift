@@ -1,0 +1,87 @@
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct SimplificationTests {
+  /// Every edge of a closed surface belongs to two triangles of opposite direction.
+  private func isClosed(_ mesh: Mesh) -> Bool {
+    var edges: [SIMD2<UInt32>: Int] = [:]
+    for t in mesh.triangles {
+      for (a, b) in [(t.a, t.b), (t.b, t.c), (t.c, t.a)] { edges[[a, b], default: 0] += 1 }
+    }
+    return edges.allSatisfy { edge, count in
+      count == 1 && edges[[edge.y, edge.x]] == 1
+    }
+  }
+
+  @Test(arguments: [8000, 1999, 500, 60]) func aSphereStaysASphere(budget: Int) throws {
+    let mesh = SyntheticMesh.sphere(subdivisions: 5)
+    let simple = try mesh.simplified(maximumTriangles: budget, KernelControl())
+    #expect(simple.triangles.count <= budget)
+    #expect(simple.triangles.count >= budget - 2)
+    #expect(isClosed(simple))
+    // The sagitta of a patch of area 4π / n, with a margin.
+    let tolerance = 6 / Float(budget)
+    for position in simple.positions { #expect(abs(position.length - 1) < tolerance) }
+    for t in simple.triangles {
+      let (a, b, c) = (
+        simple.positions[Int(t.a)], simple.positions[Int(t.b)], simple.positions[Int(t.c)]
+      )
+      #expect((b - a).cross(c - a).dot(a + b + c) > 0)
+    }
+  }
+
+  @Test func aPlaneKeepsItsOutline() throws {
+    let mesh = SyntheticMesh.grid(cells: 30, origin: .zero, u: [3, 0, 0], v: [0, 2, 0])
+    let simple = try mesh.simplified(maximumTriangles: 40, KernelControl())
+    #expect(simple.triangles.count <= 40)
+    let area = simple.triangles.reduce(Float(0)) { sum, t in
+      let a = simple.positions[Int(t.a)]
+      return sum
+        + (simple.positions[Int(t.b)] - a).cross(simple.positions[Int(t.c)] - a).z / 2
+    }
+    #expect(abs(area - 6) < 0.01)
+    #expect(simple.positions.allSatisfy { abs($0.z) < 1e-5 })
+  }
+
+  @Test func duplicatesAndDegenerateTrianglesGo() throws {
+    var mesh = SyntheticMesh.cube(cells: 1)
+    mesh.triangles += [mesh.triangles[0], .init(0, 0, 1)]
+    mesh.positions.append([9, 9, 9])
+    let simple = try mesh.simplified(maximumTriangles: 100, KernelControl())
+    #expect(simple.triangles.count == 12)
+    #expect(simple.positions.count == 8)
+    #expect(isClosed(simple))
+  }
+
+  @Test func manySmallPiecesStillMeetTheBudget() throws {
+    var mesh = SyntheticMesh.sphere(subdivisions: 3)
+    for index in 0..<20 {
+      var small = SyntheticMesh.sphere(radius: 0.05, subdivisions: 0)
+      small.positions = small.positions.map { $0 + [3 + Float(index), 0, 0] }
+      SyntheticMesh.append(small, to: &mesh)
+    }
+    let simple = try mesh.simplified(maximumTriangles: 50, KernelControl())
+    #expect(simple.triangles.count <= 50)
+    #expect(simple.positions.contains { abs($0.length - 1) < 0.2 })
+  }
+
+  @Test func twiceIsTheSame() throws {
+    let mesh = SyntheticMesh.sphere(subdivisions: 4)
+    let first = try mesh.simplified(maximumTriangles: 300, KernelControl())
+    let second = try mesh.simplified(
+      maximumTriangles: 300, KernelControl(threadCount: 2))
+    #expect(first.positions == second.positions)
+    #expect(first.triangles == second.triangles)
+  }
+
+  @Test func cancelStops() {
+    let flag = CancellationFlag()
+    flag.cancel()
+    #expect(throws: CancellationError.self) {
+      try SyntheticMesh.sphere(subdivisions: 4)
+        .simplified(maximumTriangles: 100, KernelControl(flag: flag))
+    }
+  }
+}

@@ -1,0 +1,95 @@
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct TextureRaysTests {
+  /// A camera at (0, 0, `distance`) that looks along −z, and a gray photo.
+  private func view(distance: Double, side: Int = 200, value: UInt8 = 100) -> PinholeView {
+    let camera = Camera(width: side, height: side, focalLength: SIMD2(repeating: Double(side)))
+    let rotation = Quaternion(x: 1, y: 0, z: 0, w: 0)
+    return PinholeView(
+      photo: ID(0), image: RasterImage(width: side, height: side, channels: 3, filledWith: value),
+      camera: camera,
+      cameraFromWorld: RigidTransform(
+        rotation: rotation, translation: -(rotation * SIMD3<Double>(0, 0, distance))))
+  }
+
+  @Test func aCameraSeesTheSideOfACubeThatFacesIt() throws {
+    let mesh = SyntheticMesh.cube(cells: 4)
+    let scene = try RayScene(mesh, KernelControl())
+    let seen = try scene.observations(in: view(distance: 5), KernelControl())
+    let front = mesh.triangles.indices.filter { index in
+      let t = mesh.triangles[index]
+      return [t.a, t.b, t.c].allSatisfy { mesh.positions[Int($0)].z == 1 }
+    }
+    #expect(seen.map { Int($0.face) } == front)
+    #expect(seen.count == 32)
+    // The side of 2 at distance 4 has 200 · 2 / 4 = 100 pixels.
+    #expect(abs(seen.reduce(0) { $0 + $1.area } - 100 * 100) < 1)
+    #expect(seen.allSatisfy { $0.color == SIMD3(repeating: 100) && $0.cosine > 0.9 })
+  }
+
+  @Test func whatIsInFrontHidesAndItsSurroundingsAreUncertain() throws {
+    let wall = SyntheticMesh.grid(cells: 20, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
+    var mesh = wall
+    SyntheticMesh.append(
+      SyntheticMesh.grid(cells: 2, origin: [-0.3, -0.3, 1], u: [0.6, 0, 0], v: [0, 0.6, 0]),
+      to: &mesh)
+    let scene = try RayScene(mesh, KernelControl())
+    let seen = try scene.observations(in: view(distance: 4), KernelControl())
+    func middle(_ face: Int32) -> SIMD3<Float> {
+      let t = mesh.triangles[Int(face)]
+      let corners = [t.a, t.b, t.c].map { mesh.positions[Int($0)] }
+      return (corners[0] + corners[1] + corners[2]) / 3
+    }
+    // From 4 above, the square of ±0.3 at height 1 covers ±0.4 of the wall.
+    let onWall = seen.filter { middle($0.face).z == 0 }
+    for observation in onWall {
+      let p = middle(observation.face)
+      #expect(max(abs(p.x), abs(p.y)) > 0.39)
+      if max(abs(p.x), abs(p.y)) > 0.75 { #expect(observation.isClear) }
+    }
+    #expect(onWall.contains { !$0.isClear })
+    #expect(onWall.count > 400)
+  }
+
+  @Test func wavesOutsideTheImageAreNotSeen() throws {
+    let mesh = SyntheticMesh.grid(cells: 20, origin: [-9, -9, 0], u: [18, 0, 0], v: [0, 18, 0])
+    let scene = try RayScene(mesh, KernelControl())
+    let seen = try scene.observations(in: view(distance: 5), KernelControl())
+    // Half the field of view is 2.5, cells are 0.9: two cells each way lie inside.
+    #expect(seen.count == 2 * 4 * 4)
+  }
+
+  @Test func opennessOfAPlaneAndOfACorner() throws {
+    var corner = SyntheticMesh.grid(cells: 8, origin: [0, 0, 0], u: [0, 0, 1], v: [1, 0, 0])
+    let floorCount = corner.positions.count
+    SyntheticMesh.append(
+      SyntheticMesh.grid(cells: 8, origin: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0]), to: &corner)
+    SyntheticMesh.append(
+      SyntheticMesh.grid(cells: 8, origin: [0, 0, 0], u: [0, 1, 0], v: [0, 0, 1]), to: &corner)
+    let scene = try RayScene(corner, KernelControl())
+    let floor = (0..<floorCount).map { corner.positions[$0] }
+    let openness = try scene.openness(
+      at: floor, normals: floor.map { _ in [0, 1, 0] }, rays: 256, maximumDistance: 10,
+      KernelControl())
+    func value(at p: SIMD3<Float>) -> Float? { floor.firstIndex(of: p).map { openness[$0] } }
+    // Next to two walls a quarter of the sky is left; far from them nearly all.
+    #expect(abs((value(at: [0.125, 0, 0.125]) ?? 0) - 0.3) < 0.1)
+    #expect((value(at: [1, 0, 1]) ?? 0) > 0.75)
+    let plane = SyntheticMesh.grid(cells: 4, origin: [0, 0, 0], u: [0, 0, 1], v: [1, 0, 0])
+    let open = try RayScene(plane, KernelControl()).openness(
+      at: plane.positions, normals: plane.normals, rays: 64, maximumDistance: 10, KernelControl())
+    #expect(open.allSatisfy { $0 == 1 })
+  }
+
+  @Test func badMeshesAreRefused() {
+    #expect(throws: KernelError.self) { try RayScene(Mesh(), KernelControl()) }
+    let missing = Mesh(positions: [.zero], triangles: [.init(0, 1, 2)])
+    #expect(throws: KernelError.self) { try RayScene(missing, KernelControl()) }
+    let infinite = Mesh(
+      positions: [.zero, [.infinity, 0, 0], [0, 1, 0]], triangles: [.init(0, 1, 2)])
+    #expect(throws: KernelError.self) { try RayScene(infinite, KernelControl()) }
+  }
+}

@@ -1,0 +1,170 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct TextureMappingTests {
+  /// A smooth pattern, brighter than 60 everywhere.
+  private static func color(_ p: SIMD3<Float>) -> SIMD3<Float> {
+    let waves = SIMD3<Float>(sin(5 * p.x), sin(4 * p.y + 1), cos(5 * p.z))
+    return 140 + 50 * waves
+  }
+
+  private let mesh = SyntheticMesh.sphere(subdivisions: 4)
+
+  private func texture(
+    _ scene: SphereScene, mesh: Mesh? = nil, side: Int = 512,
+    maps: Set<TextureMap> = [.diffuseColor], threads: Int = 1,
+    change: (inout TextureMapping.Options) -> Void = { _ in }
+  ) throws -> TexturedMesh {
+    var options = TextureMapping.Options(textureSide: side, maps: maps)
+    change(&options)
+    return try TextureMapping(options: options).run(
+      mesh ?? self.mesh, dense: self.mesh, reconstruction: scene.reconstruction,
+      images: ImageStore(images: scene.images),
+      StageContext(control: KernelControl(threadCount: threads)))
+  }
+
+  /// Position and texture colour at the middles of the triangles.
+  private func samples(
+    _ model: TexturedMesh
+  ) throws -> [(position: SIMD3<Float>, color: SIMD3<Float>)] {
+    let image = try #require(model.atlases[0].maps[.diffuseColor])
+    return zip(model.mesh.triangles, model.textureTriangles).map { t, uv in
+      let positions = model.mesh.positions
+      let p = positions[Int(t.a)] + positions[Int(t.b)] + positions[Int(t.c)]
+      let coordinates = model.textureCoordinates
+      let sum = coordinates[Int(uv.a)] + coordinates[Int(uv.b)] + coordinates[Int(uv.c)]
+      let st = sum / 3
+      let x = min(Int(st.x * Float(image.width)), image.width - 1)
+      let y = min(Int((1 - st.y) * Float(image.height)), image.height - 1)
+      let start = 3 * (y * image.width + x)
+      return (
+        p.normalized,
+        SIMD3(
+          Float(image.pixels[start]), Float(image.pixels[start + 1]),
+          Float(image.pixels[start + 2]))
+      )
+    }
+  }
+
+  @Test func theTextureShowsTheSphere() throws {
+    let model = try texture(SphereScene(viewCount: 12, color: Self.color))
+    #expect(model.textureTriangles.count == mesh.triangles.count)
+    #expect(model.textureCoordinates.allSatisfy { $0.min() >= 0 && $0.max() <= 1 })
+    for sample in try samples(model) {
+      let difference = sample.color - Self.color(sample.position)
+      #expect(pointwiseMax(difference, -difference).max() < 8)
+    }
+  }
+
+  @Test func exposureDifferencesAreLevelled() throws {
+    let scene = SphereScene(viewCount: 14, gains: [0.85, 1.1], color: Self.color)
+    let model = try texture(scene)
+    // One gain for the whole model is free.
+    let all = try samples(model)
+    let expected = all.map { Self.color($0.position) }
+    let ratio = all.map(\.color.x).reduce(0, +) / expected.map(\.x).reduce(0, +)
+    let errors = zip(all, expected).map { abs($0.color.y - ratio * $1.y) }
+    #expect(errors.reduce(0, +) / Float(errors.count) < 2)
+    #expect((errors.max() ?? 0) < 10)
+    #expect(ratio > 0.85 && ratio < 1.1)
+  }
+
+  @Test func seamsShrinkByLevelling() throws {
+    let scene = SphereScene(viewCount: 14, gains: [0.85, 1.1], color: Self.color)
+    let edges = MeshTopology(mesh).edges
+    /// The largest difference of neighbouring triangles that the sphere doesn't have.
+    func step(_ model: TexturedMesh) throws -> Float {
+      let errors = try samples(model).map { $0.color.y - Self.color($0.position).y }
+      return edges.map { abs(errors[Int($0.first)] - errors[Int($0.second)]) }.max() ?? 0
+    }
+    let raw = try texture(scene) {
+      $0.exposure.prior = 1e6
+      $0.leveling.seam = 0
+      $0.leveling.consensus = 1e-9
+    }
+    let levelled = try texture(scene) { $0.exposure.prior = 1e6 }
+    #expect(try step(levelled) < 0.5 * step(raw))
+  }
+
+  @Test func whatNoPhotoSeesIsFilledFromItsSurroundings() throws {
+    var scene = SphereScene(viewCount: 12, color: Self.color)
+    // Only the cameras above remain.
+    for index in 6..<12 { scene.reconstruction.poses[index] = nil }
+    let all = try samples(texture(scene))
+    #expect(all.allSatisfy { $0.color.min() > 40 })
+    let below = all.filter { $0.position.y < -0.9 }
+    #expect(!below.isEmpty)
+  }
+
+  @Test func aPhotoWithAStrangerInItIsNotUsedThere() throws {
+    var scene = SphereScene(viewCount: 16, color: Self.color)
+    // A magenta block in the middle of one photo.
+    for y in 80..<120 {
+      for x in 80..<120 {
+        let start = 3 * (y * 200 + x)
+        scene.images[5].pixels[start] = 255
+        scene.images[5].pixels[start + 1] = 0
+        scene.images[5].pixels[start + 2] = 255
+      }
+    }
+    let worst = try samples(texture(scene)).map { sample in
+      let difference = sample.color - Self.color(sample.position)
+      return pointwiseMax(difference, -difference).max()
+    }.max()
+    #expect(try #require(worst) < 30)
+  }
+
+  @Test func normalAndOcclusionMapsOfASphere() throws {
+    let model = try texture(
+      SphereScene(viewCount: 8, color: Self.color), mesh: SyntheticMesh.sphere(subdivisions: 3),
+      maps: [.normal, .ambientOcclusion, .roughness, .displacement])
+    let maps = model.atlases[0].maps
+    #expect(Set(maps.keys) == [.normal, .ambientOcclusion, .roughness, .displacement])
+    let normals = try #require(maps[.normal])
+    // The smooth normals of both spheres agree.
+    for index in stride(from: 0, to: normals.pixels.count, by: 3) {
+      #expect(abs(Int(normals.pixels[index]) - 128) < 14)
+      #expect(normals.pixels[index + 2] > 240)
+    }
+    #expect(maps[.ambientOcclusion]?.pixels.allSatisfy { $0 > 240 } == true)
+    #expect(maps[.roughness]?.pixels.allSatisfy { $0 == 230 } == true)
+  }
+
+  @Test func theResultDoesNotDependOnThreads() throws {
+    let scene = SphereScene(viewCount: 8, color: Self.color)
+    let maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
+    let one = try texture(scene, maps: maps, threads: 1)
+    let two = try texture(scene, maps: maps, threads: 2)
+    #expect(one.textureCoordinates == two.textureCoordinates)
+    #expect(one.textureTriangles == two.textureTriangles)
+    #expect(one.atlases[0].maps == two.atlases[0].maps)
+  }
+
+  @Test func coarsePhotosGetASmallTexture() throws {
+    let model = try texture(
+      SphereScene(viewCount: 8, imageSize: 100, color: Self.color), side: 4096)
+    #expect(try #require(model.atlases[0].maps[.diffuseColor]).width <= 1024)
+  }
+
+  @Test func aModelWithoutTrianglesGivesASentence() {
+    let scene = SphereScene(viewCount: 3, imageSize: 20, color: Self.color)
+    #expect(throws: PipelineError.self) { try texture(scene, mesh: Mesh()) }
+  }
+
+  @Test func cancelStops() throws {
+    let scene = SphereScene(viewCount: 4, imageSize: 60, color: Self.color)
+    let flag = CancellationFlag()
+    flag.cancel()
+    #expect(throws: CancellationError.self) {
+      try TextureMapping().run(
+        mesh, dense: mesh, reconstruction: scene.reconstruction,
+        images: ImageStore(images: scene.images),
+        StageContext(control: KernelControl(flag: flag)))
+    }
+  }
+}

@@ -1,0 +1,106 @@
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct ViewChoiceTests {
+  private func views(_ entries: [[FaceObservation]]) -> FaceViews {
+    FaceViews(faceCount: 1, observationsByView: entries)
+  }
+
+  private func observation(
+    area: Float = 100, cosine: Float = 0.9, color: SIMD3<Float> = SIMD3(repeating: 100),
+    isClear: Bool = true
+  ) -> [FaceObservation] {
+    [
+      FaceObservation(
+        face: 0, area: area, cosine: cosine, gradient: 5, isClear: isClear, color: color)
+    ]
+  }
+
+  private func rate(_ entries: [[FaceObservation]]) throws -> RatedViews {
+    try ViewCandidates().run(
+      views(entries), gains: entries.map { _ in .one }, StageContext())
+  }
+
+  @Test func frontalLargeAndClearViewsAreBetter() throws {
+    let rated = try rate([
+      observation(), observation(cosine: 0.5), observation(area: 50),
+      observation(isClear: false),
+    ])
+    #expect(rated.qualities.count == 4)
+    for other in 1..<4 { #expect(rated.qualities[0] > rated.qualities[other]) }
+  }
+
+  @Test func aStrangeColourIsLeftOut() throws {
+    let rated = try rate([
+      observation(), observation(color: [102, 99, 101]), observation(color: [180, 100, 100]),
+      observation(color: [98, 101, 100]), observation(color: [101, 100, 97]),
+    ])
+    #expect(rated.views.entries.map(\.view) == [0, 1, 3, 4])
+    let color = try #require(rated.colors[0])
+    #expect((color - SIMD3(repeating: 100)).length < 3)
+  }
+
+  @Test func twoViewsThatDifferBothStay() throws {
+    let rated = try rate([observation(), observation(color: [10, 200, 30])])
+    #expect(rated.views.entries.count == 2)
+  }
+
+  @Test func gainsOfPhotosAreFound() throws {
+    // Three photos see 300 triangles; the second is darker, the third brighter in red.
+    let truth: [SIMD3<Float>] = [.one, .init(repeating: 0.8), [1.25, 1, 1]]
+    var generator = SeededGenerator(seed: 1)
+    let colors = (0..<300).map { _ in
+      SIMD3<Float>.random(in: 60...180, using: &generator)
+    }
+    let byView = truth.map { gain in
+      colors.enumerated().map { face, color in
+        FaceObservation(face: Int32(face), area: 10, cosine: 0.8, gradient: 1, color: color * gain)
+      }
+    }
+    let gains = try ExposureCompensation().run(
+      FaceViews(faceCount: 300, observationsByView: byView), viewCount: 3, StageContext())
+    for view in 1..<3 {
+      let relative = gains[view] * truth[view] / (gains[0] * truth[0])
+      #expect((relative - .one).length < 0.03)
+    }
+  }
+
+  @Test func sharesOfACornerAddUpToOne() throws {
+    let mesh = SyntheticMesh.grid(cells: 6, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
+    let count = mesh.triangles.count
+    let byView = (0..<2).map { _ in
+      (0..<count).map {
+        FaceObservation(face: Int32($0), area: 10, cosine: 0.8, gradient: 1, color: .one)
+      }
+    }
+    let rated = try ViewCandidates().run(
+      FaceViews(faceCount: count, observationsByView: byView), gains: [.one, .one],
+      StageContext())
+    let labels = (0..<count).map { $0 == 0 ? Int32(-1) : Int32($0 * 2 / count) }
+    let weights = try ViewBlending().run(
+      rated, labels: labels, mesh: mesh, topology: MeshTopology(mesh), StageContext())
+    for corner in 0..<3 * count {
+      let shares = weights.shares(of: corner)
+      #expect(abs(shares.reduce(0) { $0 + $1.weight } - 1) < 1e-5)
+      #expect(shares.allSatisfy { ($0.view == -1) == (corner < 3) })
+    }
+    #expect((0..<3 * count).contains { weights.shares(of: $0).count == 2 })
+  }
+
+  @Test func edgesOfATopologyHaveTheirTriangles() {
+    let mesh = SyntheticMesh.cube(cells: 3)
+    let topology = MeshTopology(mesh)
+    #expect(topology.edges.count == mesh.triangles.count * 3 / 2)
+    for edge in topology.edges {
+      #expect(edge.second > edge.first)
+      for face in [edge.first, edge.second] {
+        let vertices = mesh.triangles[Int(face)].vertices
+        #expect(vertices.contains(Int(edge.low)) && vertices.contains(Int(edge.high)))
+      }
+    }
+  }
+}
