@@ -9,7 +9,8 @@ import Testing
   static let reconstruction: Reconstruction = {
     let cameras = [
       Camera(
-        width: 4000, height: 3000, focalLength: [3000.1, 2999.9], principalPoint: [2001.5, 1499.25],
+        width: 4000, height: 3000, focalLength: [3000.1, 2999.9],
+        principalPoint: [2001.5, 1499.25],
         distortion: [-0.1, 1.0 / 3, 1e-5, -2e-17], calibration: .refined),
       Camera(width: 640, height: 480, focalLength: [500, 500], calibration: .refined),
     ]

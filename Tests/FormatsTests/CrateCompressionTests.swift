@@ -21,10 +21,11 @@ import Testing
     #expect(LZ4Block.compress([UInt8](repeating: 0, count: 100_000)).count < 500)
   }
 
-  @Test(arguments: [
-    [], [5], [1, 2, 3, 4], [3, 3, 3, 3, 3], [0, 127, -1, -129, 40_000, -70_000, .max, .min, 0],
-    (0..<1000).map { Int32($0 * $0) },
-  ] as [[Int32]])
+  @Test(
+    arguments: [
+      [], [5], [1, 2, 3, 4], [3, 3, 3, 3, 3], [0, 127, -1, -129, 40_000, -70_000, .max, .min, 0],
+      (0..<1000).map { Int32($0 * $0) },
+    ] as [[Int32]])
   func integersComeBack(_ integers: [Int32]) throws {
     let packed = CrateCompression.compress(integers)
     #expect(packed.first == 0)

@@ -66,18 +66,21 @@ import Testing
     #expect(root.children.map(\.name) == ["Materials", "Geom"])
     let mesh = try #require(root.children[1].children.first)
     #expect(mesh.apiSchemas == ["MaterialBindingAPI"])
-    #expect(mesh.properties.contains(
-      .attribute("float3[]", "extent", .float3Array([[-1, 0, -1], [1, 2, 1]]))))
+    #expect(
+      mesh.properties.contains(
+        .attribute("float3[]", "extent", .float3Array([[-1, 0, -1], [1, 2, 1]]))))
     let shaders = root.children[0].children[0].children
     #expect(
       shaders.map(\.name) == [
         "surfaceShader", "uvReader_st", "diffuseColor_texture", "normal_texture",
         "occlusion_texture",
       ])
-    #expect(shaders[3].properties.contains(
-      .attribute("token", "inputs:sourceColorSpace", .token("raw"))))
-    #expect(shaders[2].properties.contains(
-      .attribute("asset", "inputs:file", .asset("0/baked_mesh_tex0.png"))))
+    #expect(
+      shaders[3].properties.contains(
+        .attribute("token", "inputs:sourceColorSpace", .token("raw"))))
+    #expect(
+      shaders[2].properties.contains(
+        .attribute("asset", "inputs:file", .asset("0/baked_mesh_tex0.png"))))
   }
 
   @Test func atlasesBecomeMeshesThatTogetherAreTheWhole() {

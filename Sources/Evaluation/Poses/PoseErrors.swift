@@ -100,8 +100,9 @@ extension PoseErrors {
         let estimate = b.estimate.rotation * a.estimate.rotation.conjugate
         let trueDirection = b.truth.rotation * (a.truth.center - b.truth.center)
         let direction = b.estimate.rotation * (a.estimate.center - b.estimate.center)
-        let angle = atan2(
-          trueDirection.cross(direction).length, trueDirection.dot(direction)) * 180 / .pi
+        let angle =
+          atan2(
+            trueDirection.cross(direction).length, trueDirection.dot(direction)) * 180 / .pi
         errors.append(max(degrees(truth.conjugate * estimate), angle))
       }
     }

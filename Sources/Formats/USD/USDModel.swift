@@ -43,7 +43,8 @@ package struct ModelContent: Sendable {
 
   /// The parts of the mesh, one an atlas; without atlases all of it.
   package var parts: [MeshPart] {
-    let ranges = mesh.atlases.isEmpty
+    let ranges =
+      mesh.atlases.isEmpty
       ? [0..<mesh.mesh.triangles.count] : mesh.atlases.map(\.triangles)
     guard ranges.count > 1 else { return [MeshPart(whole: mesh)] }
     return ranges.map { MeshPart(mesh, triangles: $0) }

@@ -120,7 +120,8 @@
         let name = photo.name.padding(toLength: width, withPad: " ", startingAt: 0)
         let focal = "focal length \(Int(photo.focalLength.rounded())) px (\(photo.calibration))"
         let place = photo.hasPosition ? "  GPS" : ""
-        return "\(name)  \(photo.width) x \(photo.height)  camera \(photo.camera + 1)  \(focal)\(place)"
+        return
+          "\(name)  \(photo.width) x \(photo.height)  camera \(photo.camera + 1)  \(focal)\(place)"
       }
       lines += refused.map(\.reason)
       lines.append(

@@ -21,7 +21,9 @@ struct EvaluationInput {
           "\(path) can't be compared: name a PLY file, or the checkpoint directory of the run.")
       }
       let mesh = try PLY.readMesh(url)
-      if mesh.triangles.isEmpty { input.cloud = try PLY.readPointCloud(url) } else {
+      if mesh.triangles.isEmpty {
+        input.cloud = try PLY.readPointCloud(url)
+      } else {
         input.mesh = mesh
       }
     case .folder:
