@@ -15,6 +15,11 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   /// Bytes that decoded photos may take.
   package var imageMemory: Int = 1 << 30
 
+  /// Photos beyond this number are refused.
+  package var maximumPhotos: Int = 1000
+  /// Photos with a longer side, in pixels, are refused.
+  package var maximumPhotoSide: Int = 16384
+
   package init() {}
 }
 

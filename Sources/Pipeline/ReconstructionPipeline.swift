@@ -46,6 +46,8 @@ package final class ReconstructionPipeline {
     let result = try run(.preProcessing) { context in
       var options = PhotoIngestion.Options()
       options.memoryBudget = configuration.imageMemory
+      options.maximumPhotos = configuration.maximumPhotos
+      options.inspection.limits.maximumSide = configuration.maximumPhotoSide
       return try PhotoIngestion(options).run(folder: folder, context)
     }
     report.photos += result.refused.map {

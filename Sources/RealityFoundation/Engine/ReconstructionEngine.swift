@@ -83,6 +83,8 @@ extension PipelineConfiguration {
     isHighSensitivity = configuration.featureSensitivity == .high
     checkpointDirectory = configuration.checkpointDirectory
     threadCount = options.threadCount
+    maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
+    maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
     // The machine's memory and not what is free of it: runs must not differ.
     imageMemory = min(imageMemory, max(256 << 20, Machine.current.totalMemoryBytes / 8))
   }

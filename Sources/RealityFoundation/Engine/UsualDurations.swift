@@ -2,7 +2,8 @@ import Pipeline
 
 /// How long units of work usually take: where an estimate begins.
 ///
-/// Measured on photos of 2 to 12 megapixels with two threads.
+/// Fitted to runs on photos of 0.5 and 0.8 megapixels. Meshes and textures take one thread for the
+/// most part.
 struct UsualDurations: Sendable {
   var photoCount: Int
   /// What the shared stages are done for.
@@ -15,15 +16,14 @@ struct UsualDurations: Sendable {
     let pixels = Double((unit.specification ?? finest).viewPixels) / 500_000
     let texels = Double((unit.specification ?? finest).textureSide) / 2048
     let pairs = min(photos * (photos - 1) / 2, photos * 20)
-    let seconds =
-      switch unit.stage {
-      case .preProcessing: 0.15 * photos
-      case .imageAlignment: 1.5 * photos + 0.1 * pairs
-      case .pointCloudGeneration: 4 * photos * pixels
-      case .meshGeneration: 5 + 15 * pixels
-      case .textureMapping: 5 + 0.5 * photos + 10 * texels * texels
-      case .optimization: 0.5 + 2 * texels * texels
-      }
-    return seconds * 2 / Double(max(1, threadCount))
+    let threads = Double(max(1, threadCount))
+    return switch unit.stage {
+    case .preProcessing: 0.03 * photos / threads
+    case .imageAlignment: (0.4 * photos + 0.03 * pairs) / threads
+    case .pointCloudGeneration: 1.1 * photos * pixels / threads
+    case .meshGeneration: 6 + 3 * pixels
+    case .textureMapping: 1 + 0.1 * photos + 2 * texels * texels
+    case .optimization: 0.3 + 1.4 * texels * texels
+    }
   }
 }
