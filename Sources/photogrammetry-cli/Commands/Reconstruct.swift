@@ -18,7 +18,7 @@ struct Reconstruct: AsyncParsableCommand {
         photogrammetry-cli photos/ model.usdz
             One file for AR Quick Look, at the 'reduced' level.
         photogrammetry-cli photos/ model.usdz -d medium --checkpoint-directory work/
-            More detail; a later run goes on from what is in work/.
+            More detail; sparse/, dense/, mesh/ and report.json stay in work/.
         photogrammetry-cli photos/ model/ --poses poses.json --point-cloud points.ply
             A folder with OBJ, MTL, USDA and textures, and what else is known.
         photogrammetry-cli facade/ facade.usdz --no-object-masking -o sequential
@@ -60,7 +60,7 @@ struct Reconstruct: AsyncParsableCommand {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "Keep intermediate results there, and go on from them.", valueName: "folder"))
+      "Leave sparse/, dense/, mesh/ and report.json there, for other tools.", valueName: "folder"))
   var checkpointDirectory: String?
 
   @Option(

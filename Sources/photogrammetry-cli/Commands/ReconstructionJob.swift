@@ -72,13 +72,10 @@ struct ReconstructionJob {
   }
 
   private func interrupted(_ reporter: RunReporter) -> CommandFailure {
-    let remedy =
-      checkpointURL == nil
-      ? "With --checkpoint-directory the next run could go on from here."
-      : "The same command goes on from the checkpoint."
+    let rest = checkpointURL.map { " Finished stages are in \($0.path)." } ?? ""
     reporter.event(RunEvent(event: "cancelled", seconds: reporter.elapsed))
     return CommandFailure(
-      sentence: "Interrupted; no model was written. \(remedy)",
+      sentence: "Interrupted; no model was written.\(rest)",
       exitCode: CommandFailure.interruptedCode)
   }
 
