@@ -132,6 +132,10 @@ package enum PatchStereo {
     package var normalThresholdDegrees: Float = 60
     /// Relative distance behind a patch at which another view sees through it.
     package var contradictionThreshold: Float = 0.01
+    /// How often pixels that look like their rejected neighbours are peeled off the border.
+    package var fringePasses = 2
+    /// Grey levels that make a pixel half like another.
+    package var fringeContrast: Float = 10
     /// Connected patches fewer than this are removed.
     package var minimumIsland = 30
     /// Pixels within which confirmations are fused.
@@ -230,7 +234,8 @@ extension PatchStereo.FilterOptions {
       minimum_agreeing: Int32(minimumAgreeingViews),
       reprojection_threshold: reprojectionThreshold, depth_threshold: depthThreshold,
       normal_cosine: cosine(degrees: normalThresholdDegrees),
-      contradiction_threshold: contradictionThreshold, minimum_island: Int32(minimumIsland),
+      contradiction_threshold: contradictionThreshold, fringe_passes: Int32(fringePasses),
+      fringe_contrast: fringeContrast, minimum_island: Int32(minimumIsland),
       fusion_threshold: fusionThreshold)
   }
 }

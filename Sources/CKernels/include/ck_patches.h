@@ -98,6 +98,10 @@ typedef struct {
   float normal_cosine;
   /// Patches that another view sees through are removed beyond this relative distance.
   float contradiction_threshold;
+  /// How often pixels that look like their rejected neighbours are peeled off the border.
+  int32_t fringe_passes;
+  /// Grey levels that make a pixel half like another.
+  float fringe_contrast;
   /// Connected patches fewer than this are removed.
   int32_t minimum_island;
   /// Pixels within which confirmations are fused.

@@ -44,6 +44,30 @@ void filter_by_visibility(uint8_t* states, const std::vector<Map>& maps, size_t 
   }
 }
 
+/// Removes patches at the border of the accepted ones that look like the rejected pixels around
+/// them: a plain background beside an outline borrows the outline's depth.
+void remove_fringe(uint8_t* states, const Map& map, float contrast) {
+  constexpr int kRadius = 3;
+  const int w = map.width, h = map.height;
+  const uint8_t* luma = map.raw->view.luma;
+  const std::vector<uint8_t> before(states, states + static_cast<size_t>(w) * h);
+  for (int y = kRadius; y < h - kRadius; ++y) {
+    for (int x = kRadius; x < w - kRadius; ++x) {
+      const size_t cell = static_cast<size_t>(y) * w + x;
+      if (!before[cell]) continue;
+      float accepted = 0, rejected = 0;
+      for (int dy = -kRadius; dy <= kRadius; ++dy) {
+        for (int dx = -kRadius; dx <= kRadius; ++dx) {
+          const size_t other = cell + static_cast<ptrdiff_t>(dy) * w + dx;
+          const float difference = (luma[other] - luma[cell]) / contrast;
+          (before[other] ? accepted : rejected) += 1 / (1 + difference * difference);
+        }
+      }
+      if (rejected > accepted) states[cell] = ck_patch_rejected;
+    }
+  }
+}
+
 /// Removes connected patches that are few; neighbours connect where their depths do.
 void remove_islands(uint8_t* states, const Map& map, int minimum) {
   const int w = map.width, h = map.height;
@@ -81,6 +105,9 @@ ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* maps, size_t ma
     ck::require(states && maps && options && index < map_count, "missing argument");
     const std::vector<Map> all(maps, maps + map_count);
     filter_by_visibility(states, all, index, *options, control);
+    for (int pass = 0; pass < options->fringe_passes; ++pass) {
+      remove_fringe(states, all[index], options->fringe_contrast);
+    }
     remove_islands(states, all[index], options->minimum_island);
   });
 }
