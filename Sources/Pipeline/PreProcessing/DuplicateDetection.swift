@@ -8,6 +8,9 @@ package struct DuplicateDetection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Root mean square difference, in gray levels, that any block of two thumbnails may have.
     package var maximumBlockDifference = 2.0
+    /// What is allowed on top, as a share of the block's standard deviation: encoders lose more of
+    /// strong texture, and photos taken one after the other differ by more than the whole of it.
+    package var maximumShareOfContrast = 0.15
     /// Side of a block in pixels of the thumbnail.
     package var blockSide = 16
     /// Relative difference of the aspects of one picture in two sizes.
@@ -53,9 +56,10 @@ package struct DuplicateDetection: Sendable {
       for left in stride(from: 0, to: first.width, by: options.blockSide) {
         let rows = top..<min(top + options.blockSide, first.height)
         let columns = left..<min(left + options.blockSide, first.width)
-        guard difference(first, second, rows, columns) <= options.maximumBlockDifference else {
-          return false
-        }
+        let allowed =
+          options.maximumBlockDifference
+          + options.maximumShareOfContrast * deviation(first, rows, columns)
+        guard difference(first, second, rows, columns) <= allowed else { return false }
       }
     }
     return true
@@ -77,5 +81,20 @@ package struct DuplicateDetection: Sendable {
       }
     }
     return (Double(sum) / Double(rows.count * columns.count)).squareRoot()
+  }
+
+  /// Standard deviation inside a rectangle.
+  private func deviation(_ a: RasterImage, _ rows: Range<Int>, _ columns: Range<Int>) -> Double {
+    var (sum, squares) = (0, 0)
+    for y in rows {
+      for index in y * a.width + columns.lowerBound..<y * a.width + columns.upperBound {
+        let value = Int(a.pixels[index])
+        sum += value
+        squares += value * value
+      }
+    }
+    let count = Double(rows.count * columns.count)
+    let mean = Double(sum) / count
+    return max(0, Double(squares) / count - mean * mean).squareRoot()
   }
 }
