@@ -25,7 +25,7 @@ struct BadPhotos {
     try save(ExifWriter.jpeg(sideways, with: exif), "orientation-6.jpg")
 
     // Not usable.
-    try save(ImageCodec.encodeJPEG(photo, quality: 0.6), "original-again.jpg")
+    try save(ImageCodec.encodeJPEG(photo, quality: 0.6), "recoded.jpg")
     try save(Array(jpeg.prefix(jpeg.count / 2)), "truncated.jpg")
     try save(corrupt(jpeg), "corrupt.jpg")
     try save([], "empty.jpg")

@@ -14,7 +14,7 @@ import Testing
       faults == [
         "black.jpg": .blurred, "blurred.jpg": .blurred, "corrupt.jpg": .unreadable,
         "empty.jpg": .unreadable, "notes.txt": .unsupportedFormat,
-        "original-again.jpg": .duplicate, "text-named-as.jpg": .unsupportedFormat,
+        "recoded.jpg": .duplicate, "text-named-as.jpg": .unsupportedFormat,
         "tiny.png": .tooSmall, "truncated.jpg": .unreadable,
       ])
     #expect(
@@ -51,7 +51,7 @@ import Testing
         errors.append(nearest.min() ?? .infinity)
       }
       #expect(errors.count > 30)
-      #expect(errors.sorted()[errors.count * 9 / 10] < 0.004)
+      #expect(errors.sorted()[errors.count * 9 / 10] < 0.008)
     }
   }
 

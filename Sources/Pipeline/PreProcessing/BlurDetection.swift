@@ -11,7 +11,7 @@ package struct BlurDetection: Sendable {
     /// Photos at least this sharp are kept whatever the others are: see `RasterImage.sharpness()`.
     package var alwaysSharp = 0.75
     /// With fewer photos than this the median says nothing and only hopeless ones are refused.
-    package var minimumPhotos = 5
+    package var minimumPhotos = 3
     /// Sharpness of a hopeless photo.
     package var hopeless = 0.1
 
