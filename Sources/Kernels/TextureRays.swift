@@ -15,12 +15,14 @@ package struct FaceObservation: Hashable, Sendable {
   package var gradient: Float
   /// Whether nothing in front of the triangle ends close to it in the image.
   package var isClear: Bool
+  /// Whether the surface goes on around the triangle in the image.
+  package var isInterior: Bool
   /// Mean RGB, 0…255.
   package var color: SIMD3<Float>
 
   package init(
     face: Int32, view: Int32 = 0, area: Float, cosine: Float, gradient: Float,
-    isClear: Bool = true, color: SIMD3<Float>
+    isClear: Bool = true, isInterior: Bool = true, color: SIMD3<Float>
   ) {
     self.face = face
     self.view = view
@@ -28,6 +30,7 @@ package struct FaceObservation: Hashable, Sendable {
     self.cosine = cosine
     self.gradient = gradient
     self.isClear = isClear
+    self.isInterior = isInterior
     self.color = color
   }
 }
@@ -84,7 +87,7 @@ package final class RayScene: Sendable {
       result.append(
         FaceObservation(
           face: Int32(face), area: value.area, cosine: value.cosine, gradient: value.gradient,
-          isClear: value.clearance > 0,
+          isClear: value.clearance > 0, isInterior: value.interior > 0,
           color: SIMD3(value.color.0, value.color.1, value.color.2)))
     }
     return result

@@ -42,6 +42,9 @@ typedef struct {
   /// 1, or 0 where the rim of something in front of the triangle is within the margin: an error of
   /// the camera or the surface would take that thing's colour.
   float clearance;
+  /// 1, or 0 where the surface ends within the margin and something far behind it, or nothing,
+  /// begins: the same error would take the background's colour.
+  float interior;
   /// Mean colour, 0…255.
   float color[3];
 } ck_face_observation;
@@ -49,7 +52,7 @@ typedef struct {
 typedef struct {
   /// Triangles seen at a smaller cosine count as not seen.
   float minimum_cosine;
-  /// Pixels that a triangle keeps from the rim of the image; see `clearance` too.
+  /// Pixels that a triangle keeps from the rim of the image; see `clearance` and `interior` too.
   float margin;
 } ck_observe_options;
 

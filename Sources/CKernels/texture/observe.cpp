@@ -48,52 +48,60 @@ void rasterize(const std::array<Vec2, 3>& p, int width, int height, Visit&& visi
   }
 }
 
-/// A small depth buffer in which every pixel holds the nearest depth of its neighbourhood.
-struct NearestDepth {
+/// A small depth buffer that knows the nearest and the farthest depth around each pixel.
+struct DepthRange {
   static constexpr int kShrink = 2;
   int width, height;
-  std::vector<float> depth;
+  std::vector<float> nearest;
+  /// `kFar` where some pixel around shows no surface.
+  std::vector<float> farthest;
 
-  NearestDepth(const ck_ray_scene& scene, const std::vector<Corner>& corners,
-               const ck_pinhole& view)
+  DepthRange(const ck_ray_scene& scene, const std::vector<Corner>& corners, const ck_pinhole& view,
+             int radius)
       : width(view.width / kShrink + 1),
         height(view.height / kShrink + 1),
-        depth(static_cast<size_t>(width) * static_cast<size_t>(height), kFar) {
+        nearest(static_cast<size_t>(width) * static_cast<size_t>(height), kFar) {
     for (const auto& t : scene.triangles) {
       const Corner &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
       if (a.depth <= 0 || b.depth <= 0 || c.depth <= 0) continue;
       const std::array<Vec2, 3> p = {a.pixel * (1.0f / kShrink), b.pixel * (1.0f / kShrink),
                                      c.pixel * (1.0f / kShrink)};
       rasterize(p, width, height, [&](int x, int y, float w1, float w2) {
-        float& slot = at(x, y);
+        float& slot = nearest[index(x, y)];
         slot = std::min(slot, a.depth * (1 - w1 - w2) + b.depth * w1 + c.depth * w2);
       });
     }
+    farthest = nearest;
+    spread(&nearest, radius, [](float a, float b) { return std::min(a, b); });
+    spread(&farthest, radius, [](float a, float b) { return std::max(a, b); });
   }
 
-  float& at(int x, int y) {
-    return depth[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
+  /// The place in the buffers of a pixel of the view.
+  size_t at(Vec2 pixel) const {
+    return index(std::clamp(static_cast<int>(pixel.x) / kShrink, 0, width - 1),
+                 std::clamp(static_cast<int>(pixel.y) / kShrink, 0, height - 1));
   }
 
-  void spread(int radius) {
-    std::vector<float> rows = depth;
-    for (int pass = 0; pass < 2; ++pass) {
-      const std::vector<float>& from = pass == 0 ? depth : rows;
-      std::vector<float> to(from.size());
+ private:
+  size_t index(int x, int y) const {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+  }
+
+  /// Gives each pixel the extreme of the square of `radius` around it, rows first.
+  template <typename Extreme>
+  void spread(std::vector<float>* values, int radius, Extreme&& extreme) const {
+    for (const bool along_rows : {true, false}) {
+      const std::vector<float> from = *values;
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-          float nearest = kFar;
+          float& to = (*values)[index(x, y)];
           for (int d = -radius; d <= radius; ++d) {
-            const int sx = pass == 0 ? std::clamp(x + d, 0, width - 1) : x;
-            const int sy = pass == 0 ? y : std::clamp(y + d, 0, height - 1);
-            nearest = std::min(nearest, from[static_cast<size_t>(sy) * static_cast<size_t>(width) +
-                                             static_cast<size_t>(sx)]);
+            const int sx = along_rows ? std::clamp(x + d, 0, width - 1) : x;
+            const int sy = along_rows ? y : std::clamp(y + d, 0, height - 1);
+            to = extreme(to, from[index(sx, sy)]);
           }
-          to[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)] =
-              nearest;
         }
       }
-      (pass == 0 ? rows : depth) = std::move(to);
     }
   }
 };
@@ -110,10 +118,8 @@ class Observer {
         corners_(project(scene, projection_)),
         gray_(
             luminance_of(rgb, static_cast<size_t>(view.width) * static_cast<size_t>(view.height))),
-        nearest_(scene, corners_, view) {
-    radius_ = std::max(1, static_cast<int>(std::ceil(options.margin / NearestDepth::kShrink)));
-    nearest_.spread(radius_);
-  }
+        radius_(std::max(1, static_cast<int>(std::ceil(options.margin / DepthRange::kShrink)))),
+        depths_(scene, corners_, view, radius_) {}
 
   ck_face_observation observe(size_t t) const {
     ck_face_observation result{};
@@ -132,7 +138,7 @@ class Observer {
     const std::array<Vec2, 3> p = {corners[0].pixel, corners[1].pixel, corners[2].pixel};
     result.area = std::fabs(cross(p[1] - p[0], p[2] - p[0])) / 2;
     result.cosine = cosine;
-    result.clearance = is_clear(corners, cosine) ? 1.0f : 0.0f;
+    look_around(corners, cosine, &result);
     measure(p, &result);
     return result;
   }
@@ -164,21 +170,19 @@ class Observer {
     return false;
   }
 
-  bool is_clear(const std::array<Corner, 3>& corners, float cosine) const {
+  void look_around(const std::array<Corner, 3>& corners, float cosine,
+                   ck_face_observation* result) const {
+    result->clearance = result->interior = 1;
     const float slope = std::sqrt(std::max(0.0f, 1 - cosine * cosine)) / cosine;
     for (const Corner& c : corners) {
       const float pixel = c.depth / static_cast<float>(view_.focal[0]);
-      const float reach = static_cast<float>((radius_ + 1) * NearestDepth::kShrink) * pixel;
-      const int x =
-          std::clamp(static_cast<int>(c.pixel.x) / NearestDepth::kShrink, 0, nearest_.width - 1);
-      const int y =
-          std::clamp(static_cast<int>(c.pixel.y) / NearestDepth::kShrink, 0, nearest_.height - 1);
-      const float nearest =
-          nearest_.depth[static_cast<size_t>(y) * static_cast<size_t>(nearest_.width) +
-                         static_cast<size_t>(x)];
-      if (nearest < c.depth - reach * (2 * slope + 2) - 0.004f * scene_.diagonal) return false;
+      const float reach = static_cast<float>((radius_ + 1) * DepthRange::kShrink) * pixel;
+      // The surface itself may rise and fall that much.
+      const float tolerance = reach * (2 * slope + 2) + 0.004f * scene_.diagonal;
+      const size_t place = depths_.at(c.pixel);
+      if (depths_.nearest[place] < c.depth - tolerance) result->clearance = 0;
+      if (depths_.farthest[place] > c.depth + tolerance) result->interior = 0;
     }
-    return true;
   }
 
   void measure(const std::array<Vec2, 3>& p, ck_face_observation* result) const {
@@ -224,8 +228,8 @@ class Observer {
   Projection projection_;
   std::vector<Corner> corners_;
   std::vector<float> gray_;
-  NearestDepth nearest_;
-  int radius_ = 1;
+  int radius_;
+  DepthRange depths_;
 };
 
 }  // namespace

@@ -14,8 +14,11 @@ struct ViewCandidates: Sendable {
     var deviations: Float = 3
     /// Exponent of the cosine in the quality, beyond its effect on the area.
     var cosinePower = 1
-    /// Factor on the quality next to an occluding edge.
+    /// Factor on the quality next to an occluding edge or the object's outline.
     var uncertainFactor: Float = 0.1
+    /// At the outline, observations more oblique than this cosine show the background where the
+    /// surface is a little too large; they are left out.
+    var minimumCosineAtOutline: Float = 0.5
   }
 
   var options = Options()
@@ -27,6 +30,11 @@ struct ViewCandidates: Sendable {
     var views = views
     for index in views.entries.indices {
       views.entries[index].color *= gains[Int(views.entries[index].view)]
+    }
+    let all = views.entries
+    views.filter { index in
+      let entry = all[index]
+      return entry.isInterior || entry.cosine >= options.minimumCosineAtOutline
     }
     var isKept = [Bool](repeating: true, count: views.entries.count)
     for face in 0..<views.faceCount {
@@ -74,9 +82,10 @@ struct ViewCandidates: Sendable {
       let entry = rated.views.entries[index]
       var quality = entry.area * min(max(sharp / typical, 0.5), 1.5)
       for _ in 0..<options.cosinePower { quality *= entry.cosine }
-      if !entry.isClear { quality *= options.uncertainFactor }
+      let isCertain = entry.isClear && entry.isInterior
+      if !isCertain { quality *= options.uncertainFactor }
       rated.qualities[index] = quality
-      let share = entry.cosine * (entry.isClear ? 1 : options.uncertainFactor)
+      let share = entry.cosine * (isCertain ? 1 : options.uncertainFactor)
       sum += entry.color * share
       weight += share
     }

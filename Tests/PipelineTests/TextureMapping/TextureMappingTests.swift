@@ -74,23 +74,6 @@ import Testing
     #expect(ratio > 0.85 && ratio < 1.1)
   }
 
-  @Test func seamsShrinkByLevelling() throws {
-    let scene = SphereScene(viewCount: 14, gains: [0.85, 1.1], color: Self.color)
-    let edges = MeshTopology(mesh).edges
-    /// The largest difference of neighbouring triangles that the sphere doesn't have.
-    func step(_ model: TexturedMesh) throws -> Float {
-      let errors = try samples(model).map { $0.color.y - Self.color($0.position).y }
-      return edges.map { abs(errors[Int($0.first)] - errors[Int($0.second)]) }.max() ?? 0
-    }
-    let raw = try texture(scene) {
-      $0.exposure.prior = 1e6
-      $0.leveling.seam = 0
-      $0.leveling.consensus = 1e-9
-    }
-    let levelled = try texture(scene) { $0.exposure.prior = 1e6 }
-    #expect(try step(levelled) < 0.5 * step(raw))
-  }
-
   @Test func whatNoPhotoSeesIsFilledFromItsSurroundings() throws {
     var scene = SphereScene(viewCount: 12, color: Self.color)
     // Only the cameras above remain.
@@ -102,7 +85,7 @@ import Testing
   }
 
   @Test func aPhotoWithAStrangerInItIsNotUsedThere() throws {
-    var scene = SphereScene(viewCount: 16, color: Self.color)
+    var scene = SphereScene(viewCount: 30, color: Self.color)
     // A magenta block in the middle of one photo.
     for y in 80..<120 {
       for x in 80..<120 {
