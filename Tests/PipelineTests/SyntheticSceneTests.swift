@@ -10,7 +10,7 @@ import Testing
     options.layout = layout
     let scene = SyntheticScene(options)
     #expect(scene.reconstruction.meanReprojectionError < 1e-3)
-    #expect(scene.reconstruction.points.count > 400)
+    #expect(scene.reconstruction.points.count > 300)
     #expect(scene.viewGraph.pairs.count >= options.photoCount)
     let repeated = SyntheticScene(options)
     #expect(repeated.viewGraph.pairs == scene.viewGraph.pairs)

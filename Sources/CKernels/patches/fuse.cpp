@@ -25,7 +25,13 @@ struct Group {
     cost = 0;
   }
 
-  void add(const Map& map, size_t index, int x, int y, const Vector3& point) {
+  /// Notes a view that sees the surface.
+  void see(size_t index) {
+    if (photos.size() < kMaxPhotos) photos.push_back(static_cast<uint16_t>(index));
+  }
+
+  /// Takes a view's own patch in.
+  void add(const Map& map, int x, int y, const Vector3& point) {
     const size_t cell = static_cast<size_t>(y) * map.width + x;
     const ck_patch& patch = map.raw->patches[cell];
     points.push_back(point);
@@ -33,7 +39,6 @@ struct Group {
     const uint8_t* rgb = map.raw->rgb + 3 * cell;
     color += Eigen::Vector3i(rgb[0], rgb[1], rgb[2]);
     cost += patch.cost;
-    if (photos.size() < kMaxPhotos) photos.push_back(static_cast<uint16_t>(index));
   }
 };
 
@@ -108,13 +113,15 @@ class Fusion {
     const Vector3 world = point_of(reference, patch, x, y);
     const Vector3 normal = reference.normal(patch, x, y);
     group.clear();
-    group.add(reference, index_, x, y, world);
+    group.see(index_);
+    group.add(reference, x, y, world);
     for (size_t n = 0; n < reference.raw->neighbor_count; ++n) {
       const auto other = static_cast<size_t>(reference.raw->neighbors[n]);
       const auto found = confirm(reference, maps_[other], x, y, world, normal, options_);
-      if (found.kind != Confirmation::kAgrees || !load(other, found.x, found.y)) continue;
-      if (found.distance > options_.fusion_threshold) continue;
-      group.add(maps_[other], other, found.x, found.y, found.point);
+      if (found.kind != Confirmation::kAgrees) continue;
+      group.see(other);
+      if (!load(other, found.x, found.y) || found.distance > options_.fusion_threshold) continue;
+      group.add(maps_[other], found.x, found.y, found.point);
       if (other > index_) {
         __atomic_store_n(&states_[other][cell(other, found.x, found.y)],
                          static_cast<uint8_t>(ck_patch_fused), __ATOMIC_RELAXED);
