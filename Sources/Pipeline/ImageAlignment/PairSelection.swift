@@ -8,14 +8,15 @@ import SceneModel
 /// capture: a window of neighbours that thins out, and where the path comes back to itself.
 package struct PairSelection {
   package struct Options: Hashable, Codable, Sendable {
-    /// Up to this number of pairs all are taken without a first look.
-    package var exhaustivePairs = 30
+    /// Up to this number of pairs all are taken without a first look, which would lose pairs of photos
+    /// from very different distances: their large features aren't the same.
+    package var exhaustivePairs = 1300
     /// Features of each photo that the first look matches: those of the largest scale.
     package var prefix = 2048
     /// Ratio of the first look, more permissive than that of the matching.
     package var prefixRatio = 0.8
     /// Matches at first look that a pair needs.
-    package var minimumPrefixMatches = 8
+    package var minimumPrefixMatches = 4
     /// Above this number of photos the number of partners is limited.
     package var manyPhotos = 100
     /// Features of the first look among many photos.
@@ -77,7 +78,7 @@ package struct PairSelection {
     _ pairs: [PhotoPair], _ counts: [Int], photoCount: Int
   ) -> [PhotoPair] {
     var candidates = [[Int]](repeating: [], count: photoCount)
-    for index in pairs.indices where counts[index] >= options.minimumPrefixMatches - 2 {
+    for index in pairs.indices where counts[index] >= options.minimumPrefixMatches {
       candidates[pairs[index].first.index].append(index)
       candidates[pairs[index].second.index].append(index)
     }
