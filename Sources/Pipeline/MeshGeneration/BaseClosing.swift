@@ -11,9 +11,9 @@ struct BaseClosing {
     /// lowest that encloses most of what the highest does, so that overhangs are left out.
     var outlineHeights = [0.03, 0.05, 0.08, 0.11, 0.15]
     /// How much of it, as share of the area.
-    var enclosedShare = 0.6
+    var enclosedShare = 0.5
     /// Gaps of the outline up to this share of the object's width are closed.
-    var closing = 0.06
+    var closing = 0.2
 
     init() {}
   }
@@ -39,27 +39,27 @@ struct BaseClosing {
     let low = object.positions.indices.filter { heights[$0] < highest }
     guard
       var grid = SupportGrid(
-        low.map { object.positions[$0] }, support, cell: max(1.5 * cell, 0.5 * support.band))
+        low.map { object.positions[$0] }, support, cell: max(1.5 * cell, 0.5 * support.band),
+        closing: options.closing)
     else { return Result() }
     for position in scene where abs(support.height(of: SIMD3<Double>(position))) < support.band {
       grid.markSupport(position)
     }
     let contacts = limits.map { limit in
       grid.contact(
-        under: low.filter { heights[$0] < limit }.map { object.positions[$0] },
-        closing: options.closing)
+        under: low.filter { heights[$0] < limit }.map { object.positions[$0] })
     }
     let areas = contacts.map { $0.reduce(0) { $1 ? $0 + 1 : $0 } }
     let wanted = options.enclosedShare * Double(areas.last ?? 0)
     guard let index = areas.firstIndex(where: { Double($0) >= wanted }) else { return Result() }
     return Result(
-      points: grid.points(contacts[index], spacing: cell), height: 2 * limits[index])
+      points: grid.points(contacts[index], spacing: cell), height: limits[index] + support.band)
   }
 }
 
 /// A grid on the support plane.
 private struct SupportGrid {
-  private static let margin = 44.0
+  private let margin: Double
   private let width: Int
   private let height: Int
   private let plane: StandingPlane
@@ -69,7 +69,9 @@ private struct SupportGrid {
   private var isSupport: [Bool]
 
   /// Nil where the points don't span an area or span too large a one.
-  init?(_ points: [SIMD3<Float>], _ plane: StandingPlane, cell: Double) {
+  init?(
+    _ points: [SIMD3<Float>], _ plane: StandingPlane, cell: Double, closing: Double
+  ) {
     (u, v) = plane.normal.orthonormalPair
     self.plane = plane
     let (u, v) = (u, v)
@@ -81,8 +83,8 @@ private struct SupportGrid {
     let high = flat.reduce(first, pointwiseMax)
     let extent = max(high.x - low.x, high.y - low.y)
     guard extent.isFinite, extent > 4 * cell else { return nil }
-    self.cell = max(cell, extent / 1500)
-    let margin = Self.margin
+    self.cell = max(cell, extent / 800)
+    margin = (extent / self.cell * closing + 4).rounded(.up)
     origin = low - margin * self.cell
     width = Int((high.x - low.x) / self.cell + 2 * margin) + 1
     height = Int((high.y - low.y) / self.cell + 2 * margin) + 1
@@ -101,15 +103,13 @@ private struct SupportGrid {
     if let index = index(of: position) { isSupport[index] = true }
   }
 
-  /// The cells that an outline encloses and where no support is seen; gaps of the outline of
-  /// `closing` times the grid's mean width are closed.
-  func contact(under outline: [SIMD3<Float>], closing: Double) -> [Bool] {
+  /// The cells that an outline with gaps encloses and where no support is seen.
+  func contact(under outline: [SIMD3<Float>]) -> [Bool] {
     var mask = [Bool](repeating: false, count: width * height)
     for position in outline {
       if let index = index(of: position) { mask[index] = true }
     }
-    let side = Double(width + height) / 2 - 2 * Self.margin
-    let radius = max(2, min(Int(Self.margin) - 2, Int((closing * side).rounded(.up))))
+    let radius = max(2, Int(margin) - 3)
     mask = filled(Self.dilated(mask, width, height, radius))
     mask = Self.dilated(mask.map { !$0 }, width, height, radius).map { !$0 }
     return zip(mask, isSupport).map { $0 && !$1 }

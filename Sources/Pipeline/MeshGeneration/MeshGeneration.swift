@@ -35,7 +35,8 @@ package struct MeshGeneration {
       base = BaseClosing().run(
         object: averaged.cloud, scene: cloud.positions, support: support,
         cell: averaged.voxelSize)
-      averaged.cloud.append(base: base.points, normal: -SIMD3<Float>(support.normal))
+      try averaged.cloud.append(
+        base: base.points, normal: -SIMD3<Float>(support.normal), context.control)
       context.notes.count("basePoints", Double(base.points.count))
     }
     var poisson = PoissonSurface()
@@ -104,22 +105,20 @@ package struct MeshGeneration {
 }
 
 extension PointCloud {
-  /// Appends points that close the base.
-  mutating func append(base: [SIMD3<Float>], normal: SIMD3<Float>) {
+  /// Appends points that close the base, in the colours of the points nearest to them.
+  mutating func append(
+    base: [SIMD3<Float>], normal: SIMD3<Float>, _ control: KernelControl
+  ) throws {
     guard !base.isEmpty, let footprint = medianFootprint else { return }
-    let color = colors.isEmpty ? nil : meanColor
-    for position in base {
-      positions.append(position)
-      normals.append(normal)
-      if let color { colors.append(color) }
-      consistency.append(0)
-      footprints.append(footprint)
-      photoOffsets.append(UInt32(photoIndices.count))
+    let nearest = try NearestPoints(of: base, in: positions, control)
+    let nearestColors = nearest.indices.map {
+      colors.indices.contains(Int($0)) ? colors[Int($0)] : .zero
     }
-  }
-
-  private var meanColor: SIMD3<UInt8> {
-    let sum = colors.reduce(SIMD3<Double>.zero) { $0 + SIMD3<Double>($1) }
-    return SIMD3<UInt8>(sum / Double(max(1, colors.count)))
+    positions += base
+    normals += base.map { _ in normal }
+    if !colors.isEmpty { colors += nearestColors }
+    consistency += base.map { _ in 0 }
+    footprints += base.map { _ in footprint }
+    photoOffsets += base.map { _ in UInt32(photoIndices.count) }
   }
 }
