@@ -39,7 +39,8 @@ import Testing
         rays: rays, points: [[1, 1, 5], [1, 1, 5], [2, 0, 5]]
       ).isEmpty)
     #expect(throws: KernelError.self) {
-      try Resection.perspectiveThreePoint(rays: rays, points: [[.nan, 0, 5], [1, 0, 5], [2, 0, 5]])
+      try Resection.perspectiveThreePoint(
+        rays: rays, points: [[.nan, 0, 5], [1, 0, 5], [2, 0, 5]])
     }
   }
 

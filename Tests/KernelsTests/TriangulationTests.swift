@@ -53,7 +53,9 @@ import Testing
 
   @Test func narrowAnglesAndPointsBehindAreRefused() throws {
     let camera = Camera(width: 1000, height: 1000, focalLength: [1000, 1000])
-    let poses: [RigidTransform?] = [.identity, .init(rotation: .identity, translation: [-0.1, 0, 0])]
+    let poses: [RigidTransform?] = [
+      .identity, .init(rotation: .identity, translation: [-0.1, 0, 0]),
+    ]
     let photos = PosedPhotos(cameras: [camera], poses: poses, cameraOfPhoto: [0, 0])
     var tracks = TrackObservations()
     for point: SIMD3<Double> in [[0, 0, 2], [0, 0, 100]] {

@@ -64,7 +64,8 @@ package struct SyntheticScene: Sendable {
       let name = String(format: "photo%03d.jpg", index)
       return Photo(
         id: ID(index), sampleID: index, name: name, url: URL(fileURLWithPath: "/" + name),
-        width: options.camera.width, height: options.camera.height, orientation: 1, camera: ID<Camera>(0))
+        width: options.camera.width, height: options.camera.height, orientation: 1,
+        camera: ID<Camera>(0))
     }
     let descriptors = points.map { _ in Self.makeDescriptor(&random) }
     var features: [FeatureSet] = []
@@ -192,7 +193,7 @@ extension SyntheticScene {
     var pairs: [VerifiedPair] = []
     for first in features.indices {
       for second in features.indices where second > first {
-        var featureOfPoint = [Int32: Int32]()
+        var featureOfPoint: [Int32: Int32] = [:]
         for (feature, point) in pointOfFeature[second].enumerated() {
           featureOfPoint[point] = Int32(feature)
         }
@@ -216,7 +217,8 @@ extension SyntheticScene {
         relative.translation = relative.translation.normalized
         pairs.append(
           VerifiedPair(
-            pair: PhotoPair(ID(first), ID(second)), model: options.isPlanar ? .homography : .essential,
+            pair: PhotoPair(ID(first), ID(second)),
+            model: options.isPlanar ? .homography : .essential,
             secondFromFirst: relative, matches: matches,
             medianAngle: angles.sorted()[angles.count / 2]))
       }

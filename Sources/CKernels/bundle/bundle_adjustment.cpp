@@ -178,7 +178,7 @@ class Adjustment {
     const uint32_t freedom = bundle_.camera_freedom[i];
     const uint32_t bits[camera_size] = {
         ck_free_focal_length, ck_free_principal_point, ck_free_principal_point, ck_free_k1,
-        ck_free_k2, ck_free_tangential, ck_free_tangential};
+        ck_free_k2,           ck_free_tangential,      ck_free_tangential};
     std::vector<int> constant;
     for (int k = 0; k < camera_size; ++k) {
       if (!(freedom & bits[k])) constant.push_back(k);
@@ -233,10 +233,9 @@ ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
   });
 }
 
-ck_status ck_reprojection_jacobians(double* residual, double* pose_jacobian,
-                                    double* point_jacobian, double* camera_jacobian,
-                                    const ck_camera_model* camera, const ck_pose* pose,
-                                    const double* point, const double* pixel) {
+ck_status ck_reprojection_jacobians(double* residual, double* pose_jacobian, double* point_jacobian,
+                                    double* camera_jacobian, const ck_camera_model* camera,
+                                    const ck_pose* pose, const double* point, const double* pixel) {
   return ck::guarded([&] {
     using namespace ck;
     require(residual && pose_jacobian && point_jacobian && camera_jacobian && camera && pose &&

@@ -96,8 +96,8 @@ inline Vector2 unproject(const ck_camera_model& c, double x, double y) {
     const double determinant = j.determinant();
     if (!(std::abs(determinant) > 1e-9)) break;
     const Vector2 r = distort(c, p) - target;
-    const Vector2 step = Vector2(j(1, 1) * r.x() - j(0, 1) * r.y(),
-                                 j(0, 0) * r.y() - j(1, 0) * r.x()) / determinant;
+    const Vector2 step =
+        Vector2(j(1, 1) * r.x() - j(0, 1) * r.y(), j(0, 0) * r.y() - j(1, 0) * r.x()) / determinant;
     p -= step;
     if (step.squaredNorm() < 1e-24) break;
   }

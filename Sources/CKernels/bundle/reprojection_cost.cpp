@@ -50,9 +50,9 @@ bool ReprojectionCost::Evaluate(double const* const* parameters, double* residua
                                 double** jacobians) const {
   const double* pose = parameters[0];
   const double* intrinsics = parameters[2];
-  const ck_camera_model camera = {intrinsics[0], aspect_ * intrinsics[0], intrinsics[1],
-                                  intrinsics[2], intrinsics[3], intrinsics[4],
-                                  intrinsics[5], intrinsics[6]};
+  const ck_camera_model camera = {
+      intrinsics[0], aspect_ * intrinsics[0], intrinsics[1], intrinsics[2],
+      intrinsics[3], intrinsics[4],           intrinsics[5], intrinsics[6]};
   const Eigen::Quaterniond rotation(pose[3], pose[0], pose[1], pose[2]);
   const Vector3 rotated = rotation * Vector3(parameters[1][0], parameters[1][1], parameters[1][2]);
   const Vector3 point = rotated + Vector3(pose[4], pose[5], pose[6]);
@@ -78,8 +78,8 @@ bool ReprojectionCost::Evaluate(double const* const* parameters, double* residua
   if (jacobians[2]) {
     Eigen::Map<Eigen::Matrix<double, 2, camera_size, Eigen::RowMajor>> j(jacobians[2]);
     const double r2 = p.squaredNorm(), xy = 2 * p.x() * p.y();
-    j << d.x(), 1, 0, r2 * p.x(), r2 * r2 * p.x(), xy, r2 + 2 * p.x() * p.x(),
-        aspect_ * d.y(), 0, 1, r2 * p.y(), r2 * r2 * p.y(), r2 + 2 * p.y() * p.y(), xy;
+    j << d.x(), 1, 0, r2 * p.x(), r2 * r2 * p.x(), xy, r2 + 2 * p.x() * p.x(), aspect_ * d.y(), 0,
+        1, r2 * p.y(), r2 * r2 * p.y(), r2 + 2 * p.y() * p.y(), xy;
     j.block<1, 4>(0, 3) *= camera.fx;
     j.block<1, 4>(1, 3) *= camera.fy;
   }

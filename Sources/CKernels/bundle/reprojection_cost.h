@@ -36,8 +36,7 @@ class PoseManifold final : public ceres::Manifold {
 /// The reprojection error of one observation with hand-derived derivatives.
 ///
 /// Parameter blocks: pose, point, camera.
-class ReprojectionCost final
-    : public ceres::SizedCostFunction<2, pose_size, 3, camera_size> {
+class ReprojectionCost final : public ceres::SizedCostFunction<2, pose_size, 3, camera_size> {
  public:
   /// `aspect` is fy / fx.
   ReprojectionCost(double x, double y, double aspect) : pixel_(x, y), aspect_(aspect) {}

@@ -24,9 +24,7 @@ struct Views {
     }
   }
 
-  const ck_camera_model& camera(int photo) const {
-    return raw.cameras[raw.photo_cameras[photo]];
-  }
+  const ck_camera_model& camera(int photo) const { return raw.cameras[raw.photo_cameras[photo]]; }
 };
 
 /// One track: its rays, and the work on its point.
@@ -77,8 +75,8 @@ struct Track {
       for (const size_t i : chosen) {
         const int photo = observations[i].photo;
         const Vector3 p = views.poses[photo] * point;
-        const Vector2 r = project(views.camera(photo), p) -
-                          Vector2(observations[i].x, observations[i].y);
+        const Vector2 r =
+            project(views.camera(photo), p) - Vector2(observations[i].x, observations[i].y);
         const Eigen::Matrix<double, 2, 3> j =
             project_jacobian(views.camera(photo), p) * views.poses[photo].rotation;
         h.noalias() += j.transpose() * j;
@@ -105,8 +103,7 @@ struct Track {
   }
 
   double angle(size_t i, size_t j) const {
-    return std::atan2(directions[i].cross(directions[j]).norm(),
-                      directions[i].dot(directions[j]));
+    return std::atan2(directions[i].cross(directions[j]).norm(), directions[i].dot(directions[j]));
   }
 
   /// The largest angle at `point` between two of the chosen centres.
@@ -261,7 +258,8 @@ ck_status ck_measure_tracks(double* errors, double* angles, const double* positi
         const int photo = observations[i].photo;
         const Vector3 q = prepared.poses[photo] * point;
         errors[i] = q.z() > 1e-9 ? (project(prepared.camera(photo), q) -
-                                    Vector2(observations[i].x, observations[i].y)).norm()
+                                    Vector2(observations[i].x, observations[i].y))
+                                       .norm()
                                  : std::numeric_limits<double>::infinity();
         if (!(errors[i] <= max_error)) continue;
         const Vector3 ray = (point - prepared.centers[photo]).normalized();

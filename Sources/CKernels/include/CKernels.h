@@ -11,7 +11,7 @@
 #include "ck_patches.h"
 #include "ck_resection.h"
 #include "ck_surface.h"
-#include "ck_two_view.h"
 #include "ck_texture.h"
+#include "ck_two_view.h"
 
 #endif

@@ -19,19 +19,19 @@ typedef struct {
 /// Track i has the observations `offsets[i]..<offsets[i + 1]` (their `point` is not read). For each
 /// track `found` becomes 1 and `positions` its point when at least two observations agree, in front
 /// of their cameras and at a sufficient angle; `inliers` becomes 1 for the observations that do.
-ck_status ck_triangulate(double *positions, size_t position_stride, uint8_t *found,
-                         uint8_t *inliers, const int32_t *offsets, size_t track_count,
-                         const ck_observation *observations, const ck_views *views,
-                         const ck_triangulation_options *options, const ck_control *control);
+ck_status ck_triangulate(double* positions, size_t position_stride, uint8_t* found,
+                         uint8_t* inliers, const int32_t* offsets, size_t track_count,
+                         const ck_observation* observations, const ck_views* views,
+                         const ck_triangulation_options* options, const ck_control* control);
 
 /// Reprojection errors and triangulation angles of tracks with a known position.
 ///
 /// `errors` holds one value an observation in pixels (infinite behind the camera), `angles` one
 /// value a track: the largest angle in radians between two rays whose error is at most `max_error`.
-ck_status ck_measure_tracks(double *errors, double *angles, const double *positions,
-                            size_t position_stride, const int32_t *offsets, size_t track_count,
-                            const ck_observation *observations, const ck_views *views,
-                            double max_error, const ck_control *control);
+ck_status ck_measure_tracks(double* errors, double* angles, const double* positions,
+                            size_t position_stride, const int32_t* offsets, size_t track_count,
+                            const ck_observation* observations, const ck_views* views,
+                            double max_error, const ck_control* control);
 
 /// The parameters of a camera that bundle adjustment may change, as bits.
 typedef enum {
@@ -65,22 +65,22 @@ typedef enum {
 
 /// A scene to adjust; cameras, poses and points are changed in place.
 typedef struct {
-  ck_camera_model *cameras;
+  ck_camera_model* cameras;
   /// Bits of `ck_camera_freedom` for each camera.
-  const uint32_t *camera_freedom;
-  const ck_camera_prior *camera_priors;
+  const uint32_t* camera_freedom;
+  const ck_camera_prior* camera_priors;
   size_t camera_count;
-  ck_pose *poses;
-  const int32_t *photo_cameras;
+  ck_pose* poses;
+  const int32_t* photo_cameras;
   /// `ck_pose_freedom` for each photo.
-  const uint8_t *pose_freedom;
+  const uint8_t* pose_freedom;
   size_t photo_count;
-  double *points;
+  double* points;
   size_t point_stride;
   /// 1 for points that may move.
-  const uint8_t *point_freedom;
+  const uint8_t* point_freedom;
   size_t point_count;
-  const ck_observation *observations;
+  const ck_observation* observations;
   size_t observation_count;
 } ck_bundle;
 
@@ -107,17 +107,16 @@ typedef struct {
 /// synthesis", 1999) with Ceres.
 ///
 /// fx and fy keep their ratio. Runs on one thread, so that the sums don't depend on their number.
-ck_status ck_bundle_adjust(ck_bundle *bundle, ck_bundle_summary *summary,
-                           const ck_bundle_options *options, const ck_control *control);
+ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
+                           const ck_bundle_options* options, const ck_control* control);
 
 /// The reprojection error of one observation and its derivatives, as bundle adjustment uses them.
 ///
 /// `pose_jacobian` is 2×6 (rotation vector applied from the left, translation), `point_jacobian`
 /// 2×3, `camera_jacobian` 2×7 (fx with fy in proportion, cx, cy, k1, k2, p1, p2), all by rows.
-ck_status ck_reprojection_jacobians(double *residual, double *pose_jacobian,
-                                    double *point_jacobian, double *camera_jacobian,
-                                    const ck_camera_model *camera, const ck_pose *pose,
-                                    const double *point, const double *pixel);
+ck_status ck_reprojection_jacobians(double* residual, double* pose_jacobian, double* point_jacobian,
+                                    double* camera_jacobian, const ck_camera_model* camera,
+                                    const ck_pose* pose, const double* point, const double* pixel);
 
 #ifdef __cplusplus
 }

@@ -28,10 +28,10 @@ typedef struct {
 
 /// Cameras and posed photos; `photo_cameras` holds an index into `cameras` for each photo.
 typedef struct {
-  const ck_camera_model *cameras;
+  const ck_camera_model* cameras;
   size_t camera_count;
-  const ck_pose *poses;
-  const int32_t *photo_cameras;
+  const ck_pose* poses;
+  const int32_t* photo_cameras;
   size_t photo_count;
 } ck_views;
 

@@ -12,7 +12,7 @@ extern "C" {
 ///
 /// `rays` are three vectors (x, y, z) in the camera frame of any length, `points` three points in
 /// the world. `poses` holds at least four. Degenerate input gives no pose.
-ck_status ck_p3p(ck_pose *poses, size_t *pose_count, const double *rays, const double *points);
+ck_status ck_p3p(ck_pose* poses, size_t* pose_count, const double* rays, const double* points);
 
 typedef struct {
   /// Largest reprojection error of an inlier in pixels.
@@ -31,10 +31,10 @@ typedef struct {
 ///
 /// `pixels` are pairs x, y without padding, `points` start every `point_stride` bytes. `inliers`
 /// holds `count` bytes that become 1 or 0.
-ck_status ck_resect(ck_pose *pose, uint8_t *inliers, size_t *inlier_count, const double *pixels,
-                    const double *points, size_t point_stride, size_t count,
-                    const ck_camera_model *camera, const ck_resection_options *options,
-                    const ck_control *control);
+ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const double* pixels,
+                    const double* points, size_t point_stride, size_t count,
+                    const ck_camera_model* camera, const ck_resection_options* options,
+                    const ck_control* control);
 
 #ifdef __cplusplus
 }

@@ -78,8 +78,8 @@ typedef struct {
 /// not hidden by the mesh.
 ///
 /// A photo faces a point when the direction to its camera and the point's unit normal have at least
-/// `minimum_cosine`. Rays start `clearance` off the surface. `points` and `normals` are three floats
-/// every `point_stride` bytes.
+/// `minimum_cosine`. Rays start `clearance` off the surface. `points` and `normals` are three
+/// floats every `point_stride` bytes.
 ck_status ck_count_viewing_photos(const float* positions, size_t position_stride,
                                   size_t position_count, const uint32_t* triangles,
                                   size_t triangle_count, const float* points, const float* normals,

@@ -61,10 +61,10 @@ ck_status ck_two_view_estimate(const double* first, const double* second, size_t
 /// What a pair says about the focal length: for each factor the sum of min(Sampson error², limit²),
 /// in the units of the points, of the best pose when the focal length is `factor` times the assumed
 /// one. `fundamental` is where the search for the pose starts.
-ck_status ck_focal_length_costs(const double *first, const double *second, size_t count,
-                                const double *fundamental, double maximum_error,
-                                const double *factors, size_t factor_count,
-                                const ck_control *control, double *costs);
+ck_status ck_focal_length_costs(const double* first, const double* second, size_t count,
+                                const double* fundamental, double maximum_error,
+                                const double* factors, size_t factor_count,
+                                const ck_control* control, double* costs);
 
 #ifdef __cplusplus
 }

@@ -37,8 +37,8 @@ Grid refine_grid(const Grid& coarse, int width, int height) {
       const int px = std::min(x / 2, coarse.width - 1);
       const size_t parent = coarse.index(px, py), child = fine.index(x, y);
       if (!(coarse.planes[parent].w > 0)) continue;
-      Plane plane = coarse.planes[parent].at((x + 0.5f) / 2 - (px + 0.5f),
-                                             (y + 0.5f) / 2 - (py + 0.5f));
+      Plane plane =
+          coarse.planes[parent].at((x + 0.5f) / 2 - (px + 0.5f), (y + 0.5f) / 2 - (py + 0.5f));
       plane.gx *= 0.5f;
       plane.gy *= 0.5f;
       fine.planes[child] = plane;

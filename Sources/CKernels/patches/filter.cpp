@@ -37,8 +37,8 @@ void filter_by_visibility(uint8_t* states, const std::vector<Map>& maps, size_t 
         agreeing += kind == Confirmation::kAgrees;
         contradicting += kind == Confirmation::kSeesThrough;
       }
-      const bool passes = agreeing >= required_views(reference, *patch, options) &&
-                          contradicting <= agreeing / 2;
+      const bool passes =
+          agreeing >= required_views(reference, *patch, options) && contradicting <= agreeing / 2;
       if (passes) state = ck_patch_accepted;
     }
   }

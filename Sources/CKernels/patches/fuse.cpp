@@ -148,9 +148,8 @@ ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_p
     const std::vector<Map> all(maps, maps + map_count);
     const Fusion fusion(all, states, index, *options);
     std::vector<std::vector<ck_fused_patch>> rows(static_cast<size_t>(all[index].height));
-    ck::parallel_for(control, rows.size(), [&](size_t y) {
-      rows[y] = fusion.row(static_cast<int>(y));
-    });
+    ck::parallel_for(control, rows.size(),
+                     [&](size_t y) { rows[y] = fusion.row(static_cast<int>(y)); });
     *fused_count = 0;
     for (const auto& row : rows) {
       fused = std::copy(row.begin(), row.end(), fused);

@@ -18,9 +18,9 @@ Map::Map(const ck_patch_map& map) : raw(&map) {
 }
 
 Vector3 Map::normal(const ck_patch& p, int x, int y) const {
-  const Vector3 away(p.gradient_x * fx, p.gradient_y * fy,
-                     p.inverse_depth + p.gradient_x * (cx - x - 0.5f) +
-                         p.gradient_y * (cy - y - 0.5f));
+  const Vector3 away(
+      p.gradient_x * fx, p.gradient_y * fy,
+      p.inverse_depth + p.gradient_x * (cx - x - 0.5f) + p.gradient_y * (cy - y - 0.5f));
   return -(rotation.transpose() * away).normalized();
 }
 

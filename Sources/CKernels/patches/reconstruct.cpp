@@ -128,7 +128,7 @@ ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* referen
     ck::require(patches && reference && sources && options, "missing argument");
     ck::require(source_count >= 1 && source_count <= kMaxSources, "1 to 8 sources are needed");
     ck::require(std::min(reference->width, reference->height) >= 16, "the view is too small");
-    write(patches, reconstruct(*reference, sources, source_count, seeds, seed_count, *options,
-                               control));
+    write(patches,
+          reconstruct(*reference, sources, source_count, seeds, seed_count, *options, control));
   });
 }

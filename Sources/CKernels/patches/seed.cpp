@@ -24,7 +24,8 @@ std::vector<Vertex> vertices_of(const Grid& grid, const ck_patch_seed* seeds, si
     const Vertex v{static_cast<float>(seeds[i].x * scale), static_cast<float>(seeds[i].y * scale),
                    seeds[i].inverse_depth};
     if (v.x >= 0 && v.y >= 0 && v.x < grid.width && v.y < grid.height && v.w > 0 &&
-        std::isfinite(v.w)) all.push_back(v);
+        std::isfinite(v.w))
+      all.push_back(v);
   }
   const auto pixel = [&](const Vertex& v) {
     return static_cast<int>(v.y) * grid.width + static_cast<int>(v.x);

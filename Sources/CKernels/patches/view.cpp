@@ -30,8 +30,8 @@ void pack(Image& image) {
     const uint8_t* lower = upper + w;
     uint32_t* out = &image.packed[static_cast<size_t>(y) * w];
     for (int x = 0; x + 1 < w; ++x) {
-      out[x] = upper[x] | upper[x + 1] << 8 | lower[x] << 16 |
-               static_cast<uint32_t>(lower[x + 1]) << 24;
+      out[x] =
+          upper[x] | upper[x + 1] << 8 | lower[x] << 16 | static_cast<uint32_t>(lower[x + 1]) << 24;
     }
   }
 }
@@ -54,8 +54,7 @@ Matrix calibration(const ck_patch_view& view, double scale) {
 void add_warp(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
               double scale, const Image& image) {
   const Eigen::Map<const Matrix> r_ref(reference.rotation), r_src(source.rotation);
-  const Eigen::Map<const Eigen::Vector3d> t_ref(reference.translation),
-      t_src(source.translation);
+  const Eigen::Map<const Eigen::Vector3d> t_ref(reference.translation), t_src(source.translation);
   const Matrix rotation = r_src * r_ref.transpose();
   const Eigen::Vector3d translation = t_src - rotation * t_ref;
   const Matrix k_src = calibration(source, scale);

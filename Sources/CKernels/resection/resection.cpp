@@ -60,8 +60,10 @@ struct Resection {
   bool sample(Random& random, std::array<Pose, 4>& poses, int& found) const {
     size_t index[3];
     index[0] = random.below(size());
-    do index[1] = random.below(size()); while (index[1] == index[0]);
-    do index[2] = random.below(size()); while (index[2] == index[0] || index[2] == index[1]);
+    do index[1] = random.below(size());
+    while (index[1] == index[0]);
+    do index[2] = random.below(size());
+    while (index[2] == index[0] || index[2] == index[1]);
     std::array<Vector3, 3> r, p;
     for (int k = 0; k < 3; ++k) {
       r[k] = rays[index[k]];
@@ -192,8 +194,8 @@ ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const
     if (count < 4) throw Degenerate("resection needs at least four points");
     Resection problem{*camera, {}, {}, {}, options->max_error * options->max_error};
     for (size_t i = 0; i < count; ++i) {
-      const auto* p = reinterpret_cast<const double*>(
-          reinterpret_cast<const char*>(points) + i * point_stride);
+      const auto* p =
+          reinterpret_cast<const double*>(reinterpret_cast<const char*>(points) + i * point_stride);
       problem.points.emplace_back(p[0], p[1], p[2]);
       problem.pixels.emplace_back(pixels[2 * i], pixels[2 * i + 1]);
       const Vector2 ray = unproject(*camera, pixels[2 * i], pixels[2 * i + 1]);

@@ -61,8 +61,8 @@ void run(const std::shared_ptr<Job>& job) {
 /// Waits for the job; the solver has no progress of its own, so the fraction only nears 1.
 void await(Job& job, std::thread& worker, const ck_control* control) {
   const auto start = std::chrono::steady_clock::now();
-  const double expected = 2e-6 * static_cast<double>(job.cloud.points_.size()) *
-                          std::pow(3.0, job.options.depth - 6);
+  const double expected =
+      2e-6 * static_cast<double>(job.cloud.points_.size()) * std::pow(3.0, job.options.depth - 6);
   std::unique_lock<std::mutex> lock(job.mutex);
   while (!job.done) {
     job.finished.wait_for(lock, std::chrono::milliseconds(50));

@@ -47,9 +47,8 @@ void cast(RTCScene scene, Crossings& crossings, const float* center, const float
 }
 
 /// The points that each photo sees.
-std::vector<std::vector<uint32_t>> points_of_photos(const uint32_t* offsets,
-                                                    const uint16_t* photos, size_t point_count,
-                                                    size_t photo_count) {
+std::vector<std::vector<uint32_t>> points_of_photos(const uint32_t* offsets, const uint16_t* photos,
+                                                    size_t point_count, size_t photo_count) {
   std::vector<std::vector<uint32_t>> points(photo_count);
   for (size_t i = 0; i < point_count; ++i) {
     for (uint32_t k = offsets[i]; k < offsets[i + 1]; ++k) {
@@ -74,8 +73,9 @@ ck_status ck_seen_through(const float* positions, size_t position_stride, size_t
     if (triangle_count == 0 || point_count == 0) return;
     ck::require(points && clearances && photo_offsets && photos && centers, "null pointer");
     const auto device = ck::surface::make_device();
-    const auto scene = ck::surface::make_scene(
-        device.get(), {positions, position_stride, position_count}, triangles, triangle_count, note);
+    const auto scene =
+        ck::surface::make_scene(device.get(), {positions, position_stride, position_count},
+                                triangles, triangle_count, note);
     const auto seen = points_of_photos(photo_offsets, photos, point_count, photo_count);
     const ck::StridedPoints p{points, point_stride, point_count};
     std::mutex mutex;

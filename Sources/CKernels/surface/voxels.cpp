@@ -53,9 +53,7 @@ std::vector<Cell> number(const ck::StridedPoints& points, const std::vector<Cell
 struct UnionFind {
   std::vector<int32_t> parent;
 
-  explicit UnionFind(size_t count) : parent(count) {
-    std::iota(parent.begin(), parent.end(), 0);
-  }
+  explicit UnionFind(size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
 
   int32_t root(int32_t i) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];

@@ -75,7 +75,8 @@ struct MapAdjustment: Sendable {
     if let first = map.registered.first { poses[first] = .constant }
     if map.registered.count > 1 { poses[map.registered[1]] = .scaleFixed }
     let (iterations, tolerance) =
-      isFinal ? (2 * options.globalIterations, options.finalTolerance)
+      isFinal
+      ? (2 * options.globalIterations, options.finalTolerance)
       : (options.globalIterations, options.growthTolerance)
     try adjust(
       points, poses: poses, cameras: freedom(map), &map, iterations: iterations,

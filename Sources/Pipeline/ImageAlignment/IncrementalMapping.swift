@@ -8,8 +8,10 @@ package struct IncrementalMapping: Sendable {
     /// Matches and median angle in degrees that the first pair needs; the first row that a pair
     /// fulfils decides.
     package var initialPairLevels = [
-      InitialPairLevel(matches: 100, angleDegrees: 16), InitialPairLevel(matches: 50, angleDegrees: 8),
-      InitialPairLevel(matches: 30, angleDegrees: 4), InitialPairLevel(matches: 15, angleDegrees: 2),
+      InitialPairLevel(matches: 100, angleDegrees: 16),
+      InitialPairLevel(matches: 50, angleDegrees: 8),
+      InitialPairLevel(matches: 30, angleDegrees: 4),
+      InitialPairLevel(matches: 15, angleDegrees: 2),
     ]
     /// First pairs tried before a group of photos is given up.
     package var initialPairTrials = 12

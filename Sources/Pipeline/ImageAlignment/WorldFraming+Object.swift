@@ -50,8 +50,10 @@ struct CameraUp: Sendable {
 
   init(_ reconstruction: Reconstruction) {
     let rotations = reconstruction.poses.compactMap { $0?.rotation.conjugate }
-    let mean = rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, -1, 0] } / Double(rotations.count)
-    let back = rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, 0, -1] } / Double(rotations.count)
+    let mean =
+      rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, -1, 0] } / Double(rotations.count)
+    let back =
+      rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, 0, -1] } / Double(rotations.count)
     // Cameras that look straight down have their tops all around: then their backs point up.
     guard mean.length > 0.3 || mean.length > back.length else {
       direction = back.length > 0.1 ? back.normalized : [0, 1, 0]
@@ -157,9 +159,13 @@ extension Matrix3 {
         let t = (theta < 0 ? -1 : 1) / (abs(theta) + (theta * theta + 1).squareRoot())
         let c = 1 / (t * t + 1).squareRoot()
         let s = t * c
-        for k in 0..<3 { (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q]) }
+        for k in 0..<3 {
+          (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q])
+        }
         (a[p], a[q]) = (c * a[p] - s * a[q], s * a[p] + c * a[q])
-        for k in 0..<3 { (v[k][p], v[k][q]) = (c * v[k][p] - s * v[k][q], s * v[k][p] + c * v[k][q]) }
+        for k in 0..<3 {
+          (v[k][p], v[k][q]) = (c * v[k][p] - s * v[k][q], s * v[k][p] + c * v[k][q])
+        }
       }
       if change < 1e-300 { break }
     }

@@ -120,7 +120,9 @@ extension Reconstruction {
   func moved(by newFromOld: SimilarityTransform, _ frame: WorldFrame) -> Reconstruction {
     var result = self
     result.poses = poses.map { $0.map(newFromOld.applied(toCameraFromA:)) }
-    for index in points.indices { result.points[index].position = newFromOld * points[index].position }
+    for index in points.indices {
+      result.points[index].position = newFromOld * points[index].position
+    }
     result.worldFrame = frame
     return result
   }

@@ -1,0 +1,113 @@
+import Foundation
+import TestSupport
+import Testing
+
+@testable import Pipeline
+@testable import RealityFoundation
+
+/// Sessions with the real engine on rendered photos.
+@Suite(.serialized, .timeLimit(.minutes(5))) struct ReconstructionSessionTests {
+  typealias Session = PhotogrammetrySession
+  typealias Output = Session.Output
+
+  private func run(_ session: Session, _ requests: [Session.Request]) async throws -> [Output] {
+    try session.process(requests: requests)
+    var outputs: [Output] = []
+    for try await output in session.outputs {
+      outputs.append(output)
+      if ["processingComplete", "processingCancelled"].contains(name(of: output)) { break }
+    }
+    return outputs
+  }
+
+  private func results(in outputs: [Output]) -> [Session.Request: Session.Result] {
+    outputs.reduce(into: [:]) { results, output in
+      if case .requestComplete(let request, let result) = output { results[request] = result }
+    }
+  }
+
+  private func errors(in outputs: [Output]) -> [any Error] {
+    outputs.compactMap { if case .requestError(_, let error) = $0 { error } else { nil } }
+  }
+
+  @Test func everythingComesInOneFrame() async throws {
+    let session = try Session(input: Fixtures.images(of: "orbit"))
+    session.engineOptions.threadCount = 2
+    let outputs = try await run(session, [.poses, .pointCloud])
+    #expect(errors(in: outputs).isEmpty && outputs.map(name(of:)).contains("inputComplete"))
+    let first = results(in: outputs)
+    guard case .poses(let poses) = first[.poses], case .pointCloud(let cloud) = first[.pointCloud]
+    else {
+      Issue.record("a result is missing")
+      return
+    }
+    #expect(poses.posesBySample.count == 20 && cloud.points.count > 1000)
+    #expect(poses.urlsBySample[0]?.lastPathComponent == "view_00.jpg")
+    #expect(cloud.points.allSatisfy { $0.color.w == 255 })
+    // All cameras look at the middle of the points from outside.
+    let box = cloud.points.reduce(into: BoundingBox.empty) { $0.formUnion($1.position) }
+    for pose in poses.posesBySample.values {
+      let view = pose.rotation.act([0, 0, -1])
+      #expect(dot(view, normalize(box.center - pose.translation)) > 0.8)
+    }
+    try await modelFollows(session, box)
+  }
+
+  /// A second call makes a model of what the first found out.
+  private func modelFollows(_ session: Session, _ box: BoundingBox) async throws {
+    try await withTemporaryFolder { folder in
+      let url = folder.appendingPathComponent("model.usdz")
+      let model = Session.Request.modelFile(url: url, detail: .preview)
+      let outputs = try await run(session, [model, .bounds])
+      #expect(errors(in: outputs).isEmpty && !outputs.map(name(of:)).contains("inputComplete"))
+      guard case .bounds(let bounds) = results(in: outputs)[.bounds] else {
+        Issue.record("the bounds are missing")
+        return
+      }
+      #expect(length(bounds.center - box.center) < box.boundingRadius && !bounds.isEmpty)
+      #expect(try Data(contentsOf: url).starts(with: Array("PK".utf8)))
+      let stages = try #require(session.report).stages.map(\.name)
+      #expect(stages.filter { $0 == PipelineStage.imageAlignment.rawValue }.count == 1)
+      #expect(stages.filter { $0 == PipelineStage.pointCloudGeneration.rawValue }.count <= 2)
+    }
+  }
+
+  @Test func cancelsWithinSeconds() async throws {
+    let session = try Session(input: Fixtures.images(of: "relief"))
+    session.engineOptions.threadCount = 2
+    try session.process(requests: [.poses])
+    for try await output in session.outputs where name(of: output) == "requestProgress" { break }
+    let start = ContinuousClock.now
+    session.cancel()
+    for try await output in session.outputs where name(of: output) == "processingCancelled" {
+      break
+    }
+    #expect(ContinuousClock.now - start < .seconds(20))
+    #expect(!session.isProcessing)
+  }
+
+  @Test func badPhotosAreNamed() async throws {
+    let session = try Session(input: Fixtures.folder("bad"))
+    let outputs = try await run(session, [.poses])
+    let reasons = outputs.compactMap { output -> String? in
+      if case .invalidSample(_, let reason) = output { reason } else { nil }
+    }
+    #expect(reasons.contains { $0.contains("notes.txt") && $0.hasSuffix(".") })
+    #expect(reasons.contains { $0.contains("blurred.jpg") } && reasons.count >= 5)
+    #expect(errors(in: outputs).count == 1)
+    #expect(name(of: try #require(outputs.last)) == "processingComplete")
+  }
+
+  @Test func foldersWithoutPhotosAreAnError() async throws {
+    try await withTemporaryFolder { folder in
+      try Data("text".utf8).write(to: folder.appendingPathComponent("a.jpg"))
+      let outputs = try await run(try Session(input: folder), [.bounds, .poses])
+      #expect(
+        outputs.map(name(of:)).filter { !$0.hasPrefix("requestProgress") } == [
+          "invalidSample", "requestError", "requestError", "processingComplete",
+        ])
+      let error = try #require(errors(in: outputs).first)
+      #expect(sentence(of: error).contains(folder.path) && sentence(of: error).contains("JPEG"))
+    }
+  }
+}
