@@ -12,6 +12,8 @@ package struct PointCloudGeneration {
     package var maximumPixelsPerView = 1_000_000
     package var patches = PatchStereo.Options()
     package var filter = PatchStereo.FilterOptions()
+    /// Share of the photos' pixels below which the cloud is called sparse in a warning.
+    package var sparseRatio = 0.05
 
     package init(maximumPixelsPerView: Int = 1_000_000) {
       self.maximumPixelsPerView = maximumPixelsPerView
@@ -86,7 +88,13 @@ package struct PointCloudGeneration {
     }
     let pixels = maps.reduce(0) { $0 + $1.view.width * $1.view.height }
     let accepted = maps.reduce(0) { $0 + $1.acceptedCount }
-    context.notes.count("acceptedPixelRatio", Double(accepted) / Double(max(1, pixels)))
+    let ratio = Double(accepted) / Double(max(1, pixels))
+    context.notes.count("acceptedPixelRatio", ratio)
+    if ratio < options.sparseRatio {
+      context.notes.warn(
+        "Only \((1000 * ratio).rounded() / 10) % of the photos' area could be measured, so the "
+          + "model has large gaps: take more photos, from places further to the side of each other.")
+    }
     context.notes.count("viewMegapixels", Double(pixels) / 1e6)
   }
 
