@@ -93,7 +93,8 @@ package struct PointCloudGeneration {
     if ratio < options.sparseRatio {
       context.notes.warn(
         "Only \((1000 * ratio).rounded() / 10) % of the photos' area could be measured, so the "
-          + "model has large gaps: take more photos, from places further to the side of each other.")
+          + "model has large gaps: take more photos, from places further to the side of each other."
+      )
     }
     context.notes.count("viewMegapixels", Double(pixels) / 1e6)
   }
