@@ -64,7 +64,9 @@ package final class ReconstructionPipeline {
       throw PipelineError.tooFewPhotos(found: result.photos.count, needed: needed)
     }
     ingested = result
-    images = ImageStore(photos: result.photos, byteBudget: configuration.imageMemory)
+    images = ImageStore(
+      photos: result.photos, byteBudget: configuration.imageMemory,
+      processingPixels: result.processingPixels)
     return result
   }
 
