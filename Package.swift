@@ -87,7 +87,8 @@ var cliDependencies: [Target.Dependency] = [
       name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
-      name: "PipelineTests", dependencies: ["Pipeline", "Kernels", "SceneModel", "TestSupport"],
+      name: "PipelineTests",
+      dependencies: ["Pipeline", "Evaluation", "Formats", "Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
       name: "RealityFoundationTests",

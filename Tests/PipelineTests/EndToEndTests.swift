@@ -1,0 +1,61 @@
+import Evaluation
+import Formats
+import Foundation
+import Pipeline
+import SceneModel
+import TestSupport
+import Testing
+
+/// Photos in, USDZ out, against the exact cameras and surface of a rendered set.
+@Suite(.serialized) struct EndToEndTests {
+  @Test func orbitIsReconstructed() throws {
+    let folder = try TemporaryFolder()
+    var configuration = PipelineConfiguration()
+    configuration.checkpointDirectory = folder.url.appendingPathComponent("checkpoint")
+    let pipeline = ReconstructionPipeline(
+      folder: Fixtures.images(of: "orbit"), configuration: configuration)
+    let preview = DetailSpecification(.preview)
+    let output = folder.url.appendingPathComponent("orbit.usdz")
+    try pipeline.writeModel(preview, to: output)
+
+    let reconstruction = try pipeline.align()
+    #expect(reconstruction.registered.count == 20)
+    #expect(reconstruction.meanReprojectionError < 0.5)
+
+    let truth = Fixtures.folder("orbit").appendingPathComponent("gt")
+    let cameras = try NamedCamera.cameras(
+      json: Data(contentsOf: truth.appendingPathComponent("cameras.json")))
+    let (errors, alignment) = try PoseErrors.comparing(
+      NamedCamera.cameras(of: reconstruction), with: cameras)
+    #expect(errors.centerRMSE < 0.001)
+
+    let reference = try PLY.readMesh(truth.appendingPathComponent("mesh.ply"))
+    let scores = try SurfaceComparison().run(
+      try pipeline.surface(for: preview), alignment, reference: reference, cameras: cameras)
+    let atTwoMillimeters = try #require(scores.thresholds.first { $0.threshold == 0.002 })
+    #expect(atTwoMillimeters.fScore > 0.8)
+
+    for name in ["sparse/images.txt", "dense/points.ply", "mesh/surface.ply", "report.json"] {
+      let file = folder.url.appendingPathComponent("checkpoint/\(name)")
+      #expect(FileManager.default.fileExists(atPath: file.path), "\(name) is missing")
+    }
+    #expect(try Data(contentsOf: output).prefix(4) == Data([0x50, 0x4b, 3, 4]))
+  }
+
+  @Test func threadsDoNotChangeTheFile() throws {
+    let folder = try TemporaryFolder()
+    let files = try [1, 2].map { threads in
+      var configuration = PipelineConfiguration()
+      configuration.threadCount = threads
+      configuration.isObjectMaskingEnabled = false
+      var specification = DetailSpecification(.preview)
+      specification.viewPixels = 60_000
+      let output = folder.url.appendingPathComponent("relief\(threads).usdz")
+      try ReconstructionPipeline(
+        folder: Fixtures.images(of: "relief"), configuration: configuration
+      ).writeModel(specification, to: output)
+      return try Data(contentsOf: output)
+    }
+    #expect(files[0] == files[1])
+  }
+}
