@@ -83,6 +83,12 @@ var cliDependencies: [Target.Dependency] = [
     .executableTarget(
       name: "render-fixtures", dependencies: ["TestSupport", "SceneModel", "Kernels", "Formats"],
       path: "Tests/FixtureRenderer", swiftSettings: strict),
+    .executableTarget(
+      name: "growth-benchmark",
+      dependencies: [
+        argumentParser, "TestSupport", "Pipeline", "Evaluation", "SceneModel", "Kernels",
+      ],
+      path: "Tests/GrowthBenchmark", swiftSettings: strict),
     .testTarget(
       name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),

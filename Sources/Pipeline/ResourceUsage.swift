@@ -1,15 +1,15 @@
 import Foundation
 
 /// What the process has used so far.
-struct ResourceUsage {
+package struct ResourceUsage {
   /// Monotonic clock.
-  var seconds: Double
+  package var seconds: Double
   /// User and system time of all threads.
-  var cpuSeconds: Double
+  package var cpuSeconds: Double
   /// The highest resident memory so far.
-  var peakMemoryBytes: Int
+  package var peakMemoryBytes: Int
 
-  static var now: ResourceUsage {
+  package static var now: ResourceUsage {
     var usage = rusage()
     getrusage(Int32(RUSAGE_SELF.rawValue), &usage)
     func seconds(_ time: timeval) -> Double { Double(time.tv_sec) + Double(time.tv_usec) * 1e-6 }

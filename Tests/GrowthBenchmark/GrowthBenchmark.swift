@@ -1,0 +1,70 @@
+import ArgumentParser
+import Evaluation
+import Foundation
+import Kernels
+import Pipeline
+import SceneModel
+import TestSupport
+
+/// Matches and maps one synthetic scene and prints the cost and the errors as one line of JSON.
+///
+/// One run is one process, so that its peak memory is its own; `scripts/benchmark-growth` runs the
+/// sizes and makes the table.
+@main
+struct GrowthBenchmark: ParsableCommand {
+  enum Mapping: String, CaseIterable, ExpressibleByArgument { case incremental, none }
+
+  static let configuration = CommandConfiguration(commandName: "growth-benchmark")
+
+  @Option(help: "Number of photos.") var photos = 50
+  @Option(help: "streets or orbits.") var layout = GrowthScene.Layout.streets
+  @Option(help: "incremental, or none to match only.") var mapping = Mapping.incremental
+  @Option(help: "Features of a photo at most.") var features = 2500
+  @Option(help: "Threads.") var threads = 2
+  @Option(help: "Seed of the scene.") var seed: UInt64 = 1
+  @Flag(help: "Put the photos in random order.") var shuffled = false
+  @Flag(help: "Say that the photos are in the order of capture.") var sequential = false
+
+  func run() throws {
+    let control = KernelControl(threadCount: threads)
+    let scene = try GrowthScene(sceneOptions, control)
+    let start = ResourceUsage.now
+    var camera = scene.camera
+    camera.calibration = .exif
+    let context = StageContext(control: control)
+    let (graph, cameras) = try CorrespondenceSearch().run(
+      photos: scene.photos, cameras: [camera], features: scene.features, isSequential: sequential,
+      context)
+    let matched = ResourceUsage.now
+    var result = Result(scene, graph, context.notes)
+    result.matching = Cost(from: start, to: matched)
+    if let mapped = try map(graph, cameras, scene, context) {
+      result.mapping = Cost(from: matched, to: .now)
+      try result.judge(mapped, scene)
+    }
+    result.peakMemoryBytes = ResourceUsage.now.peakMemoryBytes
+    let encoder = JSONEncoder()
+    encoder.outputFormatting = [.sortedKeys]
+    print(String(decoding: try encoder.encode(result), as: UTF8.self))
+  }
+
+  private var sceneOptions: GrowthScene.Options {
+    var options = GrowthScene.Options()
+    (options.layout, options.photoCount, options.seed) = (layout, photos, seed)
+    (options.featuresPerPhoto, options.isShuffled) = (features, shuffled)
+    return options
+  }
+
+  private func map(
+    _ graph: ViewGraph, _ cameras: [Camera], _ scene: GrowthScene, _ context: StageContext
+  ) throws -> Reconstruction? {
+    switch mapping {
+    case .none: nil
+    case .incremental:
+      try IncrementalMapping().run(
+        graph, features: scene.features, photos: scene.photos, cameras: cameras, context)
+    }
+  }
+}
+
+extension GrowthScene.Layout: ExpressibleByArgument {}
