@@ -6,6 +6,7 @@
 #include "ck_camera.h"
 #include "ck_core.h"
 #include "ck_features.h"
+#include "ck_global.h"
 #include "ck_image.h"
 #include "ck_matching.h"
 #include "ck_patches.h"

@@ -1,0 +1,289 @@
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "bundle/camera_model.h"
+#include "ck_global.h"
+#include "core/guard.h"
+#include "global/block_cholesky.h"
+
+namespace ck {
+namespace {
+
+/// Centres, points and factors: what is sought.
+struct Places {
+  std::vector<Vector3> centers, points;
+  std::vector<double> factors;
+};
+
+/// Levenberg and Marquardt's method on all of it. Factors are eliminated first, each on its own,
+/// then points; what is left is a system of the cameras.
+class Positioning {
+ public:
+  Positioning(Places places, const ck_direction* directions, size_t count,
+              const ck_positioning_options& options)
+      : places_(std::move(places)),
+        directions_(directions),
+        count_(count),
+        options_(options),
+        system_(places_.centers.size(), blocks()) {
+    for_each_pair([&](size_t a, size_t b) {
+      slots_.push_back(system_.slot(std::max(directions_[a].photo, directions_[b].photo),
+                                    std::min(directions_[a].photo, directions_[b].photo)));
+    });
+    terms_.resize(count);
+  }
+
+  ck_positioning_summary solve(const ck_control* control) {
+    double cost = this->cost(places_);
+    ck_positioning_summary summary = {cost, cost, 0, false};
+    double damping = 1e-4, growth = 2;
+    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
+      step(control, double(iteration) / options_.max_iterations);
+      ++summary.iterations;
+      linearise();
+      Places next;
+      double expected = 0;
+      const bool is_solved = advance(damping, next, expected);
+      const double next_cost = is_solved ? this->cost(next) : cost;
+      if (!is_solved || !(next_cost < cost)) {
+        damping *= growth;
+        growth *= 2;
+        if (damping > 1e12) break;
+        continue;
+      }
+      const double gain = (cost - next_cost) / std::max(expected, 1e-300);
+      damping = std::max(1e-12, damping * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
+      growth = 2;
+      places_ = std::move(next);
+      summary.converged = cost - next_cost < options_.function_tolerance * cost;
+      cost = next_cost;
+      if (summary.converged) break;
+    }
+    summary.final_cost = cost;
+    return summary;
+  }
+
+  const Places& places() const { return places_; }
+
+ private:
+  /// What one direction adds to the normal equations of y = X − c, its factor eliminated.
+  struct Term {
+    Eigen::Matrix3d matrix;
+    Vector3 right;
+  };
+
+  Vector3 offset(const Places& places, size_t k) const {
+    return places.points[size_t(directions_[k].point)] -
+           places.centers[size_t(directions_[k].photo)];
+  }
+
+  Vector3 direction(size_t k) const {
+    return {directions_[k].x, directions_[k].y, directions_[k].z};
+  }
+
+  /// Calls `body(begin, end)` for the directions of each point.
+  template <typename Body>
+  void for_each_point(Body&& body) const {
+    for (size_t begin = 0, end; begin < count_; begin = end) {
+      for (end = begin; end < count_ && directions_[end].point == directions_[begin].point;) ++end;
+      body(begin, end);
+    }
+  }
+
+  /// Calls `body(a, b)` for all pairs a ≤ b of directions of one point.
+  template <typename Body>
+  void for_each_pair(Body&& body) const {
+    for_each_point([&](size_t begin, size_t end) {
+      for (size_t a = begin; a < end; ++a) {
+        for (size_t b = a; b < end; ++b) body(a, b);
+      }
+    });
+  }
+
+  std::vector<std::pair<int32_t, int32_t>> blocks() const {
+    std::vector<std::pair<int32_t, int32_t>> blocks;
+    for_each_pair([&](size_t a, size_t b) {
+      blocks.emplace_back(std::max(directions_[a].photo, directions_[b].photo),
+                          std::min(directions_[a].photo, directions_[b].photo));
+    });
+    return blocks;
+  }
+
+  double cost(const Places& places) const {
+    const double h = options_.huber_width;
+    double sum = 0;
+    for (size_t k = 0; k < count_; ++k) {
+      const double r = (direction(k) - places.factors[k] * offset(places, k)).norm();
+      sum += r <= h ? r * r : h * (2 * r - h);
+    }
+    return sum / 2;
+  }
+
+  /// The weighted residuals and offsets at the present places.
+  void linearise() {
+    residuals_.resize(count_);
+    offsets_.resize(count_);
+    weights_.resize(count_);
+    for (size_t k = 0; k < count_; ++k) {
+      offsets_[k] = offset(places_, k);
+      residuals_[k] = direction(k) - places_.factors[k] * offsets_[k];
+      const double r = residuals_[k].norm();
+      weights_[k] = r <= options_.huber_width ? 1 : options_.huber_width / r;
+    }
+  }
+
+  static double damped(double diagonal, double damping) {
+    return diagonal + damping * std::clamp(diagonal, 1e-6, 1e32);
+  }
+
+  /// One damped Gauss–Newton step. `expected` receives the decrease of the cost that it promises.
+  bool advance(double damping, Places& next, double& expected) {
+    eliminate_factors(damping);
+    std::vector<Eigen::Matrix3d> inverses(places_.points.size(), Eigen::Matrix3d::Zero());
+    std::vector<Vector3> point_rights(places_.points.size(), Vector3::Zero());
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(Eigen::Index(3 * places_.centers.size()));
+    assemble(damping, inverses, point_rights, right);
+    if (!system_.factorise()) return false;
+    const Eigen::VectorXd moves = system_.solve(right);
+    if (!moves.allFinite()) return false;
+
+    next = places_;
+    for (size_t i = 0; i < next.centers.size(); ++i) {
+      next.centers[i] += moves.segment<3>(Eigen::Index(3 * i));
+    }
+    for_each_point([&](size_t begin, size_t end) {
+      const size_t point = size_t(directions_[begin].point);
+      Vector3 sum = point_rights[point];
+      for (size_t k = begin; k < end; ++k) {
+        sum += terms_[k].matrix * moves.segment<3>(3 * directions_[k].photo);
+      }
+      next.points[point] += inverses[point] * sum;
+    });
+    expected = 0;
+    for (size_t k = 0; k < count_; ++k) expected += move_factor(k, damping, next);
+    return true;
+  }
+
+  /// Sets the factor that fits the moved camera and point; returns the promised decrease.
+  double move_factor(size_t k, double damping, Places& next) const {
+    const Vector3 move = offset(next, k) - offsets_[k];
+    const Vector3& y = offsets_[k];
+    const double d = places_.factors[k];
+    const double change = y.dot(residuals_[k] - d * move) / damped(y.squaredNorm(), damping);
+    next.factors[k] = std::max(1e-5, d + change);
+    const Vector3 predicted = residuals_[k] - d * move - change * y;
+    return weights_[k] * (residuals_[k].squaredNorm() - predicted.squaredNorm()) / 2;
+  }
+
+  void eliminate_factors(double damping) {
+    for (size_t k = 0; k < count_; ++k) {
+      const Vector3& y = offsets_[k];
+      const double d = places_.factors[k], w = weights_[k];
+      const double pivot = damped(y.squaredNorm(), damping);
+      terms_[k].matrix = w * d * d * (Eigen::Matrix3d::Identity() - y * y.transpose() / pivot);
+      terms_[k].right = w * d * (residuals_[k] - y * (y.dot(residuals_[k]) / pivot));
+    }
+  }
+
+  /// Sums up the system of the cameras, the points eliminated.
+  void assemble(double damping, std::vector<Eigen::Matrix3d>& inverses,
+                std::vector<Vector3>& point_rights, Eigen::VectorXd& right) {
+    system_.clear();
+    std::vector<Vector3> diagonals(places_.centers.size(), Vector3::Zero());
+    size_t pair = 0;
+    for_each_point([&](size_t begin, size_t end) {
+      const size_t point = size_t(directions_[begin].point);
+      Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+      Vector3 point_diagonal = Vector3::Zero();
+      for (size_t k = begin; k < end; ++k) {
+        const double diagonal = weights_[k] * places_.factors[k] * places_.factors[k];
+        sum += terms_[k].matrix;
+        point_rights[point] += terms_[k].right;
+        point_diagonal.array() += diagonal;
+        diagonals[size_t(directions_[k].photo)].array() += diagonal;
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        sum(axis, axis) += damped(point_diagonal[axis], damping) - point_diagonal[axis];
+      }
+      inverses[point] = sum.inverse();
+      for (size_t a = begin; a < end; ++a) {
+        const Eigen::Matrix3d weighted = terms_[a].matrix * inverses[point];
+        right.segment<3>(3 * directions_[a].photo) +=
+            weighted * point_rights[point] - terms_[a].right;
+        for (size_t b = a; b < end; ++b, ++pair) add_pair(a, b, slots_[pair], weighted);
+      }
+    });
+    for (size_t i = 0; i < diagonals.size(); ++i) {
+      const Vector3 extra =
+          diagonals[i].unaryExpr([&](double x) { return damped(x, damping) - x; });
+      system_.add(system_.slot(int32_t(i), int32_t(i)), extra.asDiagonal());
+    }
+  }
+
+  /// The part of two directions of one point in the system of the cameras.
+  void add_pair(size_t a, size_t b, size_t slot, const Eigen::Matrix3d& weighted) {
+    const Eigen::Matrix3d block = -(weighted * terms_[b].matrix);
+    if (a == b) {
+      system_.add(slot, terms_[a].matrix + block);
+    } else if (directions_[a].photo == directions_[b].photo) {
+      system_.add(slot, block + block.transpose());
+    } else if (directions_[a].photo > directions_[b].photo) {
+      system_.add(slot, block);
+    } else {
+      system_.add(slot, block.transpose());
+    }
+  }
+
+  Places places_;
+  const ck_direction* directions_;
+  size_t count_;
+  const ck_positioning_options& options_;
+  BlockCholesky system_;
+  /// The block of each pair of directions, in the order of `for_each_pair`.
+  std::vector<size_t> slots_;
+  std::vector<Term> terms_;
+  std::vector<Vector3> residuals_, offsets_;
+  std::vector<double> weights_;
+};
+
+Places read(const double* centers, size_t photo_count, const double* points, size_t point_count,
+            const ck_direction* directions, size_t direction_count) {
+  Places places;
+  for (size_t i = 0; i < photo_count; ++i) places.centers.emplace_back(centers + 3 * i);
+  for (size_t i = 0; i < point_count; ++i) places.points.emplace_back(points + 3 * i);
+  for (size_t k = 0; k < direction_count; ++k) {
+    const ck_direction& d = directions[k];
+    require(d.photo >= 0 && size_t(d.photo) < photo_count && d.point >= 0 &&
+                size_t(d.point) < point_count && (k == 0 || d.point >= directions[k - 1].point),
+            "a direction names a photo or point that isn't there");
+  }
+  places.factors.assign(direction_count, 1);
+  return places;
+}
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_position_globally(double* centers, size_t photo_count, double* points,
+                               size_t point_count, const ck_direction* directions,
+                               size_t direction_count, ck_positioning_summary* summary,
+                               const ck_positioning_options* options, const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck;
+    require(centers && points && directions && summary && options, "positioning needs directions");
+    require(direction_count > 0 && options->huber_width > 0, "positioning needs directions");
+    Positioning positioning(
+        read(centers, photo_count, points, point_count, directions, direction_count), directions,
+        direction_count, *options);
+    *summary = positioning.solve(control);
+    for (size_t i = 0; i < photo_count; ++i) {
+      for (int k = 0; k < 3; ++k) centers[3 * i + size_t(k)] = positioning.places().centers[i][k];
+    }
+    for (size_t i = 0; i < point_count; ++i) {
+      for (int k = 0; k < 3; ++k) points[3 * i + size_t(k)] = positioning.places().points[i][k];
+    }
+  });
+}
