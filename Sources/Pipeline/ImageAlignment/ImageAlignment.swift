@@ -12,7 +12,7 @@ package struct ImageAlignment: Sendable {
     package var minimumPhotos = 3
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
-    package var mapping = IncrementalMapping.Options()
+    package var mapping = SparseMapping.Options()
     package var framing = WorldFraming.Options()
 
     package init() {}
@@ -43,7 +43,7 @@ package struct ImageAlignment: Sendable {
       throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
     }
     let mapped = try timed("mappingSeconds", context) {
-      try IncrementalMapping(options.mapping).run(
+      try SparseMapping(options.mapping).run(
         graph, features: features, photos: photos, cameras: calibrated,
         context.part(from: 0.7, to: 0.98))
     }

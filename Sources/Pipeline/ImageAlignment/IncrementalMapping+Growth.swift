@@ -28,15 +28,21 @@ struct MapGrowth: Sendable {
     return context.control.part(from: done, to: done)
   }
 
-  /// All maps that share no photo, the largest first.
-  func run() throws -> [SparseMap] {
+  /// All maps that share no photo, the largest first; the first one grows from `start`, if given.
+  func run(from start: SparseMap? = nil) throws -> [SparseMap] {
     var maps: [SparseMap] = []
     var isTaken = [Bool](repeating: false, count: photos.count)
-    for group in connectedGroups() where group.count >= 2 {
-      while let map = try bestMap(within: group, isTaken) {
-        for photo in map.registered { isTaken[photo] = true }
-        maps.append(map)
-        if group.count(where: { !isTaken[$0] }) < 3 { break }
+    func take(_ map: SparseMap) {
+      for photo in map.registered { isTaken[photo] = true }
+      maps.append(map)
+    }
+    if let start { take(try grown(start, isTaken)) }
+    for group in connectedGroups() {
+      while true {
+        let free = group.count { !isTaken[$0] }
+        guard free >= (free == group.count ? 2 : 3), let map = try bestMap(within: group, isTaken)
+        else { break }
+        take(map)
       }
     }
     return maps.enumerated().sorted {
@@ -63,13 +69,14 @@ struct MapGrowth: Sendable {
   /// Registers photo after photo until none can be added, then settles the whole.
   private func grown(_ start: SparseMap, _ isTaken: [Bool]) throws -> SparseMap {
     var map = start
+    var ranking = PhotoRanking(photos)
     var failures = [Int](repeating: 0, count: photos.count)
     var (lastPhotos, lastPoints) = (map.registered.count, map.pointCount)
     var isRelaxed = false
     while true {
       try context.step(map.registered.count, of: photos.count)
-      guard try registerNext(&map, isTaken, isRelaxed, &failures) else {
-        if isRelaxed { break }
+      guard try registerNext(&map, isTaken, isRelaxed, &ranking, &failures) else {
+        if isRelaxed || map.registered.count == photos.count { break }
         try settle(&map, rounds: 1)
         (isRelaxed, failures) = (true, failures.map { _ in 0 })
         continue
@@ -88,9 +95,14 @@ struct MapGrowth: Sendable {
 
   /// Registers the photo that sees the most of the map; false when none can be.
   private func registerNext(
-    _ map: inout SparseMap, _ isTaken: [Bool], _ isRelaxed: Bool, _ failures: inout [Int]
+    _ map: inout SparseMap, _ isTaken: [Bool], _ isRelaxed: Bool, _ ranking: inout PhotoRanking,
+    _ failures: inout [Int]
   ) throws -> Bool {
-    for photo in nextPhotos(map, isTaken, failures) {
+    ranking.update(&map)
+    let candidates = ranking.photos {
+      !map.isRegistered($0) && !isTaken[$0] && failures[$0] < 3
+    }
+    for photo in candidates {
       if try register(photo, &map, isRelaxed) { return true }
       failures[photo] += 1
     }

@@ -64,11 +64,20 @@ package struct IncrementalMapping: Sendable {
     _ context: StageContext
   ) throws -> Reconstruction {
     let tracks = try TrackBuilding().run(graph, features: features, context.part(from: 0, to: 0.1))
+    return try run(
+      graph, features: features, photos: photos,
+      empty: SparseMap(cameras: cameras, photos: photos, tracks: tracks), from: nil,
+      context.part(from: 0.1, to: 1))
+  }
+
+  /// The same from tracks, and from a map to begin with where there is one.
+  func run(
+    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], empty: SparseMap,
+    from start: SparseMap?, _ context: StageContext
+  ) throws -> Reconstruction {
     let growth = MapGrowth(
-      mapping: self, graph: graph, photos: photos,
-      empty: SparseMap(cameras: cameras, photos: photos, tracks: tracks),
-      context: context.part(from: 0.1, to: 1))
-    let maps = try growth.run()
+      mapping: self, graph: graph, photos: photos, empty: empty, context: context)
+    let maps = try growth.run(from: start)
     context.notes.count("components", Double(maps.count))
     var best = maps.first ?? growth.empty
     if best.registered.isEmpty { best = growth.empty }

@@ -36,8 +36,7 @@ struct PointTriangulation: Sendable {
     var count = 0
     for (track, position) in zip(chosen, result.positions) {
       guard let position else { continue }
-      map.positions[track] = position
-      map.isTriangulated[track] = true
+      map.setPoint(track, position)
       count += 1
     }
     for (index, isInlier) in zip(indices, result.isInlier) { map.isActive[index] = isInlier }

@@ -7,11 +7,15 @@ struct SparseMap: Sendable {
   private(set) var tracks: FeatureTracks
   /// The point of each track; valid where `isTriangulated`.
   var positions: [SIMD3<Double>]
-  var isTriangulated: [Bool]
+  private(set) var isTriangulated: [Bool]
+  private(set) var pointCount = 0
   /// Whether each observation of the tracks supports its track's point.
   var isActive: [Bool]
   /// In the order of registration.
   var registered: [Int] = []
+  /// Photos that see a point that came or went since `takeChangedPhotos`, each once.
+  private var changedPhotos: [Int] = []
+  private var isChanged: [Bool]
 
   init(cameras: [Camera], photos: [Photo], tracks: FeatureTracks) {
     self.photos = PosedPhotos(
@@ -21,11 +25,10 @@ struct SparseMap: Sendable {
     positions = Array(repeating: .zero, count: tracks.count)
     isTriangulated = Array(repeating: false, count: tracks.count)
     isActive = Array(repeating: false, count: tracks.photos.count)
+    isChanged = photos.map { _ in false }
   }
 
   func isRegistered(_ photo: Int) -> Bool { photos.poses[photo] != nil }
-
-  var pointCount: Int { isTriangulated.count { $0 } }
 
   mutating func register(_ photo: Int, _ cameraFromWorld: RigidTransform) {
     if photos.poses[photo] == nil { registered.append(photo) }
@@ -37,11 +40,40 @@ struct SparseMap: Sendable {
     photos.poses[photo] = nil
     registered.removeAll { $0 == photo }
     for index in tracks.observationsOfPhoto[photo] { isActive[Int(index)] = false }
+    noteChange(ofPhoto: photo)
+  }
+
+  mutating func setPoint(_ track: Int, _ position: SIMD3<Double>) {
+    positions[track] = position
+    guard !isTriangulated[track] else { return }
+    isTriangulated[track] = true
+    pointCount += 1
+    noteChange(of: track)
   }
 
   mutating func dropPoint(_ track: Int) {
-    isTriangulated[track] = false
     for index in tracks.observations(of: track) { isActive[index] = false }
+    guard isTriangulated[track] else { return }
+    isTriangulated[track] = false
+    pointCount -= 1
+    noteChange(of: track)
+  }
+
+  private mutating func noteChange(of track: Int) {
+    for index in tracks.observations(of: track) { noteChange(ofPhoto: Int(tracks.photos[index])) }
+  }
+
+  private mutating func noteChange(ofPhoto photo: Int) {
+    guard !isChanged[photo] else { return }
+    isChanged[photo] = true
+    changedPhotos.append(photo)
+  }
+
+  /// The photos that see a point that came or went since the last call.
+  mutating func takeChangedPhotos() -> [Int] {
+    for photo in changedPhotos { isChanged[photo] = false }
+    defer { changedPhotos = [] }
+    return changedPhotos
   }
 
   func activeObservations(of track: Int) -> [Int] {

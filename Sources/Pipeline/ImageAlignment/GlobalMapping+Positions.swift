@@ -1,0 +1,165 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// The directions in which photos of known rotation see some of the tracks.
+private struct TrackDirections {
+  /// The track of each point.
+  var tracks: [Int]
+  var directions: [PointDirection] = []
+  /// The observation behind each direction.
+  var observations: [Int] = []
+
+  init(_ tracks: [Int], _ map: SparseMap, _ rotations: [Quaternion?]) {
+    self.tracks = tracks
+    for (point, track) in tracks.enumerated() {
+      for index in map.tracks.observations(of: track) {
+        let photo = map.tracks.photos[index]
+        guard let rotation = rotations[Int(photo)] else { continue }
+        let ray = map.photos.cameras[Int(map.photos.cameraOfPhoto[Int(photo)])]
+          .unproject(map.tracks.pixels[index])
+        directions.append(
+          PointDirection(
+            photo: photo, point: Int32(point),
+            direction: rotation.conjugate * SIMD3(ray.x, ray.y, 1).normalized))
+        observations.append(index)
+      }
+    }
+  }
+}
+
+extension GlobalMapping {
+  /// Registers the photos that have a rotation, with points for some of the tracks; false where no
+  /// track helps.
+  func position(
+    _ map: inout SparseMap, _ rotations: [Quaternion?], _ context: StageContext
+  ) throws -> Bool {
+    let seen = TrackDirections(chosenTracks(map, rotations), map, rotations)
+    guard !seen.tracks.isEmpty else { return false }
+    var random = RandomPlaces(state: options.seed)
+    let places = try GlobalPositioning(options.positioning).run(
+      seen.directions, centers: rotations.map { _ in random.next() },
+      points: seen.tracks.map { _ in random.next() }, control: context.control)
+    for photo in Set(seen.directions.map { Int($0.photo) }).sorted() {
+      guard let rotation = rotations[photo] else { continue }
+      map.register(
+        photo,
+        RigidTransform(rotation: rotation, translation: -(rotation * places.centers[photo])))
+    }
+    for (track, place) in zip(seen.tracks, places.points) { map.setPoint(track, place) }
+    let least = cos(options.positionErrorDegrees * .pi / 180)
+    for (direction, index) in zip(seen.directions, seen.observations) {
+      let offset = places.points[Int(direction.point)] - places.centers[Int(direction.photo)]
+      map.isActive[index] = offset.normalized.dot(direction.direction) >= least
+    }
+    for track in seen.tracks where map.activeObservations(of: track).count < 2 {
+      map.dropPoint(track)
+    }
+    return true
+  }
+
+  /// Tracks for positions: the longest first, until every photo sees enough of them.
+  private func chosenTracks(_ map: SparseMap, _ rotations: [Quaternion?]) -> [Int] {
+    let lengths = (0..<map.tracks.count).map { track in
+      map.tracks.observations(of: track).count { rotations[Int(map.tracks.photos[$0])] != nil }
+    }
+    let candidates = lengths.indices.filter { lengths[$0] >= options.minimumTrackLength }
+      .sorted { (-lengths[$0], $0) < (-lengths[$1], $1) }
+    var counts = [Int](repeating: 0, count: rotations.count)
+    let chosen = candidates.filter { track in
+      let photos = map.tracks.observations(of: track).map { Int(map.tracks.photos[$0]) }
+        .filter { rotations[$0] != nil }
+      guard photos.contains(where: { counts[$0] < options.pointsPerPhoto }) else { return false }
+      for photo in photos { counts[photo] += 1 }
+      return true
+    }
+    return chosen.sorted()
+  }
+
+  /// Moves the world to a photo of the pair with the best view of its points, which adjustment keeps in
+  /// place, and makes the pair's baseline the unit.
+  func anchor(_ map: inout SparseMap, _ graph: ViewGraph) {
+    let registered = Set(map.registered)
+    let best = graph.pairs.enumerated().filter { _, pair in
+      registered.contains(pair.pair.first.index) && registered.contains(pair.pair.second.index)
+    }.max {
+      let (a, b) = ($0.element, $1.element)
+      return (Double(a.matches.count) * min(a.medianAngle, 0.3), -$0.offset)
+        < (Double(b.matches.count) * min(b.medianAngle, 0.3), -$1.offset)
+    }
+    guard let pair = best?.element.pair, let first = map.photos.poses[pair.first.index],
+      let second = map.photos.poses[pair.second.index]
+    else { return }
+    let length = (second.center - first.center).length
+    guard length > 0 else { return }
+    let scale = 1 / length
+    let photoFromWorld = SimilarityTransform(
+      scale: scale, rotation: first.rotation, translation: scale * first.translation)
+    let others = map.registered.filter { $0 != pair.first.index && $0 != pair.second.index }
+    for photo in map.registered {
+      map.photos.poses[photo] = map.photos.poses[photo].map(photoFromWorld.applied)
+    }
+    map.registered = [pair.first.index, pair.second.index] + others
+    for track in map.positions.indices where map.isTriangulated[track] {
+      map.positions[track] = photoFromWorld * map.positions[track]
+    }
+  }
+
+  /// Adjusts the chosen points with growing demands, then makes all points. Photos that contradict
+  /// the points they see are taken out.
+  func refine(_ map: inout SparseMap, _ context: StageContext) throws {
+    let all = Array(map.isTriangulated.indices)
+    let initialCameras = map.photos.cameras
+    var points = PointTriangulation(
+      options: .init(
+        maximumError: growth.growthError, minimumAngleDegrees: growth.minimumAngleDegrees))
+    for (round, factor) in options.errorFactors.enumerated() {
+      try context.step(round, of: options.errorFactors.count + 1)
+      let control = context.control.part(from: 0.5, to: 0.5)
+      var adjustment = MapAdjustment(options: self.adjustment, initialCameras: initialCameras)
+      adjustment.options.huberWidth *= factor
+      try adjustment.adjustGlobally(&map, control)
+      points.options.maximumError = factor * growth.growthError
+      try points.filter(all, in: &map, control)
+    }
+    points.options.maximumError = growth.growthError
+    try points.triangulate(all, in: &map, context.control.part(from: 0.8, to: 0.9))
+    try points.complete(all, in: &map, context.control.part(from: 0.9, to: 1))
+    dropContradictingPhotos(&map)
+  }
+
+  private func dropContradictingPhotos(_ map: inout SparseMap) {
+    let bad = map.registered.filter { photo in
+      let seen = map.tracks.observationsOfPhoto[photo]
+        .filter { map.isTriangulated[Int(map.tracks.trackOfObservation[Int($0)])] }
+      let active = seen.count { map.isActive[Int($0)] }
+      return active < growth.minimumInliers
+        || Double(active) < options.minimumPhotoShare * Double(seen.count)
+    }
+    for photo in bad {
+      let tracks = map.tracks(ofPhoto: photo)
+      map.unregister(photo)
+      for track in tracks where map.isTriangulated[track] {
+        if map.activeObservations(of: track).count < 2 { map.dropPoint(track) }
+      }
+    }
+  }
+}
+
+/// Random places in a cube (SplitMix64: the same on every machine).
+private struct RandomPlaces {
+  var state: UInt64
+
+  private mutating func uniform() -> Double {
+    state &+= 0x9E37_79B9_7F4A_7C15
+    var z = state
+    z = (z ^ (z >> 30)) &* 0xBF58_476D_1CE4_E5B9
+    z = (z ^ (z >> 27)) &* 0x94D0_49BB_1331_11EB
+    return Double((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1
+  }
+
+  mutating func next() -> SIMD3<Double> {
+    let (x, y, z) = (uniform(), uniform(), uniform())
+    return 100 * SIMD3(x, y, z)
+  }
+}

@@ -1,0 +1,80 @@
+import Kernels
+import SceneModel
+
+extension GlobalMapping {
+  /// The pairs' rotations; where a pair was verified without focal lengths they are estimated anew.
+  func relativeRotations(
+    _ graph: ViewGraph, _ features: [FeatureSet], _ photos: PosedPhotos, _ context: StageContext
+  ) throws -> RotationGraph {
+    let pairs = graph.pairs.filter { $0.matches.count >= options.minimumMatches }
+    let rotations = try context.control.parallelMap(pairs.count) { index -> Quaternion? in
+      let pair = pairs[index]
+      if pair.model != .fundamental, let known = pair.secondFromFirst { return known.rotation }
+      return try calibratedRotation(pair, features, photos)
+    }
+    return RotationGraph(
+      photoCount: graph.photoCount,
+      pairs: zip(pairs, rotations).compactMap { pair, rotation in
+        rotation.map {
+          RelativeRotation(
+            first: pair.pair.first.rawValue, second: pair.pair.second.rawValue, rotation: $0,
+            weight: Double(pair.matches.count))
+        }
+      })
+  }
+
+  /// The rotation of the essential matrix that the inliers of a fundamental matrix agree on.
+  private func calibratedRotation(
+    _ pair: VerifiedPair, _ features: [FeatureSet], _ photos: PosedPhotos
+  ) throws -> Quaternion? {
+    func rays(_ photo: ID<Photo>, _ index: (FeatureMatch) -> Int32) -> [SIMD2<Double>] {
+      let camera = photos.cameras[Int(photos.cameraOfPhoto[photo.index])]
+      let positions = features[photo.index].positions
+      return pair.matches.map { camera.unproject(SIMD2<Double>(positions[Int(index($0))])) }
+    }
+    let cameras = [pair.pair.first, pair.pair.second]
+      .map { photos.cameras[Int(photos.cameraOfPhoto[$0.index])] }
+    var estimation = TwoViewEstimation()
+    // A wrong focal length shows as a few pixels.
+    estimation.maximumError =
+      cameras.map { 0.003 * Double(max($0.width, $0.height)) / $0.focalLength.x }.max() ?? 0.003
+    estimation.seed = UInt64(pair.pair.first.index) << 32 &+ UInt64(pair.pair.second.index)
+    let geometry = try estimation.geometry(
+      rays(pair.pair.first) { $0.first }, rays(pair.pair.second) { $0.second }, KernelControl())
+    guard let geometry, geometry.inliers.count >= options.minimumMatches else { return nil }
+    return geometry.secondFromFirst.rotation
+  }
+
+  /// `cameraFromWorld` rotations of the photos that the pairs hold well, nil for the others and where
+  /// less than three are.
+  func rotations(
+    _ relative: RotationGraph, _ context: StageContext
+  ) throws -> [Quaternion?]? {
+    let limit = options.tripletErrorDegrees * .pi / 180
+    var graph = relative.consistent(limit: limit, minimumShare: options.tripletShare)
+    for round in 1...max(1, options.rotationRounds) {
+      let photos = graph.largestTwoConnectedPart()
+      guard photos.count >= 3 else { return nil }
+      let part = graph.restricted(to: photos)
+      let averaged = try RotationAveraging(options.averaging).run(
+        part.pairs.map {
+          RelativeRotation(first: $0.first, second: $0.second, rotation: $0.rotation)
+        },
+        start: part.treeRotations(), control: context.control)
+      let isGood = averaged.errors.map { $0 <= options.rotationErrorDegrees * .pi / 180 }
+      if round == options.rotationRounds || !isGood.contains(false) {
+        var rotations = [Quaternion?](repeating: nil, count: graph.photoCount)
+        for (photo, rotation) in zip(photos, averaged.rotations) { rotations[photo] = rotation }
+        return rotations
+      }
+      graph.pairs = zip(part.pairs, isGood).filter(\.1).map { pair, _ in
+        var pair = pair
+        (pair.first, pair.second) = (
+          Int32(photos[Int(pair.first)]), Int32(photos[Int(pair.second)])
+        )
+        return pair
+      }
+    }
+    return nil
+  }
+}

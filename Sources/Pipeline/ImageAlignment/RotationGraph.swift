@@ -1,0 +1,169 @@
+import Kernels
+import SceneModel
+
+/// Photos and the relative rotations between them.
+struct RotationGraph: Sendable {
+  var photoCount: Int
+  /// Sorted by pair, `first < second`.
+  var pairs: [RelativeRotation]
+
+  /// The pairs of each photo: the other photo, ascending, and the index of the pair.
+  private var neighbours: [[(photo: Int32, pair: Int32)]] {
+    var result = [[(photo: Int32, pair: Int32)]](repeating: [], count: photoCount)
+    for (index, pair) in pairs.enumerated() {
+      result[Int(pair.first)].append((pair.second, Int32(index)))
+      result[Int(pair.second)].append((pair.first, Int32(index)))
+    }
+    for photo in result.indices { result[photo].sort { $0.photo < $1.photo } }
+    return result
+  }
+
+  // MARK: Cycles of three
+
+  /// The graph without the pairs that contradict most of their triplets: the three rotations around
+  /// a triplet of photos should make none (Zach et al., "Disambiguating visual relations using loop
+  /// constraints", CVPR 2010).
+  ///
+  /// Pairs in no triplet stay. `limit` is in radians.
+  func consistent(limit: Double, minimumShare: Double) -> RotationGraph {
+    let neighbours = neighbours
+    var (good, total) = (pairs.map { _ in 0 }, pairs.map { _ in 0 })
+    for (index, pair) in pairs.enumerated() {
+      let (a, b) = (neighbours[Int(pair.first)], neighbours[Int(pair.second)])
+      var (i, j) = (0, 0)
+      while i < a.count, j < b.count {
+        // Each triplet once, from its two lowest photos.
+        if a[i].photo == b[j].photo, a[i].photo > pair.second {
+          let (other, third) = (pairs[Int(b[j].pair)], pairs[Int(a[i].pair)])
+          let loop = third.rotation.conjugate * other.rotation * pair.rotation
+          let isGood = loop.angle <= limit ? 1 : 0
+          for member in [index, Int(a[i].pair), Int(b[j].pair)] {
+            good[member] += isGood
+            total[member] += 1
+          }
+        }
+        if a[i].photo <= b[j].photo { i += 1 } else { j += 1 }
+      }
+    }
+    var result = self
+    result.pairs = pairs.indices.filter {
+      total[$0] == 0 || (good[$0] > 0 && Double(good[$0]) >= minimumShare * Double(total[$0]))
+    }.map { pairs[$0] }
+    return result
+  }
+
+  // MARK: Connection
+
+  /// The largest set of photos, ascending, that stays connected without any one pair.
+  func largestTwoConnectedPart() -> [Int] {
+    let bridges = bridges()
+    var sets = DisjointSets(count: photoCount)
+    for (index, pair) in pairs.enumerated() where !bridges[index] {
+      sets.join(Int(pair.first), Int(pair.second))
+    }
+    return sets.groups().max { ($0.count, $1[0]) < ($1.count, $0[0]) } ?? []
+  }
+
+  /// Whether the graph falls apart without each pair (Tarjan, 1974).
+  private func bridges() -> [Bool] {
+    let neighbours = neighbours
+    var isBridge = pairs.map { _ in false }
+    var order = [Int](repeating: -1, count: photoCount)
+    var lowest = order
+    var clock = 0
+    for start in 0..<photoCount where order[start] < 0 {
+      var path: [(photo: Int, next: Int, pair: Int)] = [(start, 0, -1)]
+      (order[start], lowest[start], clock) = (clock, clock, clock + 1)
+      while let top = path.last {
+        if top.next < neighbours[top.photo].count {
+          path[path.count - 1].next += 1
+          let (photo, pair) = neighbours[top.photo][top.next]
+          if Int(pair) == top.pair { continue }
+          if order[Int(photo)] >= 0 {
+            lowest[top.photo] = min(lowest[top.photo], order[Int(photo)])
+          } else {
+            (order[Int(photo)], lowest[Int(photo)], clock) = (clock, clock, clock + 1)
+            path.append((Int(photo), 0, Int(pair)))
+          }
+        } else {
+          path.removeLast()
+          guard let parent = path.last else { continue }
+          lowest[parent.photo] = min(lowest[parent.photo], lowest[top.photo])
+          if lowest[top.photo] > order[parent.photo] { isBridge[top.pair] = true }
+        }
+      }
+    }
+    return isBridge
+  }
+
+  /// The graph of some of the photos, renumbered in their order.
+  func restricted(to photos: [Int]) -> RotationGraph {
+    var numbers = [Int32](repeating: -1, count: photoCount)
+    for (number, photo) in photos.enumerated() { numbers[photo] = Int32(number) }
+    return RotationGraph(
+      photoCount: photos.count,
+      pairs: pairs.compactMap { pair in
+        var pair = pair
+        (pair.first, pair.second) = (numbers[Int(pair.first)], numbers[Int(pair.second)])
+        return pair.first >= 0 && pair.second >= 0 ? pair : nil
+      })
+  }
+
+  // MARK: Start
+
+  /// Rotations along the tree of the pairs with the highest weights, from photo 0; photos out of its
+  /// reach keep none.
+  func treeRotations() -> [Quaternion] {
+    var sets = DisjointSets(count: photoCount)
+    var isInTree = pairs.map { _ in false }
+    for index in pairs.indices.sorted(by: { (-pairs[$0].weight, $0) < (-pairs[$1].weight, $1) }) {
+      isInTree[index] = sets.join(Int(pairs[index].first), Int(pairs[index].second))
+    }
+    let neighbours = neighbours
+    var rotations = [Quaternion?](repeating: nil, count: photoCount)
+    var reached = photoCount > 0 ? [0] : []
+    if photoCount > 0 { rotations[0] = .identity }
+    while let photo = reached.popLast() {
+      guard let own = rotations[photo] else { continue }
+      for (other, index) in neighbours[photo] where isInTree[Int(index)] {
+        guard rotations[Int(other)] == nil else { continue }
+        let pair = pairs[Int(index)]
+        let step = Int(pair.first) == photo ? pair.rotation : pair.rotation.conjugate
+        rotations[Int(other)] = (step * own).normalized
+        reached.append(Int(other))
+      }
+    }
+    return rotations.map { $0 ?? .identity }
+  }
+}
+
+/// Numbers joined into sets (union–find); the lowest of a set stands for it.
+struct DisjointSets: Sendable {
+  private var parents: [Int]
+
+  init(count: Int) { parents = Array(0..<count) }
+
+  mutating func root(_ number: Int) -> Int {
+    var number = number
+    while parents[number] != number {
+      parents[number] = parents[parents[number]]
+      number = parents[number]
+    }
+    return number
+  }
+
+  /// False when the two are in one set already.
+  @discardableResult
+  mutating func join(_ a: Int, _ b: Int) -> Bool {
+    let (a, b) = (root(a), root(b))
+    parents[max(a, b)] = min(a, b)
+    return a != b
+  }
+
+  /// The sets, each ascending, in the order of their lowest numbers.
+  mutating func groups() -> [[Int]] {
+    var groups = [[Int]](repeating: [], count: parents.count)
+    for number in parents.indices { groups[root(number)].append(number) }
+    return groups.filter { !$0.isEmpty }
+  }
+}

@@ -1,0 +1,66 @@
+import Kernels
+import SceneModel
+
+/// How the poses of photos are found.
+package enum MappingMethod: String, CaseIterable, Hashable, Codable, Sendable {
+  /// Globally where the view graph is strong enough for it, else incrementally.
+  case automatic
+  /// Photo after photo.
+  case incremental
+  /// All photos at once; those that are missed are added one by one.
+  case global
+}
+
+/// From verified pairs to cameras, poses and points.
+package struct SparseMapping: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    package var method = MappingMethod.automatic
+    package var incremental = IncrementalMapping.Options()
+    package var global = GlobalMapping.Options()
+    /// Share of the largest connected group that the automatic choice wants of global mapping:
+    /// placed at once, and in the end.
+    package var minimumShare = 0.8
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The largest reconstruction that the view graph gives, in the frame of one of its photos;
+  /// `unregistered` says why photos are missing.
+  package func run(
+    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
+    _ context: StageContext
+  ) throws -> Reconstruction {
+    let tracks = try TrackBuilding().run(graph, features: features, context.part(from: 0, to: 0.1))
+    let empty = SparseMap(cameras: cameras, photos: photos, tracks: tracks)
+    let start =
+      options.method == .incremental
+      ? nil
+      : try GlobalMapping(options.global, growth: options.incremental)
+        .start(graph, features: features, empty, context.part(from: 0.1, to: 0.4))
+    func grown(from start: SparseMap?) throws -> Reconstruction {
+      context.notes.count("globalPhotos", Double(start?.registered.count ?? 0))
+      return try IncrementalMapping(options.incremental).run(
+        graph, features: features, photos: photos, empty: empty, from: start,
+        context.part(from: start == nil ? 0.1 : 0.4, to: 1))
+    }
+    guard options.method == .automatic, let start else { return try grown(from: start) }
+
+    let needed = options.minimumShare * Double(largestGroup(graph))
+    guard Double(start.registered.count) >= needed else { return try grown(from: nil) }
+    let result = try grown(from: start)
+    if Double(result.registered.count) >= needed { return result }
+    let other = try grown(from: nil)
+    return other.registered.count > result.registered.count ? other : result
+  }
+
+  /// The number of photos of the largest group that verified pairs connect.
+  private func largestGroup(_ graph: ViewGraph) -> Int {
+    var sets = DisjointSets(count: graph.photoCount)
+    for pair in graph.pairs { sets.join(pair.pair.first.index, pair.pair.second.index) }
+    return sets.groups().map(\.count).max() ?? 0
+  }
+}
