@@ -47,7 +47,9 @@ import Testing
       PoseComparison(estimated: $0.poses, true: scene.poses)
     }
     #expect(errors[0].maximumCenterError < 1.2 * errors[1].maximumCenterError + 0.002)
-    #expect(errors[0].maximumRotationError < 1.2 * errors[1].maximumRotationError + 0.0005)
+    // Rotations and the principal point make up for each other, so that they are known less well.
+    #expect(errors.allSatisfy { $0.maximumRotationError < 0.015 })
+    #expect(global.meanReprojectionError < 1.01 * incremental.meanReprojectionError)
     #expect(
       Double(global.points.count) > 0.98 * Double(incremental.points.count))
   }
