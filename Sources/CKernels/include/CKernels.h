@@ -11,6 +11,7 @@
 #include "ck_matching.h"
 #include "ck_patches.h"
 #include "ck_resection.h"
+#include "ck_retrieval.h"
 #include "ck_surface.h"
 #include "ck_texture.h"
 #include "ck_two_view.h"

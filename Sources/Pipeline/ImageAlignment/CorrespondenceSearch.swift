@@ -6,6 +6,7 @@ import SceneModel
 package struct CorrespondenceSearch {
   package struct Options: Hashable, Codable, Sendable {
     package var selection = PairSelection.Options()
+    package var expansion = PairExpansion.Options()
     package var matching = FeatureMatching.Options()
     package var verification = PairVerification.Options()
     package var selfCalibration = SelfCalibration.Options()
@@ -23,35 +24,72 @@ package struct CorrespondenceSearch {
     photos: [Photo], cameras: [Camera], features: [FeatureSet], isSequential: Bool,
     _ context: StageContext
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
-    let pairs = try PairSelection(options.selection)
-      .run(features, isSequential: isSequential, context.part(from: 0, to: 0.2))
-    let matches = try FeatureMatching(options.matching)
-      .run(pairs, features: features, context.part(from: 0.2, to: 0.8))
-    func verified(_ cameras: [Camera], _ options: PairVerification.Options, _ context: StageContext)
-      throws -> ViewGraph
-    {
-      try PairVerification(options)
-        .run(
-          pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
-    }
-    var graph = try verified(cameras, options.verification, context.part(from: 0.8, to: 0.9))
+    var round = Round(options: options, photos: photos, cameras: cameras, features: features)
+    let choice = try PairSelection(options.selection)
+      .run(
+        features, positions: photos.map(\.position), isSequential: isSequential,
+        context.part(from: 0, to: 0.1))
+    try round.add(choice.pairs, context.part(from: 0.1, to: 0.65))
+    let more = try PairExpansion(options.expansion)
+      .run(
+        choice, round.graph, features: features,
+        firstLook: FirstLook(options.selection.firstLook), context.part(from: 0.65, to: 0.7))
+    try round.add(more, context.part(from: 0.7, to: 0.9))
     let calibrated = try SelfCalibration(options.selfCalibration)
       .run(
-        graph, features: features, photos: photos, cameras: cameras,
+        round.graph, features: features, photos: photos, cameras: cameras,
         context.part(from: 0.9, to: 0.95))
     if calibrated != cameras {
-      // Known well enough now for essential matrices.
-      var verification = options.verification
-      verification.isUncalibratedWhereAssumed = false
-      graph = try verified(calibrated, verification, context.part(from: 0.95, to: 1))
+      try round.verifyAgain(calibrated, context.part(from: 0.95, to: 1))
     }
-    report(pairs, matches, graph, context.notes)
-    return (graph, calibrated)
+    context.notes.count("candidatePairs", Double(Set(choice.candidates).union(more).count))
+    round.report(context.notes)
+    return (round.graph, calibrated)
+  }
+}
+
+/// The pairs matched and verified so far.
+private struct Round {
+  let options: CorrespondenceSearch.Options
+  let photos: [Photo]
+  let cameras: [Camera]
+  let features: [FeatureSet]
+  private(set) var graph: ViewGraph
+  private var pairs: [PhotoPair] = []
+  private var matches: [[FeatureMatch]] = []
+
+  init(
+    options: CorrespondenceSearch.Options, photos: [Photo], cameras: [Camera],
+    features: [FeatureSet]
+  ) {
+    (self.options, self.photos, self.cameras, self.features) = (options, photos, cameras, features)
+    graph = ViewGraph(photoCount: photos.count, pairs: [])
   }
 
-  private func report(
-    _ pairs: [PhotoPair], _ matches: [[FeatureMatch]], _ graph: ViewGraph, _ notes: StageNotes
-  ) {
+  /// Matches and verifies more pairs.
+  mutating func add(_ more: [PhotoPair], _ context: StageContext) throws {
+    guard !more.isEmpty else { return }
+    let found = try FeatureMatching(options.matching)
+      .run(more, features: features, context.part(from: 0, to: 0.85))
+    let verified = try PairVerification(options.verification)
+      .run(
+        more, matches: found, features: features, photos: photos, cameras: cameras,
+        context.part(from: 0.85, to: 1))
+    pairs += more
+    matches += found
+    graph.pairs = (graph.pairs + verified.pairs).sorted { $0.pair < $1.pair }
+  }
+
+  /// Verifies all pairs with cameras known well enough for essential matrices.
+  mutating func verifyAgain(_ cameras: [Camera], _ context: StageContext) throws {
+    var verification = options.verification
+    verification.isUncalibratedWhereAssumed = false
+    graph = try PairVerification(verification)
+      .run(
+        pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
+  }
+
+  func report(_ notes: StageNotes) {
     notes.count("pairs", Double(pairs.count))
     notes.count("matches", Double(matches.reduce(0) { $0 + $1.count }))
     notes.count("verifiedPairs", Double(graph.pairs.count))

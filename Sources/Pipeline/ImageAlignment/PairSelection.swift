@@ -1,131 +1,143 @@
+import Foundation
 import Kernels
 import SceneModel
 
 /// Chooses the pairs of photos worth matching.
 ///
-/// Few photos: all pairs of which a first look, at the features of the largest scale only, sees some
-/// matches. Many photos: for each the partners with the most matches at first look. Photos in order of
-/// capture: a window of neighbours that thins out, and where the path comes back to itself.
+/// Few photos: all pairs. Many photos: for each the photos most alike as a whole and the nearest by
+/// GPS. Photos in order of capture: a window of neighbours, and the photos most alike where the path
+/// comes back to itself. Pairs that the order does not vouch for must pass a first look.
 package struct PairSelection {
   package struct Options: Hashable, Codable, Sendable {
-    /// Up to this number of pairs all are taken without a first look, which would lose pairs of photos
-    /// from very different distances: their large features aren't the same.
+    /// Up to this number of pairs all are matched, without a first look: it rejects pairs whose large
+    /// features differ, as those of close-ups and of objects with fine texture only do.
     package var exhaustivePairs = 1300
-    /// Features of each photo that the first look matches: those of the largest scale.
-    package var prefix = 2048
-    /// Ratio of the first look, more permissive than that of the matching.
-    package var prefixRatio = 0.8
-    /// Matches at first look that a pair needs.
-    package var minimumPrefixMatches = 4
-    /// Above this number of photos the number of partners is limited.
-    package var manyPhotos = 100
-    /// Features of the first look among many photos.
-    package var prefixAmongMany = 768
-    /// Partners of a photo among many.
-    package var partners = 30
+    /// Partners of a photo among many: those most alike.
+    package var partners = 40
+    /// Partners of a photo by its position.
+    package var positionPartners = 10
     /// Distances in the order of capture at which photos are paired.
-    package var sequenceSteps = [1, 2, 3, 4, 6, 8, 12, 16]
-    /// Photos of a sequence that take part in the search for places where the path returns.
-    package var sequenceSamples = 60
-    /// Photos before and after that are paired with each other around such a place.
-    package var returnWindow = 3
+    package var sequenceSteps = [1, 2, 3, 4]
+    /// Partners of a photo of a sequence: those most alike outside its window of neighbours.
+    package var sequencePartners = 4
+    /// Photos are taken to be in order of capture when this share of them is most like a neighbour.
+    package var orderedShare = 0.7
+    /// Partners of a photo among many that turned out to be in order.
+    package var orderedPartners = 20
+    package var retrieval = PhotoRetrieval.Options()
+    package var firstLook = FirstLook.Options()
 
     package init() {}
+  }
+
+  /// The pairs chosen, sorted, and what they were chosen from.
+  package struct Choice: Sendable {
+    package var pairs: [PhotoPair]
+    /// Pairs that were considered, sorted; those that aren't in `pairs` looked hopeless.
+    package var candidates: [PhotoPair]
+    /// The photos most alike each photo; empty where retrieval wasn't needed.
+    package var alike: [[Int]]
+    package var isSequential: Bool
+
+    package init(
+      pairs: [PhotoPair], candidates: [PhotoPair], alike: [[Int]], isSequential: Bool
+    ) {
+      (self.pairs, self.candidates) = (pairs, candidates)
+      (self.alike, self.isSequential) = (alike, isSequential)
+    }
   }
 
   package var options: Options
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The pairs, sorted.
+  /// The pairs to match. `positions` has the photos' GPS positions, or is empty.
   package func run(
-    _ features: [FeatureSet], isSequential: Bool, _ context: StageContext
-  ) throws -> [PhotoPair] {
+    _ features: [FeatureSet], positions: [GeographicPosition?] = [], isSequential: Bool,
+    _ context: StageContext
+  ) throws -> Choice {
     let photos = features.indices.filter { features[$0].count > 0 }
-    let all = pairs(of: photos)
-    if isSequential { return try sequence(features, context) }
-    if all.count <= options.exhaustivePairs { return all }
-    if photos.count <= options.manyPhotos {
-      let counts = try firstLook(all, features, prefix: options.prefix, context)
-      return zip(all, counts).filter { $1 >= options.minimumPrefixMatches }.map(\.0)
+    if !isSequential, photos.count * (photos.count - 1) / 2 <= options.exhaustivePairs {
+      let all = photos.indices.flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
+      return Choice(pairs: all, candidates: all, alike: [], isSequential: false)
     }
-    let counts = try firstLook(all, features, prefix: options.prefixAmongMany, context)
-    return bestPartners(all, counts, photoCount: features.count)
+    let alike = try PhotoRetrieval(options.retrieval)
+      .run(features, partners: 2 * options.partners, context.part(from: 0, to: 0.5))
+    let isOrdered = isSequential || isInOrder(alike)
+    let sure = isOrdered ? neighbours(features) : []
+    let count =
+      isSequential
+      ? options.sequencePartners : isOrdered ? options.orderedPartners : options.partners
+    var likely = retrieved(alike, count, besides: sure)
+    if !isSequential { likely.formUnion(nearest(positions, features).subtracting(sure)) }
+    let hopeful = try FirstLook(options.firstLook)
+      .run(likely.sorted(), features: features, context.part(from: 0.5, to: 1))
+    return Choice(
+      pairs: sure.union(hopeful).sorted(), candidates: sure.union(likely).sorted(), alike: alike,
+      isSequential: isSequential)
   }
 
-  private func pairs(of photos: [Int]) -> [PhotoPair] {
-    photos.indices.flatMap { i in
-      photos[(i + 1)...].map { PhotoPair(ID(photos[i]), ID($0)) }
-    }
+  private func pair(_ first: Int, _ second: Int) -> PhotoPair { PhotoPair(ID(first), ID(second)) }
+
+  /// Pairs of each photo with the `count` photos most alike that it isn't paired with already.
+  private func retrieved(
+    _ alike: [[Int]], _ count: Int, besides known: Set<PhotoPair>
+  ) -> Set<PhotoPair> {
+    Set(
+      alike.enumerated().flatMap { photo, others in
+        others.lazy.map { pair(photo, $0) }.filter { !known.contains($0) }.prefix(count)
+      })
   }
 
-  /// How many matches each pair has among the features of the largest scale.
-  private func firstLook(
-    _ pairs: [PhotoPair], _ features: [FeatureSet], prefix: Int, _ context: StageContext
-  ) throws -> [Int] {
-    var matching = DescriptorMatching()
-    matching.ratio = options.prefixRatio
-    return try context.control.parallelMap(pairs.count) { [matching] index in
-      let (first, second) = (pairs[index].first.index, pairs[index].second.index)
-      return try matching.matches(
-        features[first], features[second], prefix: prefix, KernelControl()
-      ).count
+  /// Whether most photos are most like one of the next but one in their order.
+  private func isInOrder(_ alike: [[Int]]) -> Bool {
+    let near = alike.enumerated().count { photo, others in
+      others.first.map { abs($0 - photo) <= 2 } ?? false
     }
+    return Double(near) >= options.orderedShare * Double(alike.count)
   }
 
-  /// The pairs that are among the best of one of their photos.
-  private func bestPartners(
-    _ pairs: [PhotoPair], _ counts: [Int], photoCount: Int
-  ) -> [PhotoPair] {
-    var candidates = [[Int]](repeating: [], count: photoCount)
-    for index in pairs.indices where counts[index] >= options.minimumPrefixMatches {
-      candidates[pairs[index].first.index].append(index)
-      candidates[pairs[index].second.index].append(index)
-    }
-    let chosen = candidates.flatMap { indices in
-      indices.sorted { (counts[$0], $1) > (counts[$1], $0) }.prefix(options.partners)
-    }
-    return Set(chosen).sorted().map { pairs[$0] }
-  }
-
-  private func sequence(
-    _ features: [FeatureSet], _ context: StageContext
-  ) throws -> [PhotoPair] {
+  /// A window of neighbours that thins out, and the two ends, which may have come together.
+  private func neighbours(_ features: [FeatureSet]) -> Set<PhotoPair> {
     let count = features.count
     var chosen: Set<PhotoPair> = []
     for first in 0..<count {
       for step in options.sequenceSteps where first + step < count {
-        chosen.insert(PhotoPair(ID(first), ID(first + step)))
+        chosen.insert(pair(first, first + step))
       }
     }
-    for (first, second) in try returns(features, context) {
-      for i in around(first, count) {
-        for j in around(second, count) where i != j { chosen.insert(PhotoPair(ID(i), ID(j))) }
+    for first in 0..<min(2, count) {
+      for second in max(first + 1, count - 2)..<max(first + 1, count) {
+        chosen.insert(pair(first, second))
       }
     }
     return chosen.filter {
       features[$0.first.index].count > 0 && features[$0.second.index].count > 0
     }
-    .sorted()
   }
 
-  /// Photos far apart in the order of capture that share features, and the two ends.
-  private func returns(
-    _ features: [FeatureSet], _ context: StageContext
-  ) throws -> [(Int, Int)] {
-    let count = features.count
-    guard count > 2 else { return [] }
-    let stride = max(1, (count - 1) / options.sequenceSamples + 1)
-    let distance = options.sequenceSteps.max() ?? 1
-    let samples = pairs(of: Array(Swift.stride(from: 0, to: count, by: stride)))
-      .filter { $0.second.index - $0.first.index > distance / 2 }
-    let counts = try firstLook(samples, features, prefix: options.prefix, context)
-    let found = zip(samples, counts).filter { $1 >= options.minimumPrefixMatches }.map(\.0)
-    return [(0, count - 1)] + found.map { ($0.first.index, $0.second.index) }
-  }
-
-  private func around(_ photo: Int, _ count: Int) -> ClosedRange<Int> {
-    let window = options.returnWindow / 2
-    return max(0, photo - window)...min(count - 1, photo + window)
+  /// Pairs of each photo that has a position with the nearest others.
+  private func nearest(
+    _ positions: [GeographicPosition?], _ features: [FeatureSet]
+  ) -> Set<PhotoPair> {
+    let metresPerDegree = 111_320.0
+    let places = positions.enumerated().compactMap { photo, position in
+      position.map { position in
+        let narrowing = cos(position.latitudeDegrees * .pi / 180)
+        return (
+          photo: photo,
+          place: metresPerDegree
+            * SIMD2(position.longitudeDegrees * narrowing, position.latitudeDegrees)
+        )
+      }
+    }
+    .filter { features[$0.photo].count > 0 }
+    return Set(
+      places.flatMap { own in
+        places.filter { $0.photo != own.photo }
+          .map { (photo: $0.photo, distance: ($0.place - own.place).squaredLength) }
+          .sorted { ($0.distance, $0.photo) < ($1.distance, $1.photo) }
+          .prefix(options.positionPartners).map { pair(own.photo, $0.photo) }
+      })
   }
 }

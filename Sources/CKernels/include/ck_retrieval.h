@@ -1,0 +1,35 @@
+#ifndef CK_RETRIEVAL_H
+#define CK_RETRIEVAL_H
+
+#include "ck_core.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Learns a vocabulary from descriptors of 128 bytes by k-means (Lloyd's algorithm).
+///
+/// `words` receives `word_count` descriptors. The first words are drawn from the descriptors, of
+/// which there must be at least `word_count`; the same seed gives the same words.
+ck_status ck_learn_words(const uint8_t* descriptors, size_t count, size_t word_count,
+                         int32_t iterations, uint64_t seed, const ck_control* control,
+                         uint8_t* words);
+
+/// Describes an image by the residuals of its descriptors (VLAD, Jégou et al., CVPR 2010), the sum
+/// at each word scaled to unit length (Arandjelović and Zisserman, CVPR 2013).
+///
+/// `vector` receives `word_count × 128` numbers of unit length together, zeros without descriptors.
+ck_status ck_encode_vlad(const uint8_t* descriptors, size_t count, const uint8_t* words,
+                         size_t word_count, const ck_control* control, float* vector);
+
+/// Finds for each of `count` vectors of `length` the others with the largest inner products.
+///
+/// `indices` and `products` receive `partners` entries a vector, the largest first; ties go to the
+/// lower index. `partners` is less than `count`.
+ck_status ck_largest_products(const float* vectors, size_t count, size_t length, size_t partners,
+                              const ck_control* control, int32_t* indices, float* products);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,67 @@
+import CKernels
+import SceneModel
+
+/// A vocabulary of typical descriptors, with which photos are compared as a whole: VLAD (Jégou et
+/// al., "Aggregating local descriptors into a compact image representation", CVPR 2010).
+package struct VisualVocabulary: Sendable {
+  /// `count × 128` bytes.
+  private let words: [UInt8]
+  package let count: Int
+
+  /// Learns at most `count` words by k-means from `descriptors`, 128 bytes each.
+  package init(
+    count: Int, descriptors: [UInt8], iterations: Int = 10, seed: UInt64 = 0,
+    _ control: KernelControl
+  ) throws {
+    let length = FeatureSet.descriptorLength
+    self.count = min(count, descriptors.count / length)
+    var words = [UInt8](repeating: 0, count: self.count * length)
+    if self.count > 0 {
+      try withKernel(control) { control in
+        ck_learn_words(
+          descriptors, descriptors.count / length, words.count / length, Int32(iterations), seed,
+          control, &words)
+      }
+    }
+    self.words = words
+  }
+
+  /// The vector of a photo, of unit length; the inner product of two tells how alike they are. Zeros
+  /// without features.
+  package func vector(of features: FeatureSet, _ control: KernelControl) throws -> [Float] {
+    var vector = [Float](repeating: 0, count: words.count)
+    guard !vector.isEmpty else { return [] }
+    try withKernel(control) { control in
+      ck_encode_vlad(features.descriptors, features.count, words, count, control, &vector)
+    }
+    return vector
+  }
+}
+
+/// The photos most alike each photo.
+package struct LikePhotos: Sendable {
+  /// Partners of a photo: less than the number of photos.
+  package let partners: Int
+  /// `partners` entries a photo, the most alike first.
+  package private(set) var indices: [Int32]
+  /// The inner products that belong to `indices`.
+  package private(set) var products: [Float]
+
+  /// Compares the vectors of all photos, one after the other in `vectors`, with each other.
+  package init(vectors: [Float], photoCount: Int, partners: Int, _ control: KernelControl) throws {
+    self.partners = max(0, min(partners, photoCount - 1))
+    indices = [Int32](repeating: 0, count: photoCount * self.partners)
+    products = [Float](repeating: 0, count: photoCount * self.partners)
+    guard self.partners > 0, !vectors.isEmpty else { return }
+    try withKernel(control) { control in
+      ck_largest_products(
+        vectors, photoCount, vectors.count / photoCount, self.partners, control, &indices,
+        &products)
+    }
+  }
+
+  /// The photos most alike `photo`, the most alike first.
+  package func partners(of photo: Int) -> [Int] {
+    indices[photo * partners..<(photo + 1) * partners].map(Int.init)
+  }
+}

@@ -1,0 +1,104 @@
+import Kernels
+import SceneModel
+
+/// Chooses more pairs from those that were verified: partners of partners, and a second chance for
+/// photos that have found few partners or are cut off from the rest.
+package struct PairExpansion {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Partners of partners that a photo is paired with at most.
+    package var partners = 10
+    /// The same for photos in order of capture.
+    package var sequencePartners = 3
+    /// Verified partners that two photos must have in common.
+    package var commonPartners = 2
+    /// A photo with fewer verified partners is matched with all its candidates, the hopeless too.
+    package var fewPartners = 4
+    /// The photos most alike such a photo that it is matched with as well.
+    package var chances = 10
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// Pairs that are not among those of `choice`, sorted.
+  package func run(
+    _ choice: PairSelection.Choice, _ graph: ViewGraph, features: [FeatureSet],
+    firstLook: FirstLook, _ context: StageContext
+  ) throws -> [PhotoPair] {
+    let partners = partners(graph)
+    let matched = Set(choice.pairs)
+    var chosen = secondChances(choice, partners).subtracting(matched)
+    if !choice.alike.isEmpty {
+      let count = choice.isSequential ? options.sequencePartners : options.partners
+      let common = commonPairs(partners, count, besides: Set(choice.candidates))
+        .subtracting(chosen)
+      chosen.formUnion(try firstLook.run(common.sorted(), features: features, context))
+    }
+    return chosen.sorted()
+  }
+
+  /// The verified partners of each photo, ascending.
+  private func partners(_ graph: ViewGraph) -> [[Int]] {
+    var partners = [[Int]](repeating: [], count: graph.photoCount)
+    for pair in graph.pairs {
+      partners[pair.pair.first.index].append(pair.pair.second.index)
+      partners[pair.pair.second.index].append(pair.pair.first.index)
+    }
+    return partners.map { $0.sorted() }
+  }
+
+  /// All candidates, and those most alike, of photos with few partners or outside the largest group.
+  private func secondChances(
+    _ choice: PairSelection.Choice, _ partners: [[Int]]
+  ) -> Set<PhotoPair> {
+    let group = groups(partners)
+    let sizes = group.reduce(into: [Int](repeating: 0, count: partners.count)) { $0[$1] += 1 }
+    let largest = sizes.indices.max { (sizes[$0], $1) < (sizes[$1], $0) }
+    func isWeak(_ photo: ID<Photo>) -> Bool {
+      partners[photo.index].count < options.fewPartners || group[photo.index] != largest
+    }
+    var chances = Set(choice.candidates.filter { isWeak($0.first) || isWeak($0.second) })
+    for (photo, others) in choice.alike.enumerated() where isWeak(ID(photo)) {
+      chances.formUnion(others.prefix(options.chances).map { PhotoPair(ID(photo), ID($0)) })
+    }
+    return chances
+  }
+
+  /// The lowest photo of each photo's connected group.
+  private func groups(_ partners: [[Int]]) -> [Int] {
+    var group = [Int](repeating: -1, count: partners.count)
+    for start in partners.indices where group[start] < 0 {
+      group[start] = start
+      var open = [start]
+      while let photo = open.popLast() {
+        for other in partners[photo] where group[other] < 0 {
+          group[other] = start
+          open.append(other)
+        }
+      }
+    }
+    return group
+  }
+
+  /// Pairs of each photo with those that share the most verified partners with it.
+  private func commonPairs(
+    _ partners: [[Int]], _ count: Int, besides known: Set<PhotoPair>
+  ) -> Set<PhotoPair> {
+    var chosen: Set<PhotoPair> = []
+    for photo in partners.indices {
+      var counts: [Int: Int] = [:]
+      for partner in partners[photo] {
+        for other in partners[partner] where other != photo { counts[other, default: 0] += 1 }
+      }
+      let best = counts.filter {
+        $0.value >= options.commonPartners && !known.contains(PhotoPair(ID(photo), ID($0.key)))
+      }
+      .sorted { ($0.value, $1.key) > ($1.value, $0.key) }.prefix(count)
+      chosen.formUnion(best.map { PhotoPair(ID(photo), ID($0.key)) })
+    }
+    return chosen
+  }
+}

@@ -1,0 +1,143 @@
+import Kernels
+import Pipeline
+import SceneModel
+import TestSupport
+import Testing
+
+@Suite struct PairSelectionTests {
+  static func scene(
+    _ layout: GrowthScene.Layout, photos: Int = 60, isShuffled: Bool = true
+  ) throws -> GrowthScene {
+    var options = GrowthScene.Options()
+    (options.layout, options.photoCount, options.isShuffled) = (layout, photos, isShuffled)
+    options.featuresPerPhoto = 1000
+    return try GrowthScene(options, KernelControl(threadCount: 2))
+  }
+
+  static func options(partners: Int) -> PairSelection.Options {
+    var options = PairSelection.Options()
+    (options.exhaustivePairs, options.partners) = (30, partners)
+    return options
+  }
+
+  @Test func retrievalFindsThePhotosThatOverlapMost() throws {
+    let scene = try Self.scene(.streets)
+    let overlaps = scene.overlaps(minimum: 60)
+    let alike = try PhotoRetrieval().run(scene.features, partners: 10, StageContext())
+    let found = overlaps.keys.count {
+      alike[$0.first.index].contains($0.second.index)
+        || alike[$0.second.index].contains($0.first.index)
+    }
+    #expect(overlaps.count > 50)
+    #expect(Double(found) > 0.95 * Double(overlaps.count))
+    for (photo, others) in alike.enumerated() {
+      #expect(others.count == 10 && Set(others).count == 10 && !others.contains(photo))
+    }
+  }
+
+  @Test func retrievalIsTheSameWithAnyNumberOfThreads() throws {
+    let scene = try Self.scene(.orbits, photos: 20)
+    let alike = try [1, 2].map { threads in
+      try PhotoRetrieval().run(
+        scene.features, partners: 19, StageContext(control: KernelControl(threadCount: threads)))
+    }
+    #expect(alike[0] == alike[1])
+  }
+
+  @Test func photosWithoutFeaturesHaveNoPartners() throws {
+    var features = try Self.scene(.orbits, photos: 12).features
+    features[3] = FeatureSet()
+    let alike = try PhotoRetrieval().run(features, partners: 11, StageContext())
+    #expect(alike[3].isEmpty && alike.allSatisfy { !$0.contains(3) })
+    #expect(
+      try PhotoRetrieval().run([FeatureSet(), FeatureSet()], partners: 1, StageContext())
+        == [[], []])
+    #expect(try PhotoRetrieval().run([], partners: 5, StageContext()).isEmpty)
+  }
+
+  @Test func partnersAmongManyAreLimitedAndRight() throws {
+    let scene = try Self.scene(.streets)
+    let choice = try PairSelection(Self.options(partners: 10))
+      .run(scene.features, isSequential: false, StageContext())
+    #expect(choice.pairs == choice.pairs.sorted() && Set(choice.pairs).count == choice.pairs.count)
+    #expect(choice.pairs.count <= 60 * 10)
+    let chosen = Set(choice.pairs)
+    let overlaps = scene.overlaps(minimum: 60)
+    let found = overlaps.keys.count { chosen.contains($0) }
+    #expect(Double(found) > 0.95 * Double(overlaps.count))
+  }
+
+  @Test func photosInOrderAreRecognised() throws {
+    let scene = try Self.scene(.orbits, isShuffled: false)
+    var options = Self.options(partners: 8)
+    options.orderedPartners = 0
+    let pairs = try PairSelection(options)
+      .run(scene.features, isSequential: false, StageContext()).pairs
+    #expect((0..<59).allSatisfy { pairs.contains(PhotoPair(ID($0), ID($0 + 1))) })
+    #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 4 || $0.first.index < 2 })
+  }
+
+  @Test func nearPositionsMakePartners() throws {
+    let features = try Self.scene(.streets, photos: 30).features
+    var options = Self.options(partners: 0)
+    options.positionPartners = 2
+    let positions = features.indices.map { photo in
+      photo == 7
+        ? nil
+        : GeographicPosition(
+          latitudeDegrees: 60, longitudeDegrees: 10 + 1e-4 * Double(photo), altitude: nil)
+    }
+    let pairs = try PairSelection(options)
+      .run(features, positions: positions, isSequential: false, StageContext()).pairs
+    #expect(pairs.contains(PhotoPair(ID(2), ID(3))) && pairs.contains(PhotoPair(ID(6), ID(8))))
+    #expect(!pairs.contains { $0.first.index == 7 || $0.second.index == 7 })
+    #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 3 })
+  }
+
+  @Test func firstLookRejectsStrangersAndKeepsNeighbours() throws {
+    let scene = try Self.scene(.streets, photos: 40, isShuffled: false)
+    var options = FirstLook.Options()
+    options.features = 400
+    let pairs = (2..<40).flatMap {
+      [PhotoPair(ID($0), ID($0 - 2)), PhotoPair(ID($0), ID(($0 + 20) % 40))]
+    }
+    let hopeful = Set(
+      try FirstLook(options).run(pairs, features: scene.features, StageContext()))
+    let overlaps = scene.overlaps(minimum: 1)
+    #expect(pairs.allSatisfy { (overlaps[$0] ?? 0) < 100 || hopeful.contains($0) })
+    let strangers = pairs.filter { overlaps[$0] == nil }
+    #expect(strangers.count > 20)
+    #expect(strangers.count { hopeful.contains($0) } * 10 < strangers.count)
+  }
+
+  @Test func partnersOfPartnersAreFound() throws {
+    let verified = [(0, 1), (0, 2), (1, 3), (2, 3), (3, 4)].map { first, second in
+      VerifiedPair(
+        pair: PhotoPair(ID(first), ID(second)), model: .essential, secondFromFirst: nil,
+        matches: [], medianAngle: 0)
+    }
+    let pairs = verified.map(\.pair)
+    let choice = PairSelection.Choice(
+      pairs: pairs, candidates: pairs, alike: [[Int]](repeating: [], count: 5),
+      isSequential: false)
+    var options = PairExpansion.Options()
+    options.fewPartners = 0
+    let more = try PairExpansion(options).run(
+      choice, ViewGraph(photoCount: 5, pairs: verified),
+      features: [FeatureSet](repeating: FeatureSet(), count: 5), firstLook: FirstLook(),
+      StageContext())
+    #expect(more == [PhotoPair(ID(0), ID(3)), PhotoPair(ID(1), ID(2))])
+  }
+
+  @Test func rejectedPairsOfLonelyPhotosGetASecondChance() throws {
+    let pair = PhotoPair(ID(0), ID(2))
+    let choice = PairSelection.Choice(
+      pairs: [PhotoPair(ID(0), ID(1))], candidates: [PhotoPair(ID(0), ID(1)), pair], alike: [],
+      isSequential: false)
+    let features = [FeatureSet](repeating: FeatureSet(), count: 3)
+    let more = try PairExpansion().run(
+      choice, ViewGraph(photoCount: 3, pairs: []), features: features, firstLook: FirstLook(),
+      StageContext())
+    #expect(more == [pair])
+  }
+}
