@@ -8,6 +8,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var isSequential: Bool = false
   /// Look harder for features on objects of low texture.
   package var isHighSensitivity: Bool = false
+  /// Distances in the scene that were measured; they give the scale.
+  package var knownDistances: [KnownDistance] = []
   /// Where intermediate results are left; nil leaves none.
   package var checkpointDirectory: URL?
   /// Threads of all stages. Results do not depend on it.

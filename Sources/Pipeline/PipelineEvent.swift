@@ -11,4 +11,6 @@ package enum PipelineEvent: Sendable {
   case downsampled
   case stitchingIncomplete(registered: Int, of: Int)
   case warning(String)
+  /// Something for the user who wants to know more.
+  case detail(String)
 }

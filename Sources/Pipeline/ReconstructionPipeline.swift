@@ -78,6 +78,7 @@ package final class ReconstructionPipeline {
       var options = ImageAlignment.Options()
       options.isSequential = configuration.isSequential
       options.isHighSensitivity = configuration.isHighSensitivity
+      options.framing.knownDistances = configuration.knownDistances
       return try ImageAlignment(options)
         .run(photos: ingested.photos, cameras: ingested.cameras, images: images, context)
     }
@@ -176,7 +177,9 @@ extension ReconstructionPipeline {
           cpuSeconds: end.cpuSeconds - start.cpuSeconds, peakMemoryBytes: end.peakMemoryBytes,
           counts: notes.counts))
       report.warnings += notes.warnings
+      report.details += notes.details
       notes.warnings.forEach { onEvent(.warning($0)) }
+      notes.details.forEach { onEvent(.detail($0)) }
     }
     let value = try body(StageContext(control: control, notes: notes))
     try control.step(1)

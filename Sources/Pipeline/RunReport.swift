@@ -26,6 +26,7 @@ package struct RunReport: Codable, Sendable {
   package var meanReprojectionError: Double?
   package var worldFrame: WorldFrame?
   package var warnings: [String] = []
+  package var details: [String] = []
 
   package init(configuration: PipelineConfiguration) {
     self.configuration = configuration

@@ -27,6 +27,7 @@ package final class StageNotes: Sendable {
   private struct State {
     var counts: [String: Double] = [:]
     var warnings: [String] = []
+    var details: [String] = []
   }
 
   private let state = Mutex(State())
@@ -43,6 +44,12 @@ package final class StageNotes: Sendable {
     state.withLock { $0.warnings.append(sentence) }
   }
 
+  /// Records a sentence for the user who wants to know more.
+  package func tell(_ sentence: String) {
+    state.withLock { $0.details.append(sentence) }
+  }
+
   package var counts: [String: Double] { state.withLock { $0.counts } }
   package var warnings: [String] { state.withLock { $0.warnings } }
+  package var details: [String] { state.withLock { $0.details } }
 }

@@ -116,13 +116,93 @@ import Testing
 
   @Test func knownDistanceSetsTheScale() {
     var options = WorldFraming.Options()
-    options.knownDistance = .init(first: ID(0), second: ID(3), meters: 2.5)
+    options.knownDistances = [
+      .init(from: .camera("photo000.jpg"), to: .camera("photo003.jpg"), meters: 2.5)
+    ]
     let notes = StageNotes()
     let framed = WorldFraming(options).run(scene(table: true), StageContext(notes: notes))
     #expect(framed.worldFrame.scale == .knownDistance)
     #expect(notes.warnings.isEmpty)
     let distance = ((framed.poses[0]?.center ?? .zero) - (framed.poses[3]?.center ?? .zero)).length
     #expect(abs(distance - 2.5) < 1e-9)
+  }
+
+  /// A distance between two points of the ball, each picked in two photos.
+  private func picked(_ meters: Double, pixelError: Double) throws -> KnownDistance {
+    let scene = SyntheticScene()
+    let ends = [SIMD3(0.3, 0.9, 0.2), SIMD3(0.1, 0.5, 0.8)].map { point in
+      KnownDistance.End.point(
+        [0, 1].map { photo in
+          let pixel = scene.camera.project(scene.poses[photo] * point)
+          return .init(
+            photo: "photo00\(photo).jpg", x: pixel.x, y: pixel.y + (photo == 0 ? pixelError : 0))
+        })
+    }
+    return KnownDistance(from: ends[0], to: ends[1], meters: meters)
+  }
+
+  @Test func pickedPointsSetTheScaleBeforeGPS() throws {
+    var options = WorldFraming.Options()
+    options.knownDistances = [try picked(0.25, pixelError: 0)]
+    let notes = StageNotes()
+    let framed = WorldFraming(options).run(located(20, noise: 1), StageContext(notes: notes))
+    #expect(framed.worldFrame == WorldFrame(scale: .knownDistance, up: .gps))
+    #expect(notes.warnings.isEmpty)
+    let truth = SyntheticScene().poses
+    let meters = 0.25 / (SIMD3(0.3, 0.9, 0.2) - SIMD3(0.1, 0.5, 0.8)).length
+    let distance = ((framed.poses[0]?.center ?? .zero) - (framed.poses[6]?.center ?? .zero)).length
+    #expect(abs(distance / (truth[0].center - truth[6].center).length / meters - 1) < 1e-3)
+    #expect(notes.counts["knownDistances"] == 1)
+  }
+
+  @Test func distancesThatCannotBeUsedAreNamed() throws {
+    var options = WorldFraming.Options()
+    options.knownDistances = [
+      .init(from: .camera("photo000.jpg"), to: .camera("absent.jpg"), meters: 1),
+      .init(from: .camera("photo001.jpg"), to: .camera("photo001.jpg"), meters: 1),
+      try picked(0.25, pixelError: 40),
+      .init(from: .camera("photo000.jpg"), to: .camera("photo001.jpg"), meters: 100),
+    ]
+    let notes = StageNotes()
+    let framed = WorldFraming(options).run(scene(table: true), StageContext(notes: notes))
+    #expect(framed.worldFrame.scale == .knownDistance)
+    for part in ["absent.jpg", "same place", "pixels off", "disagree"] {
+      #expect(notes.warnings.contains { $0.contains(part) }, "nothing tells of \(part)")
+    }
+  }
+
+  @Test func residualOfGPSIsItsNoise() throws {
+    let notes = StageNotes()
+    _ = WorldFraming().run(located(20, noise: 1.5), StageContext(notes: notes))
+    let horizontal = try #require(notes.counts["gpsHorizontalRMS"])
+    let vertical = try #require(notes.counts["gpsVerticalRMS"])
+    // Two axes together; seven of 36 degrees of freedom go into the fit.
+    #expect(horizontal > 1.2 && horizontal < 2.8)
+    #expect(vertical > 0.6 && vertical < 2.2)
+    #expect(notes.counts["gpsPositionsUsed"] == 12)
+    #expect(notes.details.contains { $0.hasPrefix("GPS: 12 of 12") })
+  }
+
+  @Test func withoutAltitudesTheMapGivesScaleAndNorth() {
+    var input = located(20, noise: 0.5)
+    for index in input.photos.indices { input.photos[index].position?.altitude = nil }
+    let notes = StageNotes()
+    let framed = WorldFraming().run(input, StageContext(notes: notes))
+    #expect(framed.worldFrame == WorldFrame(scale: .gps, up: .supportPlane))
+    #expect(notes.counts["gpsVerticalRMS"] == nil)
+    for (pose, truth) in zip(framed.poses, SyntheticScene().poses) {
+      let error = (pose ?? .identity).center - 20 * truth.center - SIMD3(0, 22, 0)
+      #expect(error.length < 2.5)
+    }
+  }
+
+  /// A plain table shows few points; they still lie in one thin layer with nothing below.
+  @Test(arguments: [1, 2] as [UInt64]) func fewPointsOfATableAreEnough(seed: UInt64) {
+    var input = scene(table: true, seed: seed)
+    input.points.removeLast(330)
+    let framed = WorldFraming().run(input, StageContext())
+    #expect(framed.worldFrame.up == .supportPlane)
+    #expect(framed.points.suffix(70).allSatisfy { abs($0.position.y) < 0.02 })
   }
 
   @Test func nothingRegisteredStaysAsItIs() {

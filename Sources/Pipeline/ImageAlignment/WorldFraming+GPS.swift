@@ -3,35 +3,60 @@ import SceneModel
 
 /// How the photos' GPS positions lie to the reconstruction's camera centres.
 struct GPSFit: Sendable {
+  /// What is left between the positions and the centres, in metres.
+  struct Residual: Hashable, Sendable {
+    /// Root mean squares over the positions that agree; vertical is nil without altitudes.
+    var horizontal: Double
+    var vertical: Double?
+    /// Positions that agree, and all.
+    var used: Int
+    var count: Int
+  }
+
   /// Metres per unit of the reconstruction.
   var scale: Double
-  /// Up in the reconstruction; nil where positions on a line leave it open.
+  /// Up in the reconstruction; nil where positions near a line, or their noise, leave it open.
   var up: SIMD3<Double>?
+  var residual: Residual
   /// Centres in the reconstruction and in the world (east, up, south) that agree.
-  private var inliers: [(center: SIMD3<Double>, world: SIMD3<Double>)]
+  private var inliers: [Located]
+
+  private struct Located: Sendable {
+    var center: SIMD3<Double>
+    var world: SIMD3<Double>
+  }
 
   /// Nil without three positions that spread well over their error and agree with the centres.
-  init?(_ reconstruction: Reconstruction, _ options: WorldFraming.Options) {
+  ///
+  /// `up` is what is known of the vertical otherwise; where altitudes are missing, only the map is
+  /// compared, with the centres seen along it.
+  init?(
+    _ reconstruction: Reconstruction, up priorUp: SIMD3<Double>, _ options: WorldFraming.Options
+  ) {
     let located = reconstruction.photos.compactMap { photo in
       reconstruction.poses[photo.id.index].flatMap { pose in
         photo.position.map { (center: pose.center, position: $0) }
       }
     }
     guard located.count >= 3 else { return nil }
+    let hasAltitudes = located.allSatisfy { $0.position.altitude != nil }
     let world = Self.local(located.map(\.position))
     let needed = options.gpsSpreadFactor * options.gpsNoise
     guard Self.spread(world).largest > needed else { return nil }
-    let pairs = zip(located, world).map { (center: $0.center, world: $1) }
-    guard let fit = Self.robustFit(pairs, options) else { return nil }
-    inliers = pairs.filter {
-      (fit * $0.center - $0.world).length < 3 * options.gpsNoise
+    let pairs = zip(located, world).map { located, world in
+      let height = hasAltitudes ? 0 : located.center.dot(priorUp)
+      return Located(center: located.center - height * priorUp, world: world)
     }
-    guard inliers.count >= 3, 2 * inliers.count > pairs.count,
-      let refined = SimilarityTransform.fitting(inliers.map(\.center), to: inliers.map(\.world))
-    else { return nil }
-    scale = refined.scale
-    let isOpen = Self.spread(inliers.map(\.world)).second < needed
-    up = isOpen ? nil : refined.rotation.conjugate * SIMD3(0, 1, 0)
+    guard let (fit, used) = Self.robustFit(pairs, options) else { return nil }
+    inliers = used
+    scale = fit.scale
+    residual = Self.residual(fit, used, of: pairs.count, hasAltitudes)
+    // A vertical error tilts the ground by the less the wider and the more the positions are.
+    let width = Self.spread(used.map(\.world)).second / 2
+    let vertical = max(residual.vertical ?? .infinity, 0.2 * options.gpsNoise)
+    let tilt = vertical / (max(width, 1e-9) * Double(max(1, used.count - 3)).squareRoot())
+    let isKnown = hasAltitudes && tilt < options.gpsTiltDegrees * .pi / 180
+    up = isKnown ? fit.rotation.conjugate * SIMD3(0, 1, 0) : nil
   }
 
   /// The turn about +y that makes a levelled reconstruction face as the world does.
@@ -40,8 +65,8 @@ struct GPSFit: Sendable {
     let centerMean = inliers.reduce(SIMD3<Double>.zero) { $0 + $1.center } / count
     let worldMean = inliers.reduce(SIMD3<Double>.zero) { $0 + $1.world } / count
     var (sine, cosine) = (0.0, 0.0)
-    for (center, world) in inliers {
-      let (a, b) = (leveling * (center - centerMean), world - worldMean)
+    for pair in inliers {
+      let (a, b) = (leveling * (pair.center - centerMean), pair.world - worldMean)
       sine += a.z * b.x - a.x * b.z
       cosine += a.x * b.x + a.z * b.z
     }
@@ -51,8 +76,9 @@ struct GPSFit: Sendable {
   /// Metres to the east, up and south of the mean position (WGS 84).
   private static func local(_ positions: [GeographicPosition]) -> [SIMD3<Double>] {
     let altitudes = positions.compactMap(\.altitude)
+    let hasAll = altitudes.count == positions.count
     let height = altitudes.isEmpty ? 0 : altitudes.reduce(0, +) / Double(altitudes.count)
-    let earth = positions.map { earthCentered($0, $0.altitude ?? height) }
+    let earth = positions.map { earthCentered($0, hasAll ? $0.altitude ?? height : height) }
     let mean = earth.reduce(.zero, +) / Double(earth.count)
     let latitude = positions[0].latitudeDegrees * .pi / 180
     let longitude = positions[0].longitudeDegrees * .pi / 180
@@ -88,14 +114,30 @@ struct GPSFit: Sendable {
     return (2 * max(0, values[2]).squareRoot(), 2 * max(0, values[1]).squareRoot())
   }
 
-  /// The similarity through a few pairs that the others agree with most.
+  private static func residual(
+    _ fit: SimilarityTransform, _ used: [Located], of count: Int, _ hasAltitudes: Bool
+  ) -> Residual {
+    let errors = used.map { fit * $0.center - $0.world }
+    let number = Double(max(1, errors.count))
+    let horizontal = errors.reduce(0) { $0 + $1.x * $1.x + $1.z * $1.z } / number
+    let vertical = errors.reduce(0) { $0 + $1.y * $1.y } / number
+    return Residual(
+      horizontal: horizontal.squareRoot(), vertical: hasAltitudes ? vertical.squareRoot() : nil,
+      used: used.count, count: count)
+  }
+
+  /// The similarity of least squares over the pairs that agree with it, found by RANSAC; nil where no
+  /// half of the pairs agrees.
   private static func robustFit(
-    _ pairs: [(center: SIMD3<Double>, world: SIMD3<Double>)], _ options: WorldFraming.Options
-  ) -> SimilarityTransform? {
+    _ pairs: [Located], _ options: WorldFraming.Options
+  ) -> (SimilarityTransform, [Located])? {
     var random = SplitMix64(state: options.seed)
     var best: SimilarityTransform?
     var bestScore = Double.infinity
     let limit = 3 * options.gpsNoise
+    func error(_ fit: SimilarityTransform, _ pair: Located) -> Double {
+      (fit * pair.center - pair.world).length
+    }
     for round in 0..<300 {
       // The first hypothesis is the fit of all.
       let sample =
@@ -104,11 +146,18 @@ struct GPSFit: Sendable {
       guard
         let fit = SimilarityTransform.fitting(sample.map(\.center), to: sample.map(\.world))
       else { continue }
-      let score = pairs.reduce(0) { sum, pair in
-        sum + min(limit, (fit * pair.center - pair.world).length)
-      }
+      let score = pairs.reduce(0) { $0 + min(limit, error(fit, $1)) }
       if score < bestScore { (best, bestScore) = (fit, score) }
     }
-    return best
+    guard var fit = best else { return nil }
+    var used: [Located] = []
+    for _ in 0..<3 {
+      used = pairs.filter { error(fit, $0) < limit }
+      guard used.count >= 3, 2 * used.count > pairs.count,
+        let refined = SimilarityTransform.fitting(used.map(\.center), to: used.map(\.world))
+      else { return nil }
+      fit = refined
+    }
+    return (fit, used)
   }
 }

@@ -73,7 +73,9 @@ struct CameraUp: Sendable {
   }
 }
 
-/// The dominant plane under the object.
+/// The plane under the object: a thin layer of points, wide, with next to nothing below it.
+///
+/// On a plain table it holds few of the points; then it has to stand out from what is above it.
 struct SupportPlane: Sendable {
   /// Unit length, to the cameras' side.
   var normal: SIMD3<Double>
@@ -86,33 +88,77 @@ struct SupportPlane: Sendable {
     _ object: ObjectRegion, centers: [SIMD3<Double>], up: SIMD3<Double>,
     _ options: WorldFraming.Options
   ) {
-    let points = object.surroundings
-    guard points.count >= 50 else { return nil }
+    guard object.surroundings.count >= 50 else { return nil }
     let thickness = options.planeThickness * object.cameraDistance
-    let tilt = cos(options.planeTiltDegrees * .pi / 180)
+    // Most cameras are held level: a plane near their up direction comes first.
+    for degrees in [options.planeTiltDegrees / 3, options.planeTiltDegrees] {
+      let found = SupportPlane(
+        object.surroundings, up: up, tilt: degrees * .pi / 180, thickness, options)
+      if let found, found.isSupport(object, centers, thickness, options) {
+        self = found
+        return
+      }
+    }
+    return nil
+  }
+
+  /// The plane with the most of the low points on it and the fewest points below it.
+  private init?(
+    _ points: [SIMD3<Double>], up: SIMD3<Double>, tilt: Double, _ thickness: Double,
+    _ options: WorldFraming.Options
+  ) {
+    let heights = points.map { $0.dot(up) }.sorted()
+    // With an up direction that is off, low points may lie a little above the middle.
+    let limit = heights[heights.count / 2] + 2 * thickness
+    let low = points.filter { $0.dot(up) < limit }
     var random = SplitMix64(state: options.seed)
-    var best = (count: 0, normal: up, offset: 0.0)
+    var best = (score: 0, normal: up, offset: 0.0)
     for _ in 0..<1000 {
-      let triple = (0..<3).map { _ in points[Int(random.next() % UInt64(points.count))] }
+      let triple = (0..<3).map { _ in low[Int(random.next() % UInt64(low.count))] }
       var normal = (triple[1] - triple[0]).cross(triple[2] - triple[0]).normalized
       if normal.dot(up) < 0 { normal = -normal }
-      guard normal.dot(up) > tilt else { continue }
+      guard normal.dot(up) > cos(tilt) else { continue }
       let offset = normal.dot(triple[0])
-      let count = points.count { abs(normal.dot($0) - offset) < thickness }
-      if count > best.count { best = (count, normal, offset) }
+      let score = low.reduce(0) { sum, point in
+        let height = normal.dot(point) - offset
+        return abs(height) < thickness ? sum + 1 : height < -3 * thickness ? sum - 2 : sum
+      }
+      if score > best.score { best = (score, normal, offset) }
     }
+    guard best.score > 0 else { return nil }
     (normal, offset) = (best.normal, best.offset)
-    for _ in 0..<3 { refit(points, thickness, up) }
+    for _ in 0..<3 { refit(low, thickness, up) }
+    guard normal.dot(up) > cos(tilt) else { return nil }
+  }
+
+  private func isSupport(
+    _ object: ObjectRegion, _ centers: [SIMD3<Double>], _ thickness: Double,
+    _ options: WorldFraming.Options
+  ) -> Bool {
+    let points = object.surroundings
     let heights = points.map(distance)
     let onPlane = heights.count { abs($0) < thickness }
+    let next = heights.count { $0 >= thickness && $0 < 3 * thickness }
     let above = heights.count { $0 >= thickness }
     let below = heights.count { $0 < -3 * thickness }
     let seeing = centers.count { distance($0) > 0 }
-    guard Double(onPlane) >= options.planeShare * Double(points.count), normal.dot(up) > tilt,
-      // What stands on the plane is above it, and nobody takes photos from below it.
-      10 * below <= above + onPlane, 10 * seeing >= 9 * centers.count,
-      distance(object.center) > -thickness
-    else { return nil }
+    let share = Double(onPlane) / Double(points.count)
+    let isClear = share >= options.planeShare && 10 * below <= above + onPlane
+    let isLayer =
+      share >= options.minimumPlaneShare && onPlane >= 40 && 5 * onPlane >= 6 * next
+      && 8 * below <= onPlane
+      && width(points.filter { abs(distance($0)) < thickness }) >= 0.7 * width(object.core)
+    // Nobody takes photos from below.
+    return (isClear || isLayer) && 10 * seeing >= 9 * centers.count
+      && distance(object.center) > -thickness
+  }
+
+  /// The root mean square distance from the mean along the plane.
+  private func width(_ points: [SIMD3<Double>]) -> Double {
+    guard !points.isEmpty else { return 0 }
+    let flat = points.map { $0 - distance($0) * normal }
+    let mean = flat.reduce(.zero, +) / Double(flat.count)
+    return (flat.reduce(0) { $0 + ($1 - mean).squaredLength } / Double(flat.count)).squareRoot()
   }
 
   /// Least squares over the points on the plane.

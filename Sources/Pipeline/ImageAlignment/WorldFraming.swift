@@ -4,32 +4,24 @@ import SceneModel
 /// Gives a reconstruction its scale, its up direction and its origin.
 ///
 /// +y is up and the object stands on y = 0, centred in x and z on the points that most photos look
-/// at. Scale: GPS, else a known distance, else the median distance from the cameras to the object is
+/// at. Scale: known distances, else GPS, else the median distance from the cameras to the object is
 /// one metre. Up: GPS, else the plane under the object, else the cameras, which people hold upright.
 package struct WorldFraming: Sendable {
-  /// The distance between the standpoints of two photos.
-  package struct KnownDistance: Hashable, Codable, Sendable {
-    package var first: ID<Photo>
-    package var second: ID<Photo>
-    package var meters: Double
-
-    package init(first: ID<Photo>, second: ID<Photo>, meters: Double) {
-      self.first = first
-      self.second = second
-      self.meters = meters
-    }
-  }
-
   package struct Options: Hashable, Codable, Sendable {
-    package var knownDistance: KnownDistance?
+    /// Distances that were measured; they come before GPS.
+    package var knownDistances: [KnownDistance] = []
     /// Expected error of a GPS position in metres.
     package var gpsNoise = 5.0
     /// Positions must spread over this many times their error to say something.
     package var gpsSpreadFactor = 3.0
+    /// Up comes from GPS where its error is expected to be below this many degrees.
+    package var gpsTiltDegrees = 3.0
     /// Distance from the support plane, relative to the cameras' distance from the object.
     package var planeThickness = 0.01
-    /// Share of the points near the object that the support plane holds at least.
+    /// Share of the points near the object that make a support plane clear.
     package var planeShare = 0.12
+    /// Share that it holds at least where it stands out as a layer.
+    package var minimumPlaneShare = 0.03
     /// Largest angle in degrees between the support plane's normal and the cameras' mean up.
     package var planeTiltDegrees = 30.0
     package var seed: UInt64 = 1
@@ -48,30 +40,17 @@ package struct WorldFraming: Sendable {
       return reconstruction
     }
     let object = ObjectRegion(reconstruction)
-    let gps = GPSFit(reconstruction, options)
     var frame = WorldFrame()
-
     let cameraUp = CameraUp(reconstruction).direction
     var up = cameraUp
     frame.up = .cameras
     let plane = SupportPlane(object, centers: centers, up: cameraUp, options)
-    if let gpsUp = gps?.up {
-      (up, frame.up) = (gpsUp, .gps)
-    } else if let plane {
-      (up, frame.up) = (plane.normal, .supportPlane)
-    }
+    if let plane { (up, frame.up) = (plane.normal, .supportPlane) }
+    let gps = GPSFit(reconstruction, up: up, options)
+    if let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }
 
-    var scale = 1 / max(object.cameraDistance, .leastNormalMagnitude)
-    if let gps {
-      (scale, frame.scale) = (gps.scale, .gps)
-    } else if let known = knownScale(reconstruction) {
-      (scale, frame.scale) = (known, .knownDistance)
-    } else {
-      context.notes.warn(
-        "The photos don't say how large the object is: its scale is arbitrary, with the cameras' "
-          + "median distance from it taken as one metre.")
-    }
-
+    let scale: Double
+    (scale, frame.scale) = self.scale(reconstruction, object, gps, context.notes)
     let level = Self.leveling(up)
     let front = level * ((reconstruction.poses[first.index]?.center ?? .zero) - object.center)
     let yaw = gps?.yaw(leveling: level) ?? -atan2(front.x, front.z)
@@ -83,14 +62,38 @@ package struct WorldFraming: Sendable {
     return reconstruction.moved(by: worldFromOld, frame)
   }
 
-  private func knownScale(_ reconstruction: Reconstruction) -> Double? {
-    guard let known = options.knownDistance, known.meters > 0,
-      reconstruction.poses.indices.contains(known.first.index),
-      reconstruction.poses.indices.contains(known.second.index),
-      let a = reconstruction.poses[known.first.index]?.center,
-      let b = reconstruction.poses[known.second.index]?.center, (a - b).length > 0
-    else { return nil }
-    return known.meters / (a - b).length
+  /// Metres per unit, and where they come from.
+  private func scale(
+    _ reconstruction: Reconstruction, _ object: ObjectRegion, _ gps: GPSFit?, _ notes: StageNotes
+  ) -> (Double, WorldFrame.Scale) {
+    if let residual = gps?.residual { report(residual, notes) }
+    let (measured, problems) = MeasuredScale.measure(
+      options.knownDistances, in: reconstruction)
+    problems.forEach(notes.warn)
+    if let measured {
+      notes.count("knownDistances", Double(measured.deviations.count))
+      notes.count("knownDistanceDeviation", measured.deviations.map { abs($0) }.max() ?? 0)
+      return (measured.scale, .knownDistance)
+    }
+    if let gps { return (gps.scale, .gps) }
+    notes.warn(
+      "The photos don't say how large the object is: its scale is arbitrary, with the cameras' "
+        + "median distance from it taken as one metre.")
+    return (1 / max(object.cameraDistance, .leastNormalMagnitude), .arbitrary)
+  }
+
+  private func report(_ residual: GPSFit.Residual, _ notes: StageNotes) {
+    notes.count("gpsPositions", Double(residual.count))
+    notes.count("gpsPositionsUsed", Double(residual.used))
+    notes.count("gpsHorizontalRMS", residual.horizontal)
+    func meters(_ value: Double) -> String { String(format: "%.2f m", value) }
+    var sentence = "GPS: \(residual.used) of \(residual.count) positions agree with the cameras, "
+    sentence += "\(meters(residual.horizontal)) off horizontally"
+    if let vertical = residual.vertical {
+      notes.count("gpsVerticalRMS", vertical)
+      sentence += " and \(meters(vertical)) vertically"
+    }
+    notes.tell(sentence + " (root mean square).")
   }
 
   /// A point at the height that the object stands on.

@@ -4,6 +4,8 @@ import Pipeline
 package struct EngineOptions: Equatable, Sendable {
   /// Threads of all stages. Results do not depend on it.
   package var threadCount = ProcessInfo.processInfo.activeProcessorCount
+  /// Distances in the scene that were measured; they give the scale. Photos are named by their files.
+  package var knownDistances: [KnownDistance] = []
   /// Suffixes of model files that are accepted besides `usdz`, for instance `glb` and `ply`.
   package var additionalFileFormats: Set<String> = []
 

@@ -83,6 +83,7 @@ extension PipelineConfiguration {
     isHighSensitivity = configuration.featureSensitivity == .high
     checkpointDirectory = configuration.checkpointDirectory
     threadCount = options.threadCount
+    knownDistances = options.knownDistances
     maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
     maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
     // The machine's memory and not what is free of it: runs must not differ.

@@ -134,7 +134,7 @@ final class SessionCore: Sendable {
     case .refused(let photo): emit { $0.refused(photo) }
     case .downsampled: emit { $0.downsampled() }
     case .stitchingIncomplete: emit { $0.stitchingIncomplete() }
-    case .ingested, .warning: break
+    case .ingested, .warning, .detail: break
     }
   }
 
@@ -155,6 +155,8 @@ private func log(_ event: PipelineEvent) {
     sessionLogger.warning("Only \(registered) of \(count) photos could be put together.")
   case .warning(let sentence):
     sessionLogger.warning("\(sentence)")
+  case .detail(let sentence):
+    sessionLogger.debug("\(sentence)")
   case .progress, .ingested:
     break
   }

@@ -32,6 +32,20 @@ struct Reconstruct: AsyncParsableCommand {
         full        250,000    8192 x 8192       and roughness, displacement
         raw      30,000,000    8192 x 8192, 16   colour
 
+      SCALE
+        Photos with GPS give it. Distances that you measured come before GPS:
+        --camera-distance IMG_1.jpg,IMG_5.jpg=0.42
+            The two photos were taken 0.42 m apart (lens to lens).
+        --measurements points.json
+            Distances between points. Each point is picked in two or more photos
+            taken from different sides, in pixels from the top left as a viewer
+            shows the photo:
+            [{"meters": 0.2,
+              "from": [{"photo": "IMG_1.jpg", "x": 812, "y": 1440},
+                       {"photo": "IMG_5.jpg", "x": 1022, "y": 1396}],
+              "to":   [{"photo": "IMG_1.jpg", "x": 1730, "y": 1452},
+                       {"photo": "IMG_5.jpg", "x": 1911, "y": 1377}]}]
+
       Paths of what was written go to stdout, everything else to stderr.
       """)
 

@@ -44,7 +44,7 @@ struct ReconstructionJob {
     }
     ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
     let session = try PhotogrammetrySession(input: input, configuration: configuration)
-    arguments.engine.configure(session)
+    try arguments.engine.configure(session, photos: input)
     // The session is safe to cancel from any thread.
     nonisolated(unsafe) let cancellable = session
     let interrupts = InterruptHandler { cancellable.cancel() }

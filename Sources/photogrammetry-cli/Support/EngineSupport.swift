@@ -21,6 +21,20 @@ import RealityKit
         valueName: "count"))
     var threads: Int?
 
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Metres between the places that two photos were taken from; gives the scale. May be repeated.",
+        valueName: "a.jpg,b.jpg=metres"))
+    var cameraDistance: [CameraDistanceArgument] = []
+
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Distances measured on the object, between points picked in photos; see above.",
+        valueName: "file.json"))
+    var measurements: String?
+
     func validate() throws {
       if let threads, threads < 1 || threads > 1024 {
         throw ValidationError("--threads must be from 1 to 1024.")
@@ -32,8 +46,23 @@ import RealityKit
       if let report { try ModelOutput.checkWritable(URL(fileURLWithPath: report)) }
     }
 
-    func configure(_ session: PhotogrammetrySession) {
+    /// The distances that the scale comes from; throws where a file or a photo isn't there.
+    func knownDistances(photos folder: URL) throws -> [KnownDistance] {
+      var distances = cameraDistance.map(\.distance)
+      if let measurements { distances += try MeasurementFile(measurements).distances }
+      for name in distances.flatMap({ $0.from.photos + $0.to.photos }) {
+        let file = folder.appendingPathComponent(name)
+        guard FileManager.default.fileExists(atPath: file.path) else {
+          throw CommandFailure.usage(
+            "A known distance names the photo \(name), which is not in \(folder.relativePath).")
+        }
+      }
+      return distances
+    }
+
+    func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {
       if let threads { session.engineOptions.threadCount = threads }
+      session.engineOptions.knownDistances = try knownDistances(photos: folder)
     }
 
     /// The run's report as JSON, where there is one.
@@ -58,7 +87,7 @@ import RealityKit
     var report: String? { nil }
 
     func checkOutputs() throws {}
-    func configure(_ session: PhotogrammetrySession) {}
+    func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {}
     func reportData(of session: PhotogrammetrySession) throws -> Data? { nil }
   }
 
