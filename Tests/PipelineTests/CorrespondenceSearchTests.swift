@@ -73,6 +73,25 @@ import Testing
     #expect(try Self.search(scene, camera: camera).cameras == [camera])
   }
 
+  /// Pairs with too few matches are kept aside, with what they have and what they lack.
+  @Test func rejectedPairsAreNamed() throws {
+    let scene = Self.scene()
+    let counts = try Self.search(scene, camera: Self.exif(scene)).viewGraph.pairs
+      .map(\.matches.count).sorted()
+    let needed = counts[counts.count / 2]
+    var options = CorrespondenceSearch.Options()
+    options.verification.minimumInliers = needed
+    let graph = try CorrespondenceSearch(options).run(
+      photos: scene.photos, cameras: [Self.exif(scene)], features: scene.features,
+      isSequential: false, StageContext()
+    ).viewGraph
+    #expect(!graph.pairs.isEmpty && !graph.rejected.isEmpty)
+    #expect(graph.rejected.allSatisfy { $0.matches > 0 && $0.matches < $0.needed })
+    #expect(graph.rejected.allSatisfy { $0.needed >= needed })
+    #expect(zip(graph.rejected, graph.rejected.dropFirst()).allSatisfy { $0.pair < $1.pair })
+    #expect(Set(graph.pairs.map(\.pair)).isDisjoint(with: graph.rejected.map(\.pair)))
+  }
+
   @Test func threadsDoNotMatter() throws {
     let scene = Self.scene(photos: 8)
     let one = try Self.search(scene, threads: 1)

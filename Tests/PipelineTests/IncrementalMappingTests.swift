@@ -85,6 +85,29 @@ import Testing
     #expect(result.unregistered.allSatisfy { $0.reason.contains("no matches") })
   }
 
+  @Test(arguments: MappingMethod.allCases) func theNearestPhotoIsNamed(
+    method: MappingMethod
+  ) throws {
+    let scene = SyntheticScene()
+    let pairs = scene.viewGraph.pairs.filter {
+      $0.pair.first.index != 4 && $0.pair.second.index != 4
+    }
+    let graph = ViewGraph(
+      photoCount: 12, pairs: pairs,
+      rejected: [
+        RejectedPair(pair: PhotoPair(ID(3), ID(4)), matches: 9, needed: 20),
+        RejectedPair(pair: PhotoPair(ID(4), ID(5)), matches: 12, needed: 20),
+      ])
+    var options = SparseMapping.Options()
+    options.method = method
+    let result = try SparseMapping(options).run(
+      graph, features: scene.features, photos: scene.photos, cameras: [scene.camera],
+      StageContext())
+    let reason = try #require(result.unregistered.first).reason
+    #expect(reason.contains("only 12 matches with photo005.jpg"))
+    #expect(reason.contains("20 are needed"))
+  }
+
   @Test func emptyGraphGivesNoPoses() throws {
     let scene = SyntheticScene()
     let result = try IncrementalMapping().run(

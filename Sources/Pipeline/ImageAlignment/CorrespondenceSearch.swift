@@ -78,6 +78,7 @@ private struct Round {
     pairs += more
     matches += found
     graph.pairs = (graph.pairs + verified.pairs).sorted { $0.pair < $1.pair }
+    graph.rejected = (graph.rejected + verified.rejected).sorted { $0.pair < $1.pair }
   }
 
   /// Verifies all pairs with cameras known well enough for essential matrices.

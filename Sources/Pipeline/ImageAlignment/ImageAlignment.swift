@@ -10,6 +10,8 @@ package struct ImageAlignment: Sendable {
     package var isHighSensitivity = false
     /// Fewer registered photos are an error.
     package var minimumPhotos = 3
+    /// Below this median angle of their points, in degrees, two photos are of one standpoint.
+    package var parallaxDegrees = 1.0
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
     package var mapping = SparseMapping.Options()
@@ -47,22 +49,32 @@ package struct ImageAlignment: Sendable {
         graph, features: features, photos: photos, cameras: calibrated,
         context.part(from: 0.7, to: 0.98))
     }
-    try check(mapped)
+    try check(mapped, graph, context.notes)
     let reconstruction = WorldFraming(options.framing).run(mapped, context.part(from: 0.98, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction
   }
 
-  private func check(_ reconstruction: Reconstruction) throws {
+  private func check(
+    _ reconstruction: Reconstruction, _ graph: ViewGraph, _ notes: StageNotes
+  ) throws {
     let count = reconstruction.registered.count
-    guard count >= options.minimumPhotos, !reconstruction.points.isEmpty else {
-      let photos = reconstruction.photos.count
-      throw PipelineError.alignmentFailed(
-        reason: count == 0
-          ? "no pair of the \(photos) photos shows a surface from two different places."
-          : "only \(count) of the \(photos) photos see enough of the same surface.")
-    }
+    if count >= options.minimumPhotos, !reconstruction.points.isEmpty { return }
+    reconstruction.unregistered.forEach { notes.warn($0.reason) }
+    let photos = reconstruction.photos.count
+    throw PipelineError.alignmentFailed(
+      reason: count > 0
+        ? "only \(count) of the \(photos) photos see enough of the same surface."
+        : isOfOnePlace(graph)
+          ? "all photos were taken from one place; walk around the object between photos."
+          : "no pair of the \(photos) photos shows a surface from two different places.")
+  }
+
+  /// Whether hardly any pair of photos has parallax.
+  private func isOfOnePlace(_ graph: ViewGraph) -> Bool {
+    let limit = options.parallaxDegrees * .pi / 180
+    return 10 * graph.pairs.count { $0.medianAngle < limit } >= 9 * graph.pairs.count
   }
 
   private func report(_ reconstruction: Reconstruction, _ notes: StageNotes) {

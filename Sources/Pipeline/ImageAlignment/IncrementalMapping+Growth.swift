@@ -37,7 +37,7 @@ struct MapGrowth: Sendable {
       maps.append(map)
     }
     if let start { take(try grown(start, isTaken)) }
-    for group in connectedGroups() {
+    for group in graph.connectedGroups {
       while true {
         let free = group.count { !isTaken[$0] }
         guard free >= (free == group.count ? 2 : 3), let map = try bestMap(within: group, isTaken)

@@ -3,42 +3,125 @@ import SceneModel
 extension IncrementalMapping {
   /// A sentence for each photo that has no pose.
   func unregistered(
-    _ map: SparseMap, others: [SparseMap], _ graph: ViewGraph, _ photos: [Photo]
+    _ map: SparseMap, others: [SparseMap], _ graph: ViewGraph, _ features: [FeatureSet],
+    _ photos: [Photo]
   ) -> [RefusedPhoto] {
-    var neighbours = [Int](repeating: 0, count: photos.count)
-    var mostMatches = [Int](repeating: 0, count: photos.count)
-    for pair in graph.pairs {
-      for id in [pair.pair.first, pair.pair.second] {
-        neighbours[id.index] += 1
-        mostMatches[id.index] = max(mostMatches[id.index], pair.matches.count)
-      }
-    }
+    let reasons = MissingPoseReasons(
+      map: map, others: others, graph: graph, features: features, photos: photos,
+      neededPoints: options.relaxedMinimumInliers)
     return photos.filter { !map.isRegistered($0.id.index) }.map { photo in
-      let index = photo.id.index
-      let seen = map.tracks.observationsOfPhoto[index]
-        .count { map.isTriangulated[Int(map.tracks.trackOfObservation[Int($0)])] }
-      let group = others.first { $0.isRegistered(index) }
-      let reason: String
-      if let group {
-        reason =
-          "belongs to a separate group of \(group.registered.count) photos that doesn't overlap "
-          + "with the rest; add photos between the two groups"
-      } else if neighbours[index] == 0 {
-        reason =
-          "shares no matches with any other photo; it needs sharp texture and an overlap of two "
-          + "thirds with its neighbours"
-      } else if seen < options.relaxedMinimumInliers {
-        reason =
-          "overlaps with \(neighbours[index]) photos (\(mostMatches[index]) matches at most), none "
-          + "of them aligned with the rest; add photos in between"
-      } else {
-        reason =
-          "sees \(seen) points of the model, but too few of them agree on where it was taken from; "
-          + "add photos from nearby"
-      }
-      return RefusedPhoto(
+      RefusedPhoto(
         sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
-        reason: "\(photo.name) \(reason).")
+        reason: "\(photo.name) \(reasons.reason(photo.id.index)).")
     }
+  }
+}
+
+/// Tells why photos have no pose, with the photos that are nearest to them.
+private struct MissingPoseReasons {
+  /// A link from a photo to another.
+  struct Link {
+    var other: Int
+    var matches: Int
+    /// Matches that would be enough; nil where they are.
+    var needed: Int?
+    /// Median angle of the matches in radians.
+    var angle: Double
+  }
+
+  let map: SparseMap
+  let others: [SparseMap]
+  let features: [FeatureSet]
+  let photos: [Photo]
+  let neededPoints: Int
+  /// Of each photo, the strongest first.
+  private var links: [[Link]]
+
+  /// Photos with fewer features hardly ever find a place.
+  private static let fewFeatures = 100
+  /// Fewer matches are down to chance.
+  private static let chanceMatches = 8
+  /// Below this median angle in radians two photos are of one standpoint.
+  private static let standpointAngle = 0.5 * Double.pi / 180
+
+  init(
+    map: SparseMap, others: [SparseMap], graph: ViewGraph, features: [FeatureSet],
+    photos: [Photo], neededPoints: Int
+  ) {
+    (self.map, self.others) = (map, others)
+    (self.features, self.photos, self.neededPoints) = (features, photos, neededPoints)
+    var links = [[Link]](repeating: [], count: photos.count)
+    func add(_ pair: PhotoPair, _ matches: Int, _ needed: Int?, _ angle: Double) {
+      let (a, b) = (pair.first.index, pair.second.index)
+      links[a].append(Link(other: b, matches: matches, needed: needed, angle: angle))
+      links[b].append(Link(other: a, matches: matches, needed: needed, angle: angle))
+    }
+    for pair in graph.pairs { add(pair.pair, pair.matches.count, nil, pair.medianAngle) }
+    for pair in graph.rejected where pair.matches >= Self.chanceMatches {
+      add(pair.pair, pair.matches, pair.needed, 0)
+    }
+    self.links = links.map { $0.sorted { ($1.matches, $0.other) < ($0.matches, $1.other) } }
+  }
+
+  func reason(_ photo: Int) -> String {
+    let verified = links[photo].filter { $0.needed == nil }
+    if let group = others.first(where: { $0.isRegistered(photo) }) { return separate(group) }
+    if features[photo].count < Self.fewFeatures {
+      return "shows hardly any texture (\(features[photo].count) features); "
+        + "take it sharper, in better light, or with something textured beside the object"
+    }
+    guard let strongest = verified.first else { return isolated(links[photo].first) }
+    if verified.allSatisfy({ $0.angle < Self.standpointAngle }) {
+      return "was taken from the same place as \(name(strongest.other)), so that it tells nothing "
+        + "of depth; step aside between photos"
+    }
+    guard let aligned = verified.first(where: { map.isRegistered($0.other) }) else {
+      return "overlaps with \(name(strongest.other)) (\(strongest.matches) matches) and not enough "
+        + "with any aligned photo" + closest([photo]) + "; add photos in between"
+    }
+    return thin(photo, aligned)
+  }
+
+  private func name(_ photo: Int) -> String { photos[photo].name }
+
+  private func isolated(_ link: Link?) -> String {
+    let advice = "it needs sharp texture and an overlap of two thirds with its neighbours"
+    guard let link, let needed = link.needed else {
+      return "shares no matches with any other photo; \(advice)"
+    }
+    return "shares only \(link.matches) matches with \(name(link.other)), the most similar photo, "
+      + "where \(needed) are needed; \(advice)"
+  }
+
+  private func separate(_ group: SparseMap) -> String {
+    let members = group.registered.sorted()
+    return "belongs to a separate group of \(members.count) photos "
+      + "(\(name(members[0])) to \(name(members[members.count - 1]))) that could not be joined with "
+      + "the rest" + closest(members) + "; add photos between the two groups"
+  }
+
+  /// The strongest link from one of the photos to an aligned one.
+  private func closest(_ members: [Int]) -> String {
+    let best = members.flatMap { photo in
+      links[photo].filter { map.isRegistered($0.other) }.map { (photo: photo, link: $0) }
+    }.max { ($0.link.matches, -$0.photo) < ($1.link.matches, -$1.photo) }
+    guard let best else { return "" }
+    return "; closest are \(name(best.photo)) and \(name(best.link.other)) with "
+      + "\(best.link.matches) matches"
+      + (best.link.needed.map { " where \($0) are needed" } ?? "")
+  }
+
+  /// Of a photo with verified links to aligned ones.
+  private func thin(_ photo: Int, _ link: Link) -> String {
+    let seen = map.tracks.observationsOfPhoto[photo]
+      .count { map.isTriangulated[Int(map.tracks.trackOfObservation[Int($0)])] }
+    let start = "overlaps with \(name(link.other)) (\(link.matches) matches), but "
+    if seen < neededPoints {
+      return start
+        + "sees only \(seen) points that other photos see too, where \(neededPoints) are "
+        + "needed; add photos in between"
+    }
+    return start + "the \(seen) points that it sees don't agree on where it was taken from; "
+      + "add photos from nearby"
   }
 }

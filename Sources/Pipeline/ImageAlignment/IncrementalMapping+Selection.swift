@@ -3,13 +3,6 @@ import SceneModel
 
 /// Which pair to begin with, and which photo comes next.
 extension MapGrowth {
-  /// The photos that verified pairs connect, each group ascending, larger groups first.
-  func connectedGroups() -> [[Int]] {
-    var sets = DisjointSets(count: photos.count)
-    for pair in graph.pairs { sets.join(pair.pair.first.index, pair.pair.second.index) }
-    return sets.groups().sorted { ($1.count, $0[0]) < ($0.count, $1[0]) }
-  }
-
   /// A map of the best first pair that holds together.
   func initialMap(
     within group: [Int], _ isTaken: [Bool], _ used: inout Set<PhotoPair>

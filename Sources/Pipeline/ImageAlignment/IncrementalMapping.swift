@@ -97,7 +97,7 @@ package struct IncrementalMapping: Sendable {
     }
     return Reconstruction(
       cameras: cameras, photos: photos, poses: map.photos.poses, points: points,
-      unregistered: unregistered(map, others: others, graph, photos))
+      unregistered: unregistered(map, others: others, graph, features, photos))
   }
 
   private func scenePoint(_ track: Int, _ map: SparseMap, _ features: [FeatureSet]) -> ScenePoint {

@@ -46,16 +46,34 @@ package struct PairVerification {
           cameras[photos[pair.second.index].camera.index]
         ))
     }
-    return ViewGraph(
-      photoCount: photos.count, pairs: verified.compactMap { $0 }.sorted { $0.pair < $1.pair })
+    var graph = ViewGraph(photoCount: photos.count, pairs: [])
+    for verdict in verified {
+      switch verdict {
+      case .verified(let pair): graph.pairs.append(pair)
+      case .rejected(let pair): if pair.matches > 0 { graph.rejected.append(pair) }
+      }
+    }
+    graph.pairs.sort { $0.pair < $1.pair }
+    graph.rejected.sort { $0.pair < $1.pair }
+    return graph
   }
 
-  /// Nil where no geometry agrees with enough of the matches.
+  enum Verdict: Sendable {
+    case verified(VerifiedPair)
+    case rejected(RejectedPair)
+  }
+
+  /// Rejects a pair where no geometry agrees with enough of the matches.
   func verify(
     _ pair: PhotoPair, _ matches: [FeatureMatch],
     points: ([SIMD2<Double>], [SIMD2<Double>]), cameras: (Camera, Camera)
-  ) throws -> VerifiedPair? {
-    guard matches.count >= options.minimumInliers else { return nil }
+  ) throws -> Verdict {
+    func rejected(_ inliers: Int) -> Verdict {
+      let share = Int((options.minimumInlierRatio * Double(matches.count)).rounded(.up))
+      let needed = max(options.minimumInliers, share)
+      return .rejected(RejectedPair(pair: pair, matches: inliers, needed: needed))
+    }
+    guard matches.count >= options.minimumInliers else { return rejected(matches.count) }
     let isCalibrated =
       !options.isUncalibratedWhereAssumed
       || (cameras.0.calibration != .assumed && cameras.1.calibration != .assumed)
@@ -69,17 +87,19 @@ package struct PairVerification {
     let geometry = try estimation.geometry(
       matches.map { points.0[Int($0.first)] }, matches.map { points.1[Int($0.second)] },
       KernelControl())
-    guard let geometry, geometry.inliers.count >= options.minimumInliers,
+    guard let geometry else { return rejected(0) }
+    guard geometry.inliers.count >= options.minimumInliers,
       Double(geometry.inliers.count) >= options.minimumInlierRatio * Double(matches.count)
-    else { return nil }
+    else { return rejected(geometry.inliers.count) }
     let isPlanar =
       Double(geometry.homographyInlierCount)
       >= options.homographyRatio * Double(geometry.inliers.count)
-    return VerifiedPair(
-      pair: pair, model: isPlanar ? .homography : isCalibrated ? .essential : .fundamental,
-      secondFromFirst: geometry.secondFromFirst,
-      matches: geometry.inliers.map { matches[$0] }.sorted { $0.first < $1.first },
-      medianAngle: geometry.medianAngle)
+    return .verified(
+      VerifiedPair(
+        pair: pair, model: isPlanar ? .homography : isCalibrated ? .essential : .fundamental,
+        secondFromFirst: geometry.secondFromFirst,
+        matches: geometry.inliers.map { matches[$0] }.sorted { $0.first < $1.first },
+        medianAngle: geometry.medianAngle))
   }
 
   /// The largest error at depth 1, the mean of the two photos'.

@@ -49,18 +49,11 @@ package struct SparseMapping: Sendable {
     }
     guard options.method == .automatic, let start else { return try grown(from: start) }
 
-    let needed = options.minimumShare * Double(largestGroup(graph))
+    let needed = options.minimumShare * Double(graph.connectedGroups.first?.count ?? 0)
     guard Double(start.registered.count) >= needed else { return try grown(from: nil) }
     let result = try grown(from: start)
     if Double(result.registered.count) >= needed { return result }
     let other = try grown(from: nil)
     return other.registered.count > result.registered.count ? other : result
-  }
-
-  /// The number of photos of the largest group that verified pairs connect.
-  private func largestGroup(_ graph: ViewGraph) -> Int {
-    var sets = DisjointSets(count: graph.photoCount)
-    for pair in graph.pairs { sets.join(pair.pair.first.index, pair.pair.second.index) }
-    return sets.groups().map(\.count).max() ?? 0
   }
 }

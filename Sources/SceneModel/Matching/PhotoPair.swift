@@ -54,13 +54,29 @@ package struct VerifiedPair: Hashable, Sendable {
   }
 }
 
+/// A pair of photos whose matches were too few, or agreed too little, to be used.
+package struct RejectedPair: Hashable, Sendable {
+  package var pair: PhotoPair
+  /// Matches that agree with one two-view geometry.
+  package var matches: Int
+  /// Matches that would have been enough.
+  package var needed: Int
+
+  package init(pair: PhotoPair, matches: Int, needed: Int) {
+    (self.pair, self.matches, self.needed) = (pair, matches, needed)
+  }
+}
+
 /// The photos and the verified pairs between them, sorted by pair.
 package struct ViewGraph: Sendable {
   package var photoCount: Int
   package var pairs: [VerifiedPair]
+  /// Pairs with some matches that could not be verified, sorted by pair.
+  package var rejected: [RejectedPair]
 
-  package init(photoCount: Int, pairs: [VerifiedPair]) {
+  package init(photoCount: Int, pairs: [VerifiedPair], rejected: [RejectedPair] = []) {
     self.photoCount = photoCount
     self.pairs = pairs
+    self.rejected = rejected
   }
 }
