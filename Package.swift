@@ -105,7 +105,7 @@ var cliDependencies: [Target.Dependency] = [
       swiftSettings: strict),
     .testTarget(
       name: "CommandLineTests",
-      dependencies: ["photogrammetry-cli", "Kernels", "SceneModel", "TestSupport"],
+      dependencies: ["photogrammetry-cli", "Pipeline", "Kernels", "SceneModel", "TestSupport"],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]
   cliDependencies += ["RealityKit", "Pipeline"]

@@ -12,16 +12,22 @@
       commandName: "inspect",
       abstract: "Tell which photos of a folder would be used, which not, and why.",
       discussion: """
-        Reads and checks every file as 'reconstruct' does, without reconstructing.
+        Reads and checks every file as 'reconstruct' does, without reconstructing. With --overlap it \
+        also tells which photos show the same parts and which stand alone, so that you know what to \
+        photograph again; that takes as long as the first half of the alignment.
 
-        EXAMPLE
+        EXAMPLES
           photogrammetry-cli inspect photos/
+          photogrammetry-cli inspect photos/ --overlap
 
         Exit codes: 0 there are enough photos, 1 there are too few, 2 the folder can't be read.
         """)
 
     @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
     var inputFolder: String
+
+    @Flag(name: .long, help: "Tell which photos overlap with which.")
+    var overlap = false
 
     @Flag(name: .long, help: "Print one JSON object instead of a table.")
     var json = false
@@ -41,11 +47,21 @@
       let reporter = ProgressBox(RunReporter(logging.style(json: false)))
       let control = KernelControl(threadCount: max(1, count)) { reporter.update($0) }
       let ingested = try PhotoIngestion().run(folder: folder, StageContext(control: control))
+      var report = InspectionReport(ingested)
+      if overlap, ingested.photos.count >= 2 {
+        let images = ImageStore(
+          photos: ingested.photos, byteBudget: PipelineConfiguration().imageMemory,
+          processingPixels: ingested.processingPixels)
+        let survey = try OverlapSurvey().run(
+          photos: ingested.photos, cameras: ingested.cameras, images: images,
+          StageContext(control: control))
+        report.overlap = OverlapReport(survey, ingested.photos)
+      }
       reporter.finish()
       if json {
-        Terminal.shared.result(try InspectionReport(ingested).encoded())
+        Terminal.shared.result(try report.encoded())
       } else {
-        InspectionReport(ingested).lines.forEach(Terminal.shared.result)
+        report.lines.forEach(Terminal.shared.result)
       }
       guard ingested.photos.count >= Self.neededPhotos else {
         throw CommandFailure.run(
@@ -93,6 +109,7 @@
     var refused: [Refused]
     var cameras: Int
     var isDownsampled: Bool
+    var overlap: OverlapReport?
 
     init(_ ingested: IngestedPhotos) {
       used = ingested.photos.map { photo in
@@ -130,7 +147,7 @@
       if isDownsampled {
         lines.append("Photos would be used at a lower resolution to fit the memory.")
       }
-      return lines
+      return lines + (overlap?.lines ?? [])
     }
   }
 #endif

@@ -1,0 +1,73 @@
+import SceneModel
+
+/// Which photos overlap with which, found without aligning them.
+package struct OverlapSurvey: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// The photos are in the order of capture.
+    package var isSequential = false
+    package var features = FeatureExtraction.Options()
+    package var correspondences = CorrespondenceSearch.Options()
+
+    package init() {}
+  }
+
+  package struct Overlap: Hashable, Sendable {
+    package struct Partner: Hashable, Sendable {
+      package var photo: ID<Photo>
+      package var matches: Int
+    }
+
+    package var photo: ID<Photo>
+    package var features: Int
+    /// Photos that share enough matches, most first.
+    package var partners: [Partner]
+    /// The photo that comes nearest where there is no partner.
+    package var nearest: Partner?
+  }
+
+  package struct Result: Sendable {
+    /// By photo.
+    package var overlaps: [Overlap]
+    /// Photos that are connected over partners, the largest group first.
+    package var groups: [[ID<Photo>]]
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  package func run(
+    photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
+  ) throws -> Result {
+    let features = try FeatureExtraction(options.features)
+      .run(photos, images: images, context.part(from: 0, to: 0.7))
+    let (graph, _) = try CorrespondenceSearch(options.correspondences).run(
+      photos: photos, cameras: cameras, features: features, isSequential: options.isSequential,
+      context.part(from: 0.7, to: 1))
+    return Result(graph, featureCounts: photos.map { features[$0.id.index].count })
+  }
+}
+
+extension OverlapSurvey.Result {
+  /// What a view graph tells; `featureCounts` is by photo.
+  package init(_ graph: ViewGraph, featureCounts: [Int]) {
+    overlaps = featureCounts.enumerated().map {
+      OverlapSurvey.Overlap(photo: ID($0), features: $1, partners: [])
+    }
+    for pair in graph.pairs {
+      let (a, b) = (pair.pair.first, pair.pair.second)
+      overlaps[a.index].partners.append(.init(photo: b, matches: pair.matches.count))
+      overlaps[b.index].partners.append(.init(photo: a, matches: pair.matches.count))
+    }
+    for pair in graph.rejected {
+      for (a, b) in [(pair.pair.first, pair.pair.second), (pair.pair.second, pair.pair.first)]
+      where pair.matches > overlaps[a.index].nearest?.matches ?? 0 {
+        overlaps[a.index].nearest = .init(photo: b, matches: pair.matches)
+      }
+    }
+    for index in overlaps.indices {
+      overlaps[index].partners.sort { ($1.matches, $0.photo) < ($0.matches, $1.photo) }
+    }
+    groups = graph.connectedGroups.map { $0.map { ID($0) } }
+  }
+}
