@@ -130,7 +130,7 @@ extension RenderedScene {
     }
   }
 
-  private static func tableMesh(halfSide a: Float) -> Mesh {
+  static func tableMesh(halfSide a: Float) -> Mesh {
     Mesh(
       positions: [[-a, 0, a], [a, 0, a], [a, 0, -a], [-a, 0, -a]],
       normals: Array(repeating: [0, 1, 0], count: 4),

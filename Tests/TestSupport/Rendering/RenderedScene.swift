@@ -29,12 +29,12 @@ package struct RenderedScene: Sendable {
   /// Rays a pixel and direction: 2 casts four rays.
   package var samplesPerSide = 2
 
-  private let surfaces: [Surface]
+  let surfaces: [Surface]
   private let caster: RayCaster
   /// Surface and triangle in it of each of the caster's triangles.
   private let parts: [(surface: Int, triangle: Int)]
   private let light = SIMD3<Float>(0.45, 0.8, 0.5).normalized
-  private let seed: UInt64
+  let seed: UInt64
 
   /// `object` is what is to be reconstructed, `surroundings` what else is seen.
   package init(

@@ -1,0 +1,26 @@
+import Foundation
+import Kernels
+import SceneModel
+
+extension TemporaryFolder {
+  /// Writes photos as JPEG under the names of rendered photos, from number `first` on. A focal
+  /// length in pixels goes into their EXIF.
+  package func write(
+    _ photos: [RasterImage], focalLength: Double?, first: Int = 0, prefix: String = ""
+  ) throws {
+    for (index, photo) in photos.enumerated() {
+      var bytes = try ImageCodec.encodeJPEG(photo, quality: 0.9)
+      if let focalLength {
+        var exif = ExifFields()
+        exif.make = "Rendered"
+        exif.model = "Pinhole"
+        let millimeters = 36 * focalLength / Double(max(photo.width, photo.height))
+        exif.focalLength = (UInt32((millimeters * 1000).rounded()), 1000)
+        exif.focalLengthIn35mmFilm = Int(millimeters.rounded())
+        bytes = ExifWriter.jpeg(bytes, with: exif)
+      }
+      try Data(bytes).write(
+        to: url.appendingPathComponent(prefix + RenderedScene.name(first + index)))
+    }
+  }
+}
