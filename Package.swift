@@ -61,8 +61,7 @@ var cliDependencies: [Target.Dependency] = [
       name: "CKernels", cxxSettings: strictCxx,
       linkerSettings: [
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
-        .linkedLibrary("opencv_imgcodecs"), .linkedLibrary("opencv_features2d"),
-        .linkedLibrary("opencv_calib3d"), .linkedLibrary("opencv_flann"),
+        .linkedLibrary("opencv_imgcodecs"),
         .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
         .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"), .linkedLibrary("exif"),
         .linkedLibrary("jpeg"), .linkedLibrary("png"),

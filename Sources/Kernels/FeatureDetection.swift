@@ -3,6 +3,24 @@ import SceneModel
 
 /// SIFT with root-SIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR 2012).
 package struct FeatureDetection: Hashable, Codable, Sendable {
+  /// The instructions to use. Vector instructions give the same bytes as each other; the portable path
+  /// differs by rounding.
+  package enum Instructions: String, CaseIterable, Codable, Sendable {
+    case automatic, portable, avx2, avx512
+
+    /// Whether this processor has them.
+    package var isSupported: Bool { ck_sift_supported(kernelValue) }
+
+    fileprivate var kernelValue: ck_sift_instructions {
+      switch self {
+      case .automatic: ck_sift_automatic
+      case .portable: ck_sift_portable
+      case .avx2: ck_sift_avx2
+      case .avx512: ck_sift_avx512
+      }
+    }
+  }
+
   /// Features kept at most, the strongest of each part of the photo.
   package var maximumFeatures = 8000
   /// Lowe's contrast threshold for intensities 0…1.
@@ -15,12 +33,16 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
   package var sufficientFeatures = 6000
   /// Lowe's limit on the ratio of principal curvatures.
   package var edgeThreshold = 10.0
+  /// Whether the first octave is the photo at twice its size, which finds small features, or the photo
+  /// as it is.
+  package var doublesPhoto = true
   /// Scale samples of one octave.
   package var octaveLayers = 3
   /// Gaussian blur of the first layer in pixels.
   package var sigma = 1.6
   /// Cells along the longer side of the grid over which the features are balanced.
   package var gridCells = 12
+  package var instructions = Instructions.automatic
 
   package init() {}
 
@@ -57,10 +79,12 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
   private var kernelOptions: ck_sift_options {
     ck_sift_options(
       maximum_features: Int32(clamping: maximumFeatures), octave_layers: Int32(octaveLayers),
+      first_octave: doublesPhoto ? -1 : 0,
       high_contrast_threshold: contrastThreshold * highestFactor,
       low_contrast_threshold: contrastThreshold * lowestFactor,
       sufficient_features: Int32(clamping: sufficientFeatures), edge_threshold: edgeThreshold,
-      sigma: sigma, grid_cells: Int32(gridCells))
+      sigma: sigma, grid_cells: Int32(gridCells),
+      instructions: instructions.kernelValue)
   }
 }
 

@@ -45,19 +45,76 @@ import Testing
     return RasterImage(width: width, height: height, channels: 3, pixels: pixels)
   }
 
-  @Test(arguments: [
-    (SIMD2(70.25, 80.75), 2.0), (SIMD2(100.5, 60.5), 3.0), (SIMD2(120.0, 90.4), 6.0),
-  ])
-  func blobIsFoundWhereItIs(center: SIMD2<Double>, deviation: Double) throws {
+  /// Offsets to the pixel grid, deviations, and whether the photo is doubled.
+  static let blobCases = [
+    (SIMD2(70.25, 80.75), 2.0, true), (SIMD2(100.5, 60.5), 3.0, true),
+    (SIMD2(120.0, 90.4), 6.0, true), (SIMD2(81.13, 70.9), 1.5, true),
+    (SIMD2(70.25, 80.75), 2.6, false), (SIMD2(100.0, 60.4), 4.0, false),
+    (SIMD2(120.3, 90.6), 9.0, false),
+  ]
+
+  @Test(arguments: blobCases)
+  func blobIsFoundWhereItIs(center: SIMD2<Double>, deviation: Double, isDoubled: Bool) throws {
     let image = Self.blobs([(center, deviation)])
-    let set = try FeatureDetection().features(in: image, KernelControl())
+    var detection = FeatureDetection()
+    detection.doublesPhoto = isDoubled
+    let set = try detection.features(in: image, KernelControl())
     let errors = set.positions.map { (SIMD2<Double>($0) - center).length }
     let best = try #require(errors.indices.min { errors[$0] < errors[$1] })
-    #expect(errors[best] < 0.06)
+    #expect(errors[best] < 0.02)
     // A blob of deviation σ is an extremum of the difference of Gaussians near the scale σ.
     #expect(abs(Double(set.scales[best]) / deviation - 1) < 0.2)
     let pixel = (y: Int(center.y), x: Int(center.x))
     #expect(set.colors[best].x == image.pixels[(pixel.y * image.width + pixel.x) * 3])
+  }
+
+  /// The mean error over many offsets shows a bias that a single one may hide.
+  @Test(arguments: [true, false])
+  func positionsHaveNoBias(isDoubled: Bool) throws {
+    var detection = FeatureDetection()
+    detection.doublesPhoto = isDoubled
+    var random = SeededGenerator(seed: 3)
+    let spots = (0..<35).map { index in
+      (
+        SIMD2(30 + 40 * Double(index % 7), 30 + 40 * Double(index / 7))
+          + SIMD2(random.uniform(), random.uniform()),
+        1.8 + 2.2 * random.uniform()
+      )
+    }
+    let set = try detection.features(
+      in: Self.blobs(spots, width: 300, height: 220), KernelControl())
+    var sum = SIMD2<Double>.zero
+    for (center, _) in spots {
+      let errors = set.positions.map { SIMD2<Double>($0) - center }
+      let nearest = try #require(errors.min { $0.length < $1.length })
+      #expect(nearest.length < 0.03)
+      sum += nearest
+    }
+    #expect((sum / Double(spots.count)).length < 0.004)
+  }
+
+  @Test func orientationFollowsTheGradient() throws {
+    // A blob on a ramp: the gradient of the ramp decides.
+    for degrees in stride(from: 5.0, to: 360, by: 31) {
+      let angle = degrees * .pi / 180
+      let direction = SIMD2(cos(angle), sin(angle))
+      var image = Self.blobs([(SIMD2(100, 80), 3)])
+      for y in 0..<image.height {
+        for x in 0..<image.width {
+          let p = SIMD2(Double(x) - 99.5, Double(y) - 79.5)
+          let value = 110 + 0.8 * p.dot(direction) + 30 * exp(-p.squaredLength / 18)
+          for c in 0..<3 {
+            image.pixels[(y * image.width + x) * 3 + c] = UInt8(min(255, max(0, value.rounded())))
+          }
+        }
+      }
+      let set = try FeatureDetection().features(in: image, KernelControl())
+      let near = set.positions.indices.filter {
+        (SIMD2<Double>(set.positions[$0]) - SIMD2(100, 80)).length < 2.5
+      }
+      let errors = near.map { abs(remainder(Double(set.orientations[$0]) - angle, 2 * .pi)) }
+      #expect(try #require(errors.min()) < 5 * .pi / 180)
+    }
   }
 
   @Test func descriptorsAreRootSIFT() throws {
@@ -103,10 +160,183 @@ import Testing
     #expect(try detection.features(in: image, KernelControl()).count > many)
   }
 
-  @Test(arguments: [(0, 0), (1, 1), (7, 40), (64, 64)])
+  @Test(arguments: [(0, 0), (1, 1), (7, 40), (8, 8), (64, 64), (9, 700), (900, 8)])
   func plainImagesHaveNoFeatures(width: Int, height: Int) throws {
     let image = RasterImage(width: width, height: height, channels: 3, filledWith: 128)
-    #expect(try FeatureDetection().features(in: image, KernelControl()).count == 0)
+    for isDoubled in [true, false] {
+      var detection = FeatureDetection()
+      detection.doublesPhoto = isDoubled
+      #expect(try detection.features(in: image, KernelControl()).count == 0)
+    }
+  }
+
+  @Test(arguments: [(8, 2000), (2500, 9), (17, 16), (33, 31)])
+  func oddShapesAreSearched(width: Int, height: Int) throws {
+    let image = Self.texture(width: width, height: height)
+    for isDoubled in [true, false] {
+      var detection = FeatureDetection()
+      detection.doublesPhoto = isDoubled
+      detection.contrastThreshold = 0.005
+      let set = try detection.features(in: image, KernelControl())
+      #expect(set.count > (isDoubled && width * height > 10_000 ? 50 : -1))
+      #expect(
+        set.positions.allSatisfy {
+          (0...Float(width)).contains($0.x) && (0...Float(height)).contains($0.y)
+        })
+    }
+  }
+
+  @Test func grayAndAlphaAreRead() throws {
+    let image = Self.texture(width: 200, height: 160)
+    let gray = RasterImage(
+      width: 200, height: 160, channels: 1,
+      pixels: stride(from: 0, to: image.pixels.count, by: 3).map { image.pixels[$0] })
+    let withAlpha = RasterImage(
+      width: 200, height: 160, channels: 4,
+      pixels: gray.pixels.enumerated().flatMap { [$1, $1, $1, UInt8($0 % 251)] })
+    let sets = try [image, gray, withAlpha].map {
+      try FeatureDetection().features(in: $0, KernelControl())
+    }
+    #expect(sets[0].count > 50)
+    for set in sets.dropFirst() {
+      // The weights of red, green and blue add up to one but for rounding.
+      #expect(abs(set.count - sets[0].count) <= 2)
+      #expect(set.colors.allSatisfy { $0.x == $0.y && $0.y == $0.z })
+    }
+  }
+
+  /// What two sets of the same photo have in common: features at the same place, of the same scale and
+  /// direction, and how far their descriptors are apart.
+  static func agreement(_ a: FeatureSet, _ b: FeatureSet) -> (share: Double, worst: Int) {
+    var (found, worst, start) = (0, 0, 0)
+    for i in 0..<a.count {
+      while start < b.count, b.scales[start] > a.scales[i] * 1.001 { start += 1 }
+      let partner = (start..<b.count).prefix { b.scales[$0] > a.scales[i] * 0.999 }.first {
+        (a.positions[i] - b.positions[$0]).length < 0.01
+          && abs(remainder(a.orientations[i] - b.orientations[$0], 2 * .pi)) < 0.01
+      }
+      guard let partner else { continue }
+      found += 1
+      for k in 0..<128 {
+        let difference = Int(a.descriptors[i * 128 + k]) - Int(b.descriptors[partner * 128 + k])
+        worst = max(worst, abs(difference))
+      }
+    }
+    return (Double(found) / Double(max(1, a.count)), worst)
+  }
+
+  @Test(arguments: [true, false])
+  func allInstructionsAgree(isDoubled: Bool) throws {
+    let image = Self.texture(width: 333, height: 251)
+    var detection = FeatureDetection()
+    detection.doublesPhoto = isDoubled
+    detection.sufficientFeatures = .max
+    detection.instructions = .portable
+    let portable = try detection.features(in: image, KernelControl())
+    #expect(portable.count > 100)
+    var vector: [FeatureSet] = []
+    for instructions in [FeatureDetection.Instructions.avx2, .avx512]
+    where instructions.isSupported {
+      detection.instructions = instructions
+      let set = try detection.features(in: image, KernelControl())
+      vector.append(set)
+      let agreement = Self.agreement(portable, set)
+      #expect(agreement.share > 0.99)
+      #expect(agreement.worst <= 4)
+      #expect(abs(set.count - portable.count) <= 2)
+    }
+    for set in vector.dropFirst() {
+      #expect(set.descriptors == vector[0].descriptors)
+      #expect(set.positions == vector[0].positions)
+      #expect(set.orientations == vector[0].orientations)
+    }
+  }
+
+  @Test func missingInstructionsAreRefused() throws {
+    var detection = FeatureDetection()
+    let image = Self.texture(width: 64, height: 64)
+    for instructions in FeatureDetection.Instructions.allCases where !instructions.isSupported {
+      detection.instructions = instructions
+      #expect(throws: KernelError.self) {
+        _ = try detection.features(in: image, KernelControl())
+      }
+    }
+  }
+
+  @Test func theSameImageGivesTheSameBytes() throws {
+    let image = Self.texture(width: 320, height: 240)
+    let sets = try KernelControl(threadCount: 2).parallelMap(4) { _ in
+      try FeatureDetection().features(in: image, KernelControl())
+    }
+    for set in sets.dropFirst() {
+      #expect(set.descriptors == sets[0].descriptors)
+      #expect(set.positions == sets[0].positions)
+      #expect(set.scales == sets[0].scales)
+    }
+  }
+
+  /// The image turned by an angle and scaled about its centre, and the map of its positions.
+  static func warped(
+    _ image: RasterImage, degrees: Double, scale: Double
+  ) -> (image: RasterImage, map: (SIMD2<Double>) -> SIMD2<Double>) {
+    let (c, s) = (cos(degrees * .pi / 180) * scale, sin(degrees * .pi / 180) * scale)
+    let center = SIMD2(Double(image.width), Double(image.height)) / 2
+    func map(_ p: SIMD2<Double>) -> SIMD2<Double> {
+      let d = p - center
+      return center + SIMD2(c * d.x - s * d.y, s * d.x + c * d.y)
+    }
+    var result = RasterImage(width: image.width, height: image.height, channels: 3)
+    for y in 0..<image.height {
+      for x in 0..<image.width {
+        let d = (SIMD2(Double(x) + 0.5, Double(y) + 0.5) - center) / (scale * scale)
+        let p = center + SIMD2(c * d.x + s * d.y, -s * d.x + c * d.y) - 0.5
+        let cell = p.rounded(.down)
+        let f = p - cell
+        func value(_ dx: Int, _ dy: Int, _ channel: Int) -> Double {
+          let column = min(max(0, Int(cell.x) + dx), image.width - 1)
+          let row = min(max(0, Int(cell.y) + dy), image.height - 1)
+          return Double(image.pixels[(row * image.width + column) * 3 + channel])
+        }
+        for channel in 0..<3 {
+          let top = value(0, 0, channel) * (1 - f.x) + value(1, 0, channel) * f.x
+          let bottom = value(0, 1, channel) * (1 - f.x) + value(1, 1, channel) * f.x
+          result.pixels[(y * image.width + x) * 3 + channel] =
+            UInt8((top * (1 - f.y) + bottom * f.y).rounded())
+        }
+      }
+    }
+    return (result, map)
+  }
+
+  /// Features that are found again in a turned and scaled copy, and matches that are right.
+  @Test(arguments: [(17.0, 1.0), (90.0, 1.0), (133.0, 0.8), (-62.0, 1.4), (200.0, 0.6)])
+  func warpedImageMatches(degrees: Double, scale: Double) throws {
+    let image = TexturePattern.image(width: 400, height: 320, seed: 5)
+    let (copy, map) = Self.warped(image, degrees: degrees, scale: scale)
+    let sets = try [image, copy].map { try FeatureDetection().features(in: $0, KernelControl()) }
+    let common = (0..<sets[0].count).filter { index in
+      let p = map(SIMD2<Double>(sets[0].positions[index]))
+      let size = Double(sets[0].scales[index]) * scale
+      return size > 1.2 && p.x > 20 && p.y > 20 && p.x < 380 && p.y < 300
+    }
+    let repeated = common.filter { index in
+      let p = map(SIMD2<Double>(sets[0].positions[index]))
+      let size = Double(sets[0].scales[index]) * scale
+      return sets[1].positions.indices.contains {
+        (SIMD2<Double>(sets[1].positions[$0]) - p).length < 0.5 + 0.1 * size
+          && abs(log2(Double(sets[1].scales[$0]) / size)) < 0.3
+      }
+    }
+    #expect(common.count > 60)
+    #expect(Double(repeated.count) > 0.7 * Double(common.count))
+    let matches = try DescriptorMatching().matches(sets[0], sets[1], KernelControl())
+    let errors = matches.map { match in
+      let p = map(SIMD2<Double>(sets[0].positions[Int(match.first)]))
+      return (SIMD2<Double>(sets[1].positions[Int(match.second)]) - p).length
+    }
+    #expect(Double(matches.count) > 0.5 * Double(common.count))
+    #expect(Double(errors.count { $0 < 1.5 }) > 0.97 * Double(errors.count))
+    #expect(errors.sorted()[errors.count / 2] < 0.2)
   }
 
   @Test func turnedPhotoMatchesItself() throws {

@@ -1,93 +1,159 @@
 #include <algorithm>
 #include <cmath>
-#include <opencv2/features2d.hpp>
-#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "ck_features.h"
 #include "core/guard.h"
+#include "features/scale_space.h"
 #include "features/selection.h"
 
-namespace ck {
+namespace ck::sift {
 namespace {
 
-/// OpenCV doubles the photo about pixel centres but halves positions about the corner.
-constexpr float kUpsamplingBias = 0.25f;
-/// From OpenCV's pixel centres to corners.
-constexpr float kCornerFromCenter = 0.5f;
+/// All octaves of a photo and the extrema in them.
+struct ScaleSpace {
+  std::vector<Octave> octaves;
+  std::vector<Extremum> extrema;
+  /// Pixels of the photo in a pixel of the first octave.
+  float first_pixel = 1;
 
-cv::Mat gray_image(const uint8_t* pixels, int width, int height, int channels, size_t stride) {
-  const cv::Mat image(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels), stride);
-  cv::Mat gray;
-  if (channels == 1) {
-    gray = image;
-  } else {
-    cv::cvtColor(image, gray, channels == 3 ? cv::COLOR_RGB2GRAY : cv::COLOR_RGBA2GRAY);
+  float pixel(int octave) const { return first_pixel * std::exp2(static_cast<float>(octave)); }
+
+  /// Along one axis in the photo, origin at the corner. A pixel of an octave lies on every second
+  /// of the octave before, so that all first pixels share their centre.
+  float position(float along, int octave) const {
+    return along * pixel(octave) + 0.5f * first_pixel;
   }
-  return gray;
-}
-
-/// A total order: largest scale first, so that a prefix is a coarse description of the photo.
-bool larger_scale_first(const cv::KeyPoint& a, const cv::KeyPoint& b) {
-  if (a.size != b.size) return a.size > b.size;
-  if (a.pt.y != b.pt.y) return a.pt.y < b.pt.y;
-  if (a.pt.x != b.pt.x) return a.pt.x < b.pt.x;
-  return a.angle < b.angle;
-}
-
-void write_root_sift(const float* descriptor, uint8_t* bytes) {
-  float sum = 0;
-  for (int k = 0; k < CK_DESCRIPTOR_LENGTH; ++k) sum += std::abs(descriptor[k]);
-  const float factor = sum > 0 ? 1 / sum : 0;
-  for (int k = 0; k < CK_DESCRIPTOR_LENGTH; ++k) {
-    const float value = 512 * std::sqrt(std::abs(descriptor[k]) * factor);
-    bytes[k] = static_cast<uint8_t>(std::min(255.0f, std::round(value)));
-  }
-}
-
-void write_color(const uint8_t* pixels, int width, int height, int channels, size_t stride, float x,
-                 float y, uint8_t* color) {
-  const int column = std::clamp(static_cast<int>(x), 0, width - 1);
-  const int row = std::clamp(static_cast<int>(y), 0, height - 1);
-  const uint8_t* pixel = pixels + row * stride + static_cast<size_t>(column) * channels;
-  for (int c = 0; c < 3; ++c) color[c] = pixel[channels >= 3 ? c : 0];
-}
-
-struct Detection {
-  std::vector<cv::KeyPoint> keypoints;
-  cv::Mat descriptors;
 };
 
-Detection detect(const cv::Mat& gray, const ck_sift_options& options) {
-  // Descriptors are made for all that OpenCV returns, so bound them before the grid does.
-  const int limit = 2 * options.maximum_features;
-  auto sift = cv::SIFT::create(limit, options.octave_layers, options.low_contrast_threshold,
-                               options.edge_threshold, options.sigma);
-  Detection result;
-  sift->detectAndCompute(gray, cv::noArray(), result.keypoints, result.descriptors);
-  return result;
+ScaleSpace searched(const Photo& photo, const ck_sift_options& options, const Kernels& kernels,
+                    const ck_control* control) {
+  const bool is_doubled = options.first_octave < 0;
+  const Search search{options.octave_layers, static_cast<float>(options.sigma),
+                      static_cast<float>(255 * options.low_contrast_threshold) /
+                          static_cast<float>(options.octave_layers),
+                      static_cast<float>(options.edge_threshold)};
+  ScaleSpace space;
+  space.first_pixel = is_doubled ? 0.5f : 1.0f;
+  OctaveInput input;
+  input.photo = &photo;
+  input.is_doubled = is_doubled;
+  input.width = photo.width * (is_doubled ? 2 : 1);
+  input.height = photo.height * (is_doubled ? 2 : 1);
+  Rows base;
+  while (std::min(input.width, input.height) >= kSmallestOctave) {
+    step(control, 0.7 * (1 - std::exp2(-2.0 * input.index)));
+    Rows next;
+    space.octaves.emplace_back();
+    kernels.search(input, search, space.octaves.back(), next, space.extrema);
+    base = std::move(next);
+    input = {nullptr, false, &base, input.width / 2, input.height / 2, input.index + 1};
+  }
+  return space;
 }
 
-std::vector<size_t> selected(const std::vector<cv::KeyPoint>& keypoints, int width, int height,
-                             const ck_sift_options& options) {
+/// The strongest extrema, balanced over the photo.
+std::vector<Extremum> selected(const ScaleSpace& space, const Photo& photo,
+                               const ck_sift_options& options) {
   std::vector<Candidate> candidates;
-  candidates.reserve(keypoints.size());
-  for (const auto& k : keypoints) {
-    candidates.push_back({k.pt.x, k.pt.y, k.response * options.octave_layers});
+  candidates.reserve(space.extrema.size());
+  const float contrast = static_cast<float>(options.octave_layers) / 255;
+  for (const Extremum& e : space.extrema) {
+    candidates.push_back(
+        {space.position(e.x, e.octave), space.position(e.y, e.octave), e.response * contrast});
   }
   Selection selection;
   selection.maximum = static_cast<size_t>(options.maximum_features);
   selection.sufficient = static_cast<size_t>(options.sufficient_features);
   selection.high_threshold = static_cast<float>(options.high_contrast_threshold);
   selection.cells = options.grid_cells;
-  std::vector<size_t> kept = select_features(candidates, width, height, selection);
-  std::sort(kept.begin(), kept.end(),
-            [&](size_t a, size_t b) { return larger_scale_first(keypoints[a], keypoints[b]); });
+  std::vector<Extremum> kept;
+  for (size_t index : select_features(candidates, photo.width, photo.height, selection)) {
+    kept.push_back(space.extrema[index]);
+  }
   return kept;
 }
 
+struct Feature {
+  /// In the photo.
+  float x, y, sigma, orientation;
+  Extremum extremum;
+};
+
+/// A total order: largest scale first, so that a prefix is a coarse description of the photo.
+bool larger_scale_first(const Feature& a, const Feature& b) {
+  if (a.sigma != b.sigma) return a.sigma > b.sigma;
+  if (a.y != b.y) return a.y < b.y;
+  if (a.x != b.x) return a.x < b.x;
+  return a.orientation < b.orientation;
+}
+
+/// One feature for each orientation. Where there are too many, all have their strongest one, and
+/// the extrema of the highest contrast their others.
+std::vector<Feature> oriented(const ScaleSpace& space, const std::vector<Extremum>& extrema,
+                              size_t maximum, const Kernels& kernels) {
+  std::vector<Feature> features, others;
+  for (const Extremum& e : extrema) {
+    float orientations[kMaximumOrientations];
+    const int count = kernels.orient(space.octaves[e.octave], e, orientations);
+    for (int i = 0; i < count; ++i) {
+      (i == 0 ? features : others)
+          .push_back({space.position(e.x, e.octave), space.position(e.y, e.octave),
+                      e.sigma * space.pixel(e.octave), orientations[i], e});
+    }
+  }
+  const size_t room = maximum - std::min(maximum, features.size());
+  if (others.size() > room) {
+    std::sort(others.begin(), others.end(), [](const Feature& a, const Feature& b) {
+      const float ra = a.extremum.response, rb = b.extremum.response;
+      return ra != rb ? ra > rb : larger_scale_first(a, b);
+    });
+    others.resize(room);
+  }
+  features.insert(features.end(), others.begin(), others.end());
+  std::sort(features.begin(), features.end(), larger_scale_first);
+  return features;
+}
+
+void write_color(const Photo& photo, float x, float y, uint8_t* color) {
+  const int column = std::clamp(static_cast<int>(x), 0, photo.width - 1);
+  const int row = std::clamp(static_cast<int>(y), 0, photo.height - 1);
+  const uint8_t* pixel =
+      photo.pixels + row * photo.stride + static_cast<size_t>(column) * photo.channels;
+  for (int c = 0; c < 3; ++c) color[c] = pixel[photo.channels >= 3 ? c : 0];
+}
+
+/// Two searches that end at the same extremum are one.
+void remove_repetitions(std::vector<Extremum>& extrema) {
+  const auto before = [](const Extremum& a, const Extremum& b) {
+    if (a.octave != b.octave) return a.octave < b.octave;
+    if (a.y != b.y) return a.y < b.y;
+    if (a.x != b.x) return a.x < b.x;
+    return a.sigma < b.sigma;
+  };
+  const auto same = [](const Extremum& a, const Extremum& b) {
+    return a.octave == b.octave && a.y == b.y && a.x == b.x && a.sigma == b.sigma;
+  };
+  std::sort(extrema.begin(), extrema.end(), before);
+  extrema.erase(std::unique(extrema.begin(), extrema.end(), same), extrema.end());
+}
+
+void validate(const Photo& photo, const ck_sift_options& options) {
+  require(photo.width >= 0 && photo.height >= 0, "the size is negative");
+  require(photo.channels == 1 || photo.channels == 3 || photo.channels == 4,
+          "1, 3 or 4 channels are needed");
+  require(photo.stride >= static_cast<size_t>(photo.width) * photo.channels,
+          "the row stride is too small");
+  require(options.maximum_features >= 0 && options.octave_layers > 0 &&
+              options.octave_layers <= 8 && options.grid_cells > 0 && options.sigma >= 0.6 &&
+              options.sigma <= 4 && (options.first_octave == -1 || options.first_octave == 0),
+          "an option is out of range");
+  // Pixels of an octave are numbered by 32 bits.
+  require(static_cast<int64_t>(photo.width) * photo.height < 400'000'000, "the photo is too large");
+}
+
 }  // namespace
-}  // namespace ck
+}  // namespace ck::sift
 
 ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
                          size_t row_stride, const ck_sift_options* options,
@@ -97,30 +163,25 @@ ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, i
   return ck::guarded([&] {
     ck::require(options && count, "options and count are needed");
     *count = 0;
-    ck::require(width >= 0 && height >= 0, "the size is negative");
-    ck::require(channels == 1 || channels == 3 || channels == 4, "1, 3 or 4 channels are needed");
-    ck::require(row_stride >= static_cast<size_t>(width) * channels, "the row stride is too small");
-    ck::require(
-        options->maximum_features >= 0 && options->octave_layers > 0 && options->grid_cells > 0,
-        "an option is out of range");
-    if (width < 8 || height < 8 || options->maximum_features == 0) return;
-    ck::step(control, 0);
-    const cv::Mat gray = ck::gray_image(pixels, width, height, channels, row_stride);
-    const ck::Detection detection = ck::detect(gray, *options);
-    size_t n = 0;
-    for (size_t index : ck::selected(detection.keypoints, width, height, *options)) {
-      const cv::KeyPoint& k = detection.keypoints[index];
-      const float x = k.pt.x - ck::kUpsamplingBias + ck::kCornerFromCenter;
-      const float y = k.pt.y - ck::kUpsamplingBias + ck::kCornerFromCenter;
-      positions[2 * n] = x;
-      positions[2 * n + 1] = y;
-      scales[n] = k.size / 2;
-      orientations[n] = k.angle * static_cast<float>(CV_PI / 180);
-      ck::write_root_sift(detection.descriptors.ptr<float>(static_cast<int>(index)),
-                          descriptors + n * CK_DESCRIPTOR_LENGTH);
-      ck::write_color(pixels, width, height, channels, row_stride, x, y, colors + n * color_stride);
-      ++n;
+    const ck::sift::Photo photo{pixels, width, height, channels, row_stride};
+    ck::sift::validate(photo, *options);
+    const ck::sift::Kernels& kernels = ck::sift::kernels(options->instructions);
+    if (std::min(width, height) < 8 || options->maximum_features == 0) return;
+    ck::sift::ScaleSpace space = ck::sift::searched(photo, *options, kernels, control);
+    ck::sift::remove_repetitions(space.extrema);
+    const auto features =
+        ck::sift::oriented(space, ck::sift::selected(space, photo, *options),
+                           static_cast<size_t>(options->maximum_features), kernels);
+    ck::step(control, 0.8);
+    for (const ck::sift::Feature& f : features) {
+      const size_t n = (*count)++;
+      positions[2 * n] = f.x;
+      positions[2 * n + 1] = f.y;
+      scales[n] = f.sigma;
+      orientations[n] = f.orientation;
+      kernels.describe(space.octaves[f.extremum.octave], f.extremum, f.orientation,
+                       descriptors + n * CK_DESCRIPTOR_LENGTH);
+      ck::sift::write_color(photo, f.x, f.y, colors + n * color_stride);
     }
-    *count = n;
   });
 }

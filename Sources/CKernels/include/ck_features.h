@@ -10,11 +10,25 @@ extern "C" {
 /// Bytes of one descriptor.
 #define CK_DESCRIPTOR_LENGTH 128
 
+/// Which instructions SIFT uses. AVX2 and AVX-512 give the same bytes; the portable path differs by
+/// rounding.
+typedef enum {
+  /// The fastest that the processor has.
+  ck_sift_automatic = 0,
+  ck_sift_portable = 1,
+  ck_sift_avx2 = 2,
+  ck_sift_avx512 = 3,
+} ck_sift_instructions;
+
+bool ck_sift_supported(ck_sift_instructions instructions);
+
 typedef struct {
   /// Features kept at most; the output buffers hold as many.
   int32_t maximum_features;
   /// Scale samples of one octave.
   int32_t octave_layers;
+  /// −1: the first octave is the photo at twice its size; 0: the photo as it is.
+  int32_t first_octave;
   /// Lowe's contrast threshold at the lowest sensitivity, for intensities 0…1.
   double high_contrast_threshold;
   /// Lowe's contrast threshold at the highest sensitivity.
@@ -27,6 +41,7 @@ typedef struct {
   double sigma;
   /// Cells along the longer side of the grid over which the strongest features are balanced.
   int32_t grid_cells;
+  ck_sift_instructions instructions;
 } ck_sift_options;
 
 /// Detects SIFT features (Lowe, IJCV 2004) and describes them by root-SIFT bytes (Arandjelović and

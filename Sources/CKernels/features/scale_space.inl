@@ -1,0 +1,508 @@
+// The scale space of an octave and its extrema, included once for each instruction set after
+// `lane_bits` is defined. Nothing but what descriptors need is ever held for the whole octave: the
+// levels and their differences roll by row, each level just far enough ahead of the next.
+
+namespace ck::sift {
+namespace {
+
+#define CK_INLINE inline __attribute__((always_inline))
+
+CK_INLINE F16 load(const float* p) {
+  F16 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+CK_INLINE void store(float* p, const F16& v) { __builtin_memcpy(p, &v, sizeof v); }
+
+/// The index mirrored at the first and last pixel.
+CK_INLINE int mirrored(int i, int count) {
+  while (i < 0 || i >= count) i = i < 0 ? -i : 2 * (count - 1) - i;
+  return i;
+}
+
+// ---- Grey rows of the photo -----------------------------------------------------------------
+
+void gray_row(const Photo& photo, int y, float* out) {
+  const uint8_t* p = photo.pixels + static_cast<size_t>(y) * photo.stride;
+  if (photo.channels == 1) {
+    for (int x = 0; x < photo.width; ++x) out[x] = p[x];
+  } else if (photo.channels == 3) {
+    for (int x = 0; x < photo.width; ++x) {
+      out[x] = 0.299f * p[3 * x] + 0.587f * p[3 * x + 1] + 0.114f * p[3 * x + 2];
+    }
+  } else {
+    for (int x = 0; x < photo.width; ++x) {
+      out[x] = 0.299f * p[4 * x] + 0.587f * p[4 * x + 1] + 0.114f * p[4 * x + 2];
+    }
+  }
+}
+
+/// Doubles a row linearly about pixel centres; `in[-1]` and `in[width]` are overwritten.
+void doubled_row(float* in, int width, float* out) {
+  in[-1] = in[0];
+  in[width] = in[width - 1];
+  for (int x = 0; x < width; ++x) {
+    out[2 * x] = 0.25f * in[x - 1] + 0.75f * in[x];
+    out[2 * x + 1] = 0.75f * in[x] + 0.25f * in[x + 1];
+  }
+}
+
+/// The rows of a photo from top to bottom, doubled where wanted.
+struct PhotoRows {
+  const Photo& photo;
+  bool is_doubled;
+  Rows wide;  // the last rows, doubled along x
+  std::vector<float> gray;
+  int done = 0;
+
+  PhotoRows(const Photo& source, bool doubled)
+      : photo(source),
+        is_doubled(doubled),
+        wide(doubled ? 2 * source.width : 1, 3),
+        gray(doubled ? static_cast<size_t>(source.width) + 32 : 0) {}
+
+  void write(int y, float* out) {
+    if (!is_doubled) return gray_row(photo, y, out);
+    const int upper = (y - 1) >> 1;  // floor; −1 in the first row
+    while (done <= std::min(upper + 1, photo.height - 1)) {
+      gray_row(photo, done, gray.data() + 16);
+      doubled_row(gray.data() + 16, photo.width, wide[done]);
+      ++done;
+    }
+    const float* a = wide[std::max(0, upper)];
+    const float* b = wide[std::min(upper + 1, photo.height - 1)];
+    const float lower = y & 1 ? 0.25f : 0.75f;
+    for (int x = 0; x < 2 * photo.width; ++x) out[x] = (1 - lower) * a[x] + lower * b[x];
+  }
+};
+
+// ---- Gaussian blur --------------------------------------------------------------------------
+
+/// Rows that are blurred together.
+constexpr int kGroup = 4;
+/// Columns around a row that the blur along x reads.
+constexpr int kMargin = 64;
+
+struct Gaussian {
+  int radius = 0;
+  /// From the centre outwards.
+  std::vector<float> taps;
+
+  Gaussian() = default;
+  explicit Gaussian(double sigma)
+      : radius(std::min(kMargin - 16, static_cast<int>(std::ceil(3 * sigma)))) {
+    double sum = 0;
+    for (int i = -radius; i <= radius; ++i) sum += std::exp(-i * i / (2 * sigma * sigma));
+    for (int i = 0; i <= radius; ++i) {
+      taps.push_back(static_cast<float>(std::exp(-i * i / (2 * sigma * sigma)) / sum));
+    }
+  }
+};
+
+/// Blurs along y: four rows from the 2 · radius + 4 rows around them. `known` is the radius where
+/// the compiler may unroll for it, or 0.
+template <int known>
+void blur_columns(const float* const* rows, const Gaussian& gaussian, int width,
+                  float* const* out) {
+  const int radius = known > 0 ? known : gaussian.radius;
+  float taps[2 * kMargin];
+  for (int i = -radius; i <= radius; ++i) taps[i + radius] = gaussian.taps[std::abs(i)];
+  const int last = 2 * radius;
+  for (int x = 0; x < width; x += 16) {
+    F16 a = load(rows[0] + x) * taps[0];
+    F16 v = load(rows[1] + x);
+    a += v * taps[1];
+    F16 b = v * taps[0];
+    v = load(rows[2] + x);
+    a += v * taps[2];
+    b += v * taps[1];
+    F16 c = v * taps[0], d = 0;
+    for (int i = 3; i <= last; ++i) {
+      v = load(rows[i] + x);
+      a += v * taps[i];
+      b += v * taps[i - 1];
+      c += v * taps[i - 2];
+      d += v * taps[i - 3];
+    }
+    v = load(rows[last + 1] + x);
+    b += v * taps[last];
+    c += v * taps[last - 1];
+    d += v * taps[last - 2];
+    v = load(rows[last + 2] + x);
+    c += v * taps[last];
+    d += v * taps[last - 1];
+    d += load(rows[last + 3] + x) * taps[last];
+    store(out[0] + x, a);
+    store(out[1] + x, b);
+    store(out[2] + x, c);
+    store(out[3] + x, d);
+  }
+}
+
+/// Blurs along x. Reads `radius` values on both sides of the row.
+CK_INLINE F16 blurred(const float* p, const float* taps, int radius) {
+  F16 sum = load(p) * taps[0];
+  for (int i = 1; i <= radius; ++i) sum += (load(p - i) + load(p + i)) * taps[i];
+  return sum;
+}
+
+void mirror_ends(float* row, int width, int radius) {
+  for (int i = 1; i <= radius; ++i) {
+    row[-i] = row[mirrored(-i, width)];
+    row[width - 1 + i] = row[mirrored(width - 1 + i, width)];
+  }
+}
+
+/// Where a blurred row goes, besides to the level itself.
+struct RowOutputs {
+  float* level;
+  const float* previous = nullptr;
+  float* difference = nullptr;
+  uint16_t* kept = nullptr;
+};
+
+template <int known>
+void blur_row(const float* row, const Gaussian& gaussian, int width, const RowOutputs& out) {
+  const int radius = known > 0 ? known : gaussian.radius;
+  float taps[kMargin];
+  for (int i = 0; i <= radius; ++i) taps[i] = gaussian.taps[i];
+  for (int x = 0; x < width; x += 16) {
+    const F16 v = blurred(row + x, taps, radius);
+    store(out.level + x, v);
+    if (out.difference) store(out.difference + x, v - load(out.previous + x));
+    if (out.kept) {
+      const H16 fixed =
+          __builtin_convertvector(__builtin_convertvector(v * 256.0f + 0.5f, I16), H16);
+      __builtin_memcpy(out.kept + x, &fixed, sizeof fixed);
+    }
+  }
+}
+
+struct Blur {
+  decltype(&blur_columns<0>) columns;
+  decltype(&blur_row<0>) row;
+};
+
+template <int known>
+constexpr Blur blur_of() {
+  return {blur_columns<known>, blur_row<known>};
+}
+
+/// The radii of three scales an octave from a first blur of 1.6 are unrolled.
+Blur blur_of_radius(int radius) {
+  switch (radius) {
+    case 4:
+      return blur_of<4>();
+    case 5:
+      return blur_of<5>();
+    case 6:
+      return blur_of<6>();
+    case 8:
+      return blur_of<8>();
+    case 10:
+      return blur_of<10>();
+    default:
+      return blur_of<0>();
+  }
+}
+
+// ---- One octave -----------------------------------------------------------------------------
+
+/// Extrema closer to the border than this are not looked for.
+constexpr int kBorder = 5;
+/// Rows above and below an extremum that its refinement may read.
+constexpr int kReach = 3;
+
+class OctaveSearch {
+ public:
+  OctaveSearch(const OctaveInput& input, const Search& search, Octave& octave, Rows& next,
+               std::vector<Extremum>& found);
+  void run();
+
+ private:
+  /// A Gaussian level; the first one may be the raw photo.
+  struct Level {
+    Gaussian from_previous;
+    Rows rows;
+    int done = 0;
+    /// Index in Lowe's sense; −1 for the raw photo.
+    int index = 0;
+  };
+
+  const OctaveInput& input_;
+  const Search& search_;
+  Octave& octave_;
+  Rows& next_;
+  std::vector<Extremum>& found_;
+  const int width_, height_;
+  std::vector<Level> levels_;
+  std::vector<Rows> differences_;
+  std::unique_ptr<PhotoRows> photo_;
+  Rows wide_;
+
+  void make_levels();
+  void make_differences();
+  void advance(size_t level, int row_count);
+  void blur_group(Level& level, Level& previous);
+  RowOutputs outputs(Level& level, Level& previous, int y);
+  void keep_for_next_octave(const float* row, int y);
+  void scan_row(int y);
+  void scan_layer(int layer, int y);
+  bool refine(int layer, int x, int y);
+  const float* at(int layer, int y, int x) const { return differences_[layer][y] + x; }
+};
+
+OctaveSearch::OctaveSearch(const OctaveInput& input, const Search& search, Octave& octave,
+                           Rows& next, std::vector<Extremum>& found)
+    : input_(input),
+      search_(search),
+      octave_(octave),
+      next_(next),
+      found_(found),
+      width_(input.width),
+      height_(input.height),
+      wide_(input.width + 2 * kMargin, kGroup) {
+  octave.width = width_;
+  octave.height = height_;
+  octave.stride = Rows::row_stride(width_);
+  for (int i = 0; i < search.layers; ++i) {
+    octave.levels.emplace_back(octave.stride * static_cast<size_t>(height_) * sizeof(uint16_t));
+  }
+  next = Rows(std::max(1, width_ / 2), std::max(1, height_ / 2));
+  make_levels();
+  make_differences();
+}
+
+void OctaveSearch::make_levels() {
+  const double sigma = search_.sigma, step = std::exp2(1.0 / search_.layers);
+  if (input_.photo) {
+    photo_ = std::make_unique<PhotoRows>(*input_.photo, input_.is_doubled);
+    // Half a pixel of blur is in the photo; doubling makes it a whole one.
+    const double blur = input_.is_doubled ? 1.0 : 0.5;
+    levels_.emplace_back();
+    levels_.back().index = -1;
+    levels_.emplace_back();
+    levels_.back().from_previous =
+        Gaussian(std::sqrt(std::max(0.1 * 0.1, sigma * sigma - blur * blur)));
+  } else {
+    levels_.emplace_back();
+    levels_.back().rows = std::move(*input_.rows);
+    levels_.back().done = height_;
+  }
+  for (int i = 1; i < search_.layers + 3; ++i) {
+    levels_.emplace_back();
+    levels_.back().index = i;
+    levels_.back().from_previous =
+        Gaussian(sigma * std::pow(step, i - 1) * std::sqrt(step * step - 1));
+  }
+  for (size_t i = 0; i < levels_.size(); ++i) {
+    if (levels_[i].done > 0) continue;
+    const int radius = i + 1 < levels_.size() ? levels_[i + 1].from_previous.radius : 0;
+    levels_[i].rows = Rows(width_, 2 * radius + 2 * kGroup);
+  }
+}
+
+void OctaveSearch::make_differences() {
+  int lag = 2 * kReach + 2 * kGroup;
+  std::vector<int> heights;
+  for (size_t i = levels_.size(); heights.size() < static_cast<size_t>(search_.layers) + 2;) {
+    heights.push_back(lag);
+    lag += levels_[--i].from_previous.radius + kGroup;
+  }
+  for (size_t i = heights.size(); i-- > 0;) differences_.emplace_back(width_, heights[i]);
+}
+
+RowOutputs OctaveSearch::outputs(Level& level, Level& previous, int y) {
+  RowOutputs out{level.rows[y]};
+  if (level.index > 0) {
+    out.previous = previous.rows[y];
+    out.difference = differences_[level.index - 1][y];
+  }
+  if (level.index >= 1 && level.index <= search_.layers) {
+    out.kept =
+        octave_.levels[level.index - 1].as<uint16_t>() + static_cast<size_t>(y) * octave_.stride;
+  }
+  return out;
+}
+
+void OctaveSearch::keep_for_next_octave(const float* row, int y) {
+  if (y % 2 != 0 || y / 2 >= height_ / 2) return;
+  float* out = next_[y / 2];
+  for (int x = 0; x < width_ / 2; ++x) out[x] = row[2 * x];
+}
+
+void OctaveSearch::blur_group(Level& level, Level& previous) {
+  const Gaussian& gaussian = level.from_previous;
+  const int y = level.done, radius = gaussian.radius;
+  const float* rows[2 * kMargin];
+  for (int i = 0; i < 2 * radius + kGroup; ++i) {
+    rows[i] = previous.rows[mirrored(y - radius + i, height_)];
+  }
+  float* wide[kGroup];
+  for (int i = 0; i < kGroup; ++i) wide[i] = wide_[i] + kMargin;
+  const Blur blur = blur_of_radius(radius);
+  blur.columns(rows, gaussian, width_, wide);
+  level.done = std::min(height_, y + kGroup);
+  for (int i = y; i < level.done; ++i) {
+    mirror_ends(wide[i - y], width_, radius);
+    const RowOutputs out = outputs(level, previous, i);
+    blur.row(wide[i - y], gaussian, width_, out);
+    if (level.index == search_.layers) keep_for_next_octave(out.level, i);
+  }
+}
+
+/// Makes the first rows of a level, and those of the levels before that it needs.
+void OctaveSearch::advance(size_t index, int row_count) {
+  Level& level = levels_[index];
+  while (level.done < std::min(row_count, height_)) {
+    if (level.index < 0) {
+      photo_->write(level.done, level.rows[level.done]);
+      ++level.done;
+      continue;
+    }
+    advance(index - 1, level.done + kGroup + level.from_previous.radius);
+    blur_group(level, levels_[index - 1]);
+  }
+}
+
+void OctaveSearch::run() {
+  for (int y = kBorder; y < height_ - kBorder; ++y) {
+    advance(levels_.size() - 1, y + kReach + 1);
+    scan_row(y);
+  }
+  advance(levels_.size() - 1, height_);
+}
+
+void OctaveSearch::scan_row(int y) {
+  for (int layer = 1; layer <= search_.layers; ++layer) scan_layer(layer, y);
+}
+
+/// The larger of each and of what is to the left and right of `p`, under the signs `sign`.
+CK_INLINE F16 signed_value(const float* p, const I16& sign) {
+  I16 bits;
+  __builtin_memcpy(&bits, p, sizeof bits);
+  bits ^= sign;
+  F16 v;
+  __builtin_memcpy(&v, &bits, sizeof v);
+  return v;
+}
+
+CK_INLINE F16 larger(const F16& a, const F16& b) { return __builtin_elementwise_max(a, b); }
+
+CK_INLINE F16 largest_of_row(const float* p, const I16& sign) {
+  return larger(larger(signed_value(p - 1, sign), signed_value(p, sign)),
+                signed_value(p + 1, sign));
+}
+
+CK_INLINE F16 largest_of_plane(const Rows& rows, int x, int y, const I16& sign) {
+  return larger(larger(largest_of_row(rows[y - 1] + x, sign), largest_of_row(rows[y] + x, sign)),
+                largest_of_row(rows[y + 1] + x, sign));
+}
+
+/// Extrema among their 26 neighbours. Of equal neighbours the first counts as the extremum, in the
+/// order of rows, columns and layers, so that a symmetric spot is found once.
+void OctaveSearch::scan_layer(int layer, int y) {
+  const Rows& plane = differences_[layer];
+  const float *above = plane[y - 1], *row = plane[y], *below = plane[y + 1];
+  // The value between the pixels is larger, by much less than this factor.
+  const float threshold = 0.6f * search_.threshold;
+  const int end = width_ - kBorder;
+  for (int x = kBorder; x < end; x += 16) {
+    const F16 value = load(row + x);
+    const F16 size = __builtin_elementwise_abs(value);
+    I16 candidates = size > threshold;
+    if (lane_bits(candidates) == 0) continue;
+    I16 sign;
+    __builtin_memcpy(&sign, &value, sizeof sign);
+    sign &= static_cast<int32_t>(0x80000000u);
+    const F16 before = larger(signed_value(row + x - 1, sign), largest_of_row(above + x, sign));
+    const F16 after = larger(signed_value(row + x + 1, sign), largest_of_row(below + x, sign));
+    candidates &= (size > before) & (size >= after);
+    if (lane_bits(candidates) == 0) continue;
+    candidates &= size > largest_of_plane(differences_[layer - 1], x, y, sign);
+    candidates &= size >= largest_of_plane(differences_[layer + 1], x, y, sign);
+    uint32_t bits = lane_bits(candidates);
+    for (; bits != 0; bits &= bits - 1) {
+      const int column = x + __builtin_ctz(bits);
+      if (column < end) refine(layer, column, y);
+    }
+  }
+}
+
+/// Value, gradient and second derivatives along x, y and scale.
+struct Quadratic {
+  double value, gx, gy, gs, xx, yy, ss, xy, xs, ys;
+
+  /// The offset of the extremum; false where there is none.
+  bool solve(double* offset) const {
+    const double a = yy * ss - ys * ys, b = xs * ys - xy * ss, c = xy * ys - xs * yy;
+    const double determinant = xx * a + xy * b + xs * c;
+    if (std::abs(determinant) < 1e-12) return false;
+    const double e = xx * ss - xs * xs, f = xy * xs - xx * ys, h = xx * yy - xy * xy;
+    offset[0] = -(a * gx + b * gy + c * gs) / determinant;
+    offset[1] = -(b * gx + e * gy + f * gs) / determinant;
+    offset[2] = -(c * gx + f * gy + h * gs) / determinant;
+    return true;
+  }
+};
+
+CK_INLINE Quadratic quadratic(const float* const (&p)[3][3]) {
+  Quadratic q;
+  const float* m = p[1][1];
+  q.value = m[0];
+  q.gx = 0.5 * (m[1] - m[-1]);
+  q.gy = 0.5 * (p[1][2][0] - p[1][0][0]);
+  q.gs = 0.5 * (p[2][1][0] - p[0][1][0]);
+  q.xx = m[1] + m[-1] - 2.0 * m[0];
+  q.yy = p[1][2][0] + p[1][0][0] - 2.0 * m[0];
+  q.ss = p[2][1][0] + p[0][1][0] - 2.0 * m[0];
+  q.xy = 0.25 * (p[1][2][1] - p[1][2][-1] - p[1][0][1] + p[1][0][-1]);
+  q.xs = 0.25 * (p[2][1][1] - p[2][1][-1] - p[0][1][1] + p[0][1][-1]);
+  q.ys = 0.25 * (p[2][2][0] - p[2][0][0] - p[0][2][0] + p[0][0][0]);
+  return q;
+}
+
+CK_INLINE bool is_edge(const Quadratic& q, double limit) {
+  const double trace = q.xx + q.yy, determinant = q.xx * q.yy - q.xy * q.xy;
+  return determinant <= 0 || trace * trace * limit >= (limit + 1) * (limit + 1) * determinant;
+}
+
+/// Fits a quadratic, moves to where its extremum is, and keeps it if it is strong and no edge.
+bool OctaveSearch::refine(int layer, int x, int y) {
+  const int first_row = y;
+  for (int iteration = 0; iteration < 5; ++iteration) {
+    const float* p[3][3];
+    for (int s = 0; s < 3; ++s) {
+      for (int r = 0; r < 3; ++r) p[s][r] = at(layer + s - 1, y + r - 1, x);
+    }
+    const Quadratic q = quadratic(p);
+    double o[3];
+    if (!q.solve(o) || std::abs(o[0]) > 4 || std::abs(o[1]) > 4 || std::abs(o[2]) > 4) return false;
+    if (std::abs(o[0]) <= 0.5 && std::abs(o[1]) <= 0.5 && std::abs(o[2]) <= 0.5) {
+      const double contrast = std::abs(q.value + 0.5 * (q.gx * o[0] + q.gy * o[1] + q.gs * o[2]));
+      if (contrast < search_.threshold || is_edge(q, search_.edge_threshold)) return false;
+      const double sigma = search_.sigma * std::exp2((layer + o[2]) / search_.layers);
+      found_.push_back({static_cast<float>(x + o[0]), static_cast<float>(y + o[1]),
+                        static_cast<float>(sigma), static_cast<float>(contrast), layer - 1,
+                        input_.index});
+      return true;
+    }
+    x += static_cast<int>(std::lround(o[0]));
+    y += static_cast<int>(std::lround(o[1]));
+    layer += static_cast<int>(std::lround(o[2]));
+    if (layer < 1 || layer > search_.layers || x < kBorder || x >= width_ - kBorder ||
+        y < kBorder || y >= height_ - kBorder || std::abs(y - first_row) >= kReach) {
+      return false;
+    }
+  }
+  return false;
+}
+
+void search_octave(const OctaveInput& input, const Search& search, Octave& octave, Rows& next,
+                   std::vector<Extremum>& found) {
+  OctaveSearch(input, search, octave, next, found).run();
+}
+
+}  // namespace
+}  // namespace ck::sift

@@ -1,0 +1,30 @@
+#include <algorithm>
+#include <cmath>
+
+#include "features/scale_space.h"
+#include "features/vectors16.h"
+
+#define CK_SIFT_KERNELS portable_kernels
+
+namespace ck::sift {
+namespace {
+
+inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
+  uint32_t bits = 0;
+  for (int i = 0; i < 16; ++i) bits |= static_cast<uint32_t>(lanes[i] != 0) << i;
+  return bits;
+}
+
+inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base,
+                                                  const I16& index) {
+  for (int i = 0; i < 16; ++i) {
+    out[i] = uint32_t{base[index[i]]} | uint32_t{base[index[i] + 1]} << 16;
+  }
+}
+
+}  // namespace
+}  // namespace ck::sift
+
+#include "features/scale_space.inl"
+//
+#include "features/describe.inl"
