@@ -10,6 +10,7 @@
 #include "ck_image.h"
 #include "ck_matching.h"
 #include "ck_patches.h"
+#include "ck_refinement.h"
 #include "ck_resection.h"
 #include "ck_retrieval.h"
 #include "ck_surface.h"

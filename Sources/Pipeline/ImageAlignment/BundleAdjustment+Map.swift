@@ -27,11 +27,15 @@ struct MapAdjustment: Sendable {
     var photosForK1 = 3
     var photosForK2 = 5
     var photosForPrincipalPoint = 6
+    /// Relative rise of the cost that a simpler camera model may bring.
+    var simplificationTolerance = 0.01
   }
 
   var options = Options()
   /// The cameras before any adjustment: what the priors rest on.
   var initialCameras: [Camera]
+  /// Parameters that stay as they are however many photos there are.
+  var withheld: BundleAdjustment.CameraFreedom = []
 
   /// Adjusts `photo`, the photos that share most points with it, and the points it sees. The other
   /// points of these photos hold them in place, and cameras keep their intrinsics.
@@ -66,9 +70,10 @@ struct MapAdjustment: Sendable {
   }
 
   /// Adjusts all poses and points, and what the data supports of the intrinsics.
+  @discardableResult
   func adjustGlobally(
     _ map: inout SparseMap, isFinal: Bool = false, _ control: KernelControl
-  ) throws {
+  ) throws -> BundleAdjustment.Summary? {
     let before = map
     let points = map.isTriangulated.indices.filter { map.isTriangulated[$0] }
     var poses = map.photos.poses.map { _ in BundleAdjustment.PoseFreedom.free }
@@ -78,13 +83,13 @@ struct MapAdjustment: Sendable {
       isFinal
       ? (2 * options.globalIterations, options.finalTolerance)
       : (options.globalIterations, options.growthTolerance)
-    try adjust(
+    let summary = try adjust(
       points, poses: poses, cameras: freedom(map), &map, iterations: iterations,
       tolerance: tolerance, control)
-    guard !map.photos.cameras.allSatisfy(\.isPlausible) else { return }
+    guard !map.photos.cameras.allSatisfy(\.isPlausible) else { return summary }
     // Weak geometry can bend a camera out of shape; the same without the intrinsics can't.
     map = before
-    try adjust(
+    return try adjust(
       points, poses: poses, cameras: map.photos.cameras.map { _ in [] }, &map,
       iterations: iterations, tolerance: tolerance, control)
   }
@@ -99,7 +104,7 @@ struct MapAdjustment: Sendable {
       if count >= options.photosForK1 { freedom.insert(.k1) }
       if count >= options.photosForK2 { freedom.insert(.k2) }
       if count >= options.photosForPrincipalPoint { freedom.insert(.principalPoint) }
-      return freedom
+      return freedom.subtracting(withheld)
     }
   }
 
@@ -115,11 +120,12 @@ struct MapAdjustment: Sendable {
     return prior
   }
 
+  @discardableResult
   private func adjust(
     _ points: [Int], anchors: [Int] = [], poses: [BundleAdjustment.PoseFreedom],
     cameras: [BundleAdjustment.CameraFreedom], _ map: inout SparseMap, iterations: Int,
     tolerance: Double, _ control: KernelControl
-  ) throws {
+  ) throws -> BundleAdjustment.Summary {
     var observations: [PointObservation] = []
     for (point, track) in points.enumerated() {
       for index in map.tracks.observations(of: track) where map.isActive[index] {
@@ -143,9 +149,10 @@ struct MapAdjustment: Sendable {
     kernel.maximumIterations = iterations
     kernel.functionTolerance = tolerance
     kernel.huberWidth = options.huberWidth
-    try BundleAdjustment(kernel).run(&problem, control: control)
+    let summary = try BundleAdjustment(kernel).run(&problem, control: control)
     map.photos = problem.photos
     for (track, position) in zip(points, problem.points) { map.positions[track] = position }
+    return summary
   }
 }
 

@@ -23,6 +23,10 @@ package struct FeatureTracks: Sendable {
     Int(offsets[track])..<Int(offsets[track + 1])
   }
 
+  mutating func movePixel(of observation: Int, to pixel: SIMD2<Double>) {
+    pixels[observation] = pixel
+  }
+
   /// Adds a track; `members` are sorted by photo.
   package mutating func append(
     _ members: some Sequence<(photo: Int32, feature: Int32, pixel: SIMD2<Double>)>

@@ -15,6 +15,7 @@ package struct ImageAlignment: Sendable {
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
     package var mapping = SparseMapping.Options()
+    package var refinement = ObservationRefinement.Options()
     package var framing = WorldFraming.Options()
 
     package init() {}
@@ -47,13 +48,31 @@ package struct ImageAlignment: Sendable {
     let mapped = try timed("mappingSeconds", context) {
       try SparseMapping(options.mapping).run(
         graph, features: features, photos: photos, cameras: calibrated,
-        context.part(from: 0.7, to: 0.98))
+        context.part(from: 0.7, to: 0.85))
     }
     try check(mapped, graph, context.notes)
-    let reconstruction = WorldFraming(options.framing).run(mapped, context.part(from: 0.98, to: 1))
+    let refined = try timed("refinementSeconds", context) {
+      try refined(mapped, features, calibrated, images, context.part(from: 0.85, to: 0.98))
+    }
+    let reconstruction = WorldFraming(options.framing).run(refined, context.part(from: 0.98, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction
+  }
+
+  /// The reconstruction with refined observations, or as it is where that comes to nothing.
+  private func refined(
+    _ mapped: Reconstruction, _ features: [FeatureSet], _ cameras: [Camera], _ images: ImageStore,
+    _ context: StageContext
+  ) throws -> Reconstruction {
+    do {
+      return try ObservationRefinement(options.refinement)
+        .run(mapped, features: features, cameras: cameras, images: images, context)
+    } catch let error as KernelError {
+      context.notes.warn(
+        "The observations could not be refined (\(error)); poses are less accurate.")
+      return mapped
+    }
   }
 
   private func check(

@@ -93,31 +93,10 @@ package struct IncrementalMapping: Sendable {
       cameras[Int(map.photos.cameraOfPhoto[photo])].calibration = .refined
     }
     let points = (0..<map.tracks.count).filter { map.isTriangulated[$0] }.map { track in
-      scenePoint(track, map, features)
+      map.scenePoint(track, features)
     }
     return Reconstruction(
       cameras: cameras, photos: photos, poses: map.photos.poses, points: points,
       unregistered: unregistered(map, others: others, graph, features, photos))
-  }
-
-  private func scenePoint(_ track: Int, _ map: SparseMap, _ features: [FeatureSet]) -> ScenePoint {
-    var point = ScenePoint(position: map.positions[track])
-    var (color, colored, error) = (SIMD3<Int>.zero, 0, 0.0)
-    for index in map.activeObservations(of: track) {
-      let (photo, feature) = (Int(map.tracks.photos[index]), map.tracks.features[index])
-      point.track.append(
-        Observation(photo: ID(photo), feature: feature, pixel: map.tracks.pixels[index]))
-      if let pose = map.photos.poses[photo] {
-        let camera = map.photos.cameras[Int(map.photos.cameraOfPhoto[photo])]
-        error += (camera.project(pose * point.position) - map.tracks.pixels[index]).length
-      }
-      if features[photo].colors.indices.contains(Int(feature)) {
-        color &+= SIMD3<Int>(truncatingIfNeeded: features[photo].colors[Int(feature)])
-        colored += 1
-      }
-    }
-    point.error = error / Double(max(1, point.track.count))
-    point.color = SIMD3<UInt8>(clamping: color / max(1, colored))
-    return point
   }
 }

@@ -84,6 +84,20 @@ struct SparseMap: Sendable {
     tracks.observationsOfPhoto[photo].count { isActive[Int($0)] }
   }
 
+  /// Puts an observation elsewhere in its photo.
+  mutating func moveObservation(_ index: Int, to pixel: SIMD2<Double>) {
+    tracks.movePixel(of: index, to: pixel)
+  }
+
+  /// Exchanges the observations of all tracks, whose points stay.
+  mutating func replaceTracks(
+    _ members: [[(photo: Int32, feature: Int32, pixel: SIMD2<Double>, isActive: Bool)]]
+  ) {
+    tracks = FeatureTracks(photoCount: photos.poses.count)
+    for track in members { tracks.append(track.map { ($0.photo, $0.feature, $0.pixel) }) }
+    isActive = members.flatMap { $0.map(\.isActive) }
+  }
+
   func pointObservation(_ index: Int, point: Int) -> PointObservation {
     PointObservation(
       photo: tracks.photos[index], point: Int32(point), pixel: tracks.pixels[index])

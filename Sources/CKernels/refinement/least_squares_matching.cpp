@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ck_refinement.h"
+#include "core/guard.h"
+#include "refinement/luma_pyramid.h"
+
+namespace ck {
+namespace {
+
+/// Samples along a side of the window that is compared: the template without its border.
+constexpr int kSide = CK_TEMPLATE_SIDE - 2;
+constexpr int kCount = kSide * kSide;
+constexpr int kIterations = 15;
+/// A search has settled when its step is shorter than this, in pixels.
+constexpr double kSettled = 0.003;
+constexpr float kSampleScale = 64;
+/// Least standard deviation of the luma in a template that holds texture.
+constexpr float kMinimumDeviation = 2.5f;
+/// Least ratio of the eigenvalues of its structure tensor.
+constexpr float kMinimumIsotropy = 0.03f;
+
+using Window = std::array<float, kCount>;
+
+/// Gaussian weights of the window, which sum to one.
+Window window_weights() {
+  Window weights;
+  const float sigma = 0.5f * (kSide / 2 + 1);
+  float sum = 0;
+  for (int k = 0; k < kCount; ++k) {
+    const float x = static_cast<float>(k % kSide - kSide / 2);
+    const float y = static_cast<float>(k / kSide - kSide / 2);
+    sum += weights[k] = std::exp(-(x * x + y * y) / (2 * sigma * sigma));
+  }
+  for (float& weight : weights) weight /= sum;
+  return weights;
+}
+
+const Window kWeights = window_weights();
+
+float weighted_dot(const Window& a, const Window& b) {
+  float sum = 0;
+  for (int k = 0; k < kCount; ++k) sum += kWeights[k] * a[k] * b[k];
+  return sum;
+}
+
+/// Subtracts the mean and scales to unit variance; returns the standard deviation.
+float normalise(Window& values) {
+  float mean = 0;
+  for (int k = 0; k < kCount; ++k) mean += kWeights[k] * values[k];
+  for (float& value : values) value -= mean;
+  const float deviation = std::sqrt(weighted_dot(values, values));
+  const float factor = deviation > 1e-6f ? 1 / deviation : 0;
+  for (float& value : values) value *= factor;
+  return deviation;
+}
+
+/// Removes from a derivative what gain and offset explain.
+void project_out(Window& derivative, const Window& unit) {
+  float mean = 0;
+  for (int k = 0; k < kCount; ++k) mean += kWeights[k] * derivative[k];
+  for (float& value : derivative) value -= mean;
+  const float share = weighted_dot(derivative, unit);
+  for (int k = 0; k < kCount; ++k) derivative[k] -= share * unit[k];
+}
+
+/// A template, normalised, with its derivatives by sample and the normal equations' matrix.
+struct Template {
+  Window unit, dx, dy;
+  float deviation = 0, xx = 0, xy = 0, yy = 0;
+
+  explicit Template(const float* samples) {
+    for (int k = 0; k < kCount; ++k) {
+      const float* p = samples + (k / kSide + 1) * CK_TEMPLATE_SIDE + k % kSide + 1;
+      unit[k] = p[0];
+      dx[k] = 0.5f * (p[1] - p[-1]);
+      dy[k] = 0.5f * (p[CK_TEMPLATE_SIDE] - p[-CK_TEMPLATE_SIDE]);
+    }
+    deviation = normalise(unit);
+    const float factor = deviation > 1e-6f ? 1 / deviation : 0;
+    for (int k = 0; k < kCount; ++k) dx[k] *= factor, dy[k] *= factor;
+    project_out(dx, unit);
+    project_out(dy, unit);
+    xx = weighted_dot(dx, dx), xy = weighted_dot(dx, dy), yy = weighted_dot(dy, dy);
+  }
+
+  bool has_texture() const {
+    const float mean = (xx + yy) / 2;
+    const float root = std::sqrt(std::max(0.0f, mean * mean - (xx * yy - xy * xy)));
+    return deviation >= kMinimumDeviation && mean > 0 &&
+           mean - root >= kMinimumIsotropy * (mean + root);
+  }
+};
+
+ck_template_find search(const LumaPyramid& image, const Template& model,
+                        const ck_template_search& s, double max_shift) {
+  const ck_template_find nothing{s.x, s.y, -1};
+  const double a = s.step * s.warp[0], b = s.step * s.warp[1], c = s.step * s.warp[2],
+               d = s.step * s.warp[3];
+  const double determinant = double(model.xx) * model.yy - double(model.xy) * model.xy;
+  const double area = std::abs(a * d - b * c);
+  if (!(determinant > 1e-12) || !(area > 1e-6)) return nothing;
+  const int level = image.level_for(std::sqrt(area));
+  double x = s.x, y = s.y;
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    Window values;
+    if (!image.sample_grid(level, x, y, a, c, b, d, kSide, values.data())) return nothing;
+    normalise(values);
+    float bx = 0, by = 0;
+    for (int k = 0; k < kCount; ++k) {
+      const float residual = kWeights[k] * (values[k] - model.unit[k]);
+      bx += residual * model.dx[k];
+      by += residual * model.dy[k];
+    }
+    const double u = (model.yy * bx - model.xy * by) / determinant;
+    const double v = (model.xx * by - model.xy * bx) / determinant;
+    const double step_x = a * u + b * v, step_y = c * u + d * v;
+    x -= step_x, y -= step_y;
+    if (!(std::hypot(x - s.x, y - s.y) <= max_shift)) return nothing;
+    if (std::hypot(step_x, step_y) < kSettled) {
+      return {x, y, double(weighted_dot(values, model.unit))};
+    }
+  }
+  return nothing;
+}
+
+void check_image(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
+                 size_t row_stride) {
+  require(pixels && width > 0 && height > 0, "an image is needed");
+  require(channels == 1 || channels == 3 || channels == 4, "1, 3 or 4 channels are needed");
+  require(row_stride >= static_cast<size_t>(width) * channels, "the row stride is too small");
+}
+
+}  // namespace
+}  // namespace ck
+
+ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t height,
+                               int32_t channels, size_t row_stride, const ck_template_place* places,
+                               size_t count, uint16_t* samples, uint8_t* valid) {
+  return ck::guarded([&] {
+    ck::check_image(pixels, width, height, channels, row_stride);
+    const ck::LumaPyramid image(pixels, width, height, channels, row_stride);
+    for (size_t i = 0; i < count; ++i) {
+      const ck_template_place& p = places[i];
+      float values[CK_TEMPLATE_SAMPLES];
+      uint16_t* out = samples + i * CK_TEMPLATE_SAMPLES;
+      valid[i] = image.sample_grid(image.level_for(p.step), p.x, p.y, p.step, 0, 0, p.step,
+                                   CK_TEMPLATE_SIDE, values) &&
+                 ck::Template(values).has_texture();
+      for (int k = 0; k < CK_TEMPLATE_SAMPLES; ++k) {
+        // Cubic interpolation overshoots at edges.
+        const float value = valid[i] ? std::min(1023.0f, std::max(0.0f, values[k])) : 0;
+        out[k] = static_cast<uint16_t>(ck::kSampleScale * value + 0.5f);
+      }
+    }
+  });
+}
+
+ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
+                             size_t row_stride, const uint16_t* samples, size_t template_count,
+                             const ck_template_search* searches, size_t count, double max_shift,
+                             ck_template_find* finds) {
+  return ck::guarded([&] {
+    ck::check_image(pixels, width, height, channels, row_stride);
+    const ck::LumaPyramid image(pixels, width, height, channels, row_stride);
+    for (size_t i = 0; i < count; ++i) {
+      const ck_template_search& s = searches[i];
+      ck::require(s.index >= 0 && static_cast<size_t>(s.index) < template_count,
+                  "a search names a template that isn't there");
+      const uint16_t* stored = samples + static_cast<size_t>(s.index) * CK_TEMPLATE_SAMPLES;
+      float values[CK_TEMPLATE_SAMPLES];
+      for (int k = 0; k < CK_TEMPLATE_SAMPLES; ++k) values[k] = stored[k] / ck::kSampleScale;
+      finds[i] = ck::search(image, ck::Template(values), s, max_shift);
+    }
+  });
+}

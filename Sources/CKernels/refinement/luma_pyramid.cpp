@@ -1,0 +1,106 @@
+#include "refinement/luma_pyramid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace ck {
+namespace {
+
+constexpr int kLevels = 4;
+
+using Float4 = float __attribute__((vector_size(16)));
+using Byte4 = uint8_t __attribute__((vector_size(4)));
+
+inline Float4 load(const uint8_t* pixels) {
+  Byte4 bytes;
+  std::memcpy(&bytes, pixels, sizeof bytes);
+  return __builtin_convertvector(bytes, Float4);
+}
+
+/// Weights of four neighbours (Keys, "Cubic convolution interpolation", 1981).
+inline Float4 cubic_weights(float t) {
+  return Float4{((-0.5f * t + 1) * t - 0.5f) * t, (1.5f * t - 2.5f) * t * t + 1,
+                ((-1.5f * t + 2) * t + 0.5f) * t, (0.5f * t - 0.5f) * t * t};
+}
+
+/// Rec. 601 luma in 1/256.
+inline uint8_t luma(const uint8_t* pixel, int channels) {
+  if (channels == 1) return pixel[0];
+  return static_cast<uint8_t>((77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2] + 128) >> 8);
+}
+
+}  // namespace
+
+LumaPyramid::LumaPyramid(const uint8_t* pixels, int width, int height, int channels,
+                         size_t stride) {
+  Level base{width, height, std::vector<uint8_t>(static_cast<size_t>(width) * height)};
+  for (int y = 0; y < height; ++y) {
+    const uint8_t* row = pixels + static_cast<size_t>(y) * stride;
+    uint8_t* out = base.pixels.data() + static_cast<size_t>(y) * width;
+    for (int x = 0; x < width; ++x)
+      out[x] = luma(row + static_cast<size_t>(x) * channels, channels);
+  }
+  levels_.push_back(std::move(base));
+  while (levels_.size() < kLevels && std::min(levels_.back().width, levels_.back().height) >= 32) {
+    add_half();
+  }
+}
+
+void LumaPyramid::add_half() {
+  const Level& full = levels_.back();
+  Level half{full.width / 2, full.height / 2, {}};
+  half.pixels.resize(static_cast<size_t>(half.width) * half.height);
+  for (int y = 0; y < half.height; ++y) {
+    const uint8_t* upper = full.pixels.data() + static_cast<size_t>(2 * y) * full.width;
+    const uint8_t* lower = upper + full.width;
+    uint8_t* out = half.pixels.data() + static_cast<size_t>(y) * half.width;
+    for (int x = 0; x < half.width; ++x) {
+      const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
+      out[x] = static_cast<uint8_t>((sum + 2) / 4);
+    }
+  }
+  levels_.push_back(std::move(half));
+}
+
+int LumaPyramid::level_for(double spacing) const {
+  int level = 0;
+  while (level + 1 < static_cast<int>(levels_.size()) && spacing >= 2) {
+    spacing /= 2;
+    ++level;
+  }
+  return level;
+}
+
+bool LumaPyramid::sample_grid(int level, double x, double y, double ax, double ay, double bx,
+                              double by, int side, float* values) const {
+  const Level& image = levels_[static_cast<size_t>(level)];
+  const double factor = 1.0 / (1 << level), half = (side - 1) / 2.0;
+  // From the corner of the whole image to the centre of this level's first pixel.
+  const double cx = x * factor - 0.5, cy = y * factor - 0.5;
+  ax *= factor, ay *= factor, bx *= factor, by *= factor;
+  const double reach_x = half * (std::abs(ax) + std::abs(bx));
+  const double reach_y = half * (std::abs(ay) + std::abs(by));
+  if (!(cx - reach_x >= 1 && cy - reach_y >= 1 && cx + reach_x < image.width - 2 &&
+        cy + reach_y < image.height - 2)) {
+    return false;
+  }
+  const size_t stride = static_cast<size_t>(image.width);
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const float px = static_cast<float>(cx + (i - half) * ax + (j - half) * bx);
+      const float py = static_cast<float>(cy + (i - half) * ay + (j - half) * by);
+      const int column = static_cast<int>(px), row = static_cast<int>(py);
+      const uint8_t* p = image.pixels.data() + static_cast<size_t>(row - 1) * stride + column - 1;
+      const Float4 wx = cubic_weights(px - static_cast<float>(column));
+      const Float4 wy = cubic_weights(py - static_cast<float>(row));
+      const Float4 sum = (load(p) * wy[0] + load(p + stride) * wy[1] +
+                          load(p + 2 * stride) * wy[2] + load(p + 3 * stride) * wy[3]) *
+                         wx;
+      *values++ = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    }
+  }
+  return true;
+}
+
+}  // namespace ck

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace ck {
+
+/// The luma of an image and its halves, sampled by cubic interpolation.
+///
+/// Positions are pixels of the whole image from the corner of its top-left pixel, at every level.
+class LumaPyramid {
+ public:
+  LumaPyramid(const uint8_t* pixels, int width, int height, int channels, size_t stride);
+
+  /// The level whose pixels are at most `spacing` pixels wide.
+  int level_for(double spacing) const;
+
+  /// Samples a grid of `side` × `side` points about (x, y); false where it leaves the image. One
+  /// step along a row of the grid is (ax, ay) pixels, one along a column (bx, by).
+  bool sample_grid(int level, double x, double y, double ax, double ay, double bx, double by,
+                   int side, float* values) const;
+
+ private:
+  struct Level {
+    int width, height;
+    std::vector<uint8_t> pixels;
+  };
+
+  void add_half();
+
+  std::vector<Level> levels_;
+};
+
+}  // namespace ck

@@ -1,0 +1,41 @@
+import Kernels
+import SceneModel
+
+extension MapAdjustment {
+  /// Takes parameters of the cameras back that explain next to nothing.
+  ///
+  /// Errors of measurement aren't independent, so nearly every parameter looks significant, and on few
+  /// photos it bends the poses. Of the models k2 = 0, no distortion, and no distortion with the principal
+  /// point in the centre, the simplest is taken whose cost is higher by less than
+  /// `simplificationTolerance`.
+  mutating func simplifyCameras(_ map: inout SparseMap, _ control: KernelControl) throws {
+    guard withheld.isEmpty else { return }
+    var best = map
+    let limit = (1 + options.simplificationTolerance) * (try cost(of: &best, control))
+    for withheld: BundleAdjustment.CameraFreedom in [
+      [.k2], [.k1, .k2], [.k1, .k2, .principalPoint],
+    ] {
+      var (trial, simpler) = (map, self)
+      simpler.withheld = withheld
+      simpler.resetWithheld(&trial)
+      guard try simpler.cost(of: &trial, control) <= limit else { break }
+      (best, self.withheld) = (trial, withheld)
+    }
+    map = best
+  }
+
+  /// Adjusts all and returns the robust cost.
+  private func cost(of map: inout SparseMap, _ control: KernelControl) throws -> Double {
+    try adjustGlobally(&map, control)?.finalCost ?? .infinity
+  }
+
+  private func resetWithheld(_ map: inout SparseMap) {
+    for index in map.photos.cameras.indices {
+      if withheld.contains(.k1) { map.photos.cameras[index].distortion.x = 0 }
+      if withheld.contains(.k2) { map.photos.cameras[index].distortion.y = 0 }
+      if withheld.contains(.principalPoint) {
+        map.photos.cameras[index].principalPoint = initialCameras[index].principalPoint
+      }
+    }
+  }
+}

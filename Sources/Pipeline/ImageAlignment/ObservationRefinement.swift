@@ -1,0 +1,93 @@
+import Kernels
+import SceneModel
+
+/// Puts observations where the texture says, to a few hundredths of a pixel, finds those that feature
+/// matching missed, and adjusts the reconstruction to them.
+///
+/// Each photo's detector errs on its own by a third of a pixel. Here one photo of a track gives a
+/// template, and least squares matching (Gruen, "Adaptive least squares correlation", 1985) finds its
+/// place in the others, through the warp that the poses predict; also in photos where the point should
+/// be seen and has no feature. In spirit Lindenberger et al., "Pixel-perfect structure-from-motion",
+/// ICCV 2021.
+package struct ObservationRefinement: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Photos of more pixels are reduced to this size.
+    package var workingPixels = 6_500_000
+    /// Distance of a template's samples in σ of its feature; at least a working pixel.
+    package var stepPerScale = 1.0 / 3
+    /// Correlation that a known observation needs, and one that is new.
+    package var minimumCorrelation = 0.8
+    package var minimumNewCorrelation = 0.9
+    /// Working pixels that a known observation may move, and a new one from where it is expected.
+    package var maximumShift = 3.0
+    package var maximumNewShift = 1.0
+    /// A photo with fewer confirmed observations than this share keeps the others as they were.
+    package var minimumConfirmedShare = 0.25
+    /// With fewer of the points left than this share, nothing is changed: the photos don't show what
+    /// the poses say.
+    package var minimumPointShare = 0.5
+    /// Photos that a point is looked for in at most: those that share most points with its reference.
+    package var neighbours = 20
+    /// Largest angle in degrees between a new observation's ray and the mean of the known ones.
+    package var maximumAngleDegrees = 40.0
+    /// Largest reprojection error as a multiple of the median, and its bounds in working pixels.
+    package var errorFactor = 6.0
+    package var errorBounds = 0.5...2.0
+    /// Where the loss turns from square to linear, as a multiple of the median error.
+    package var huberFactor = 2.5
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// The reconstruction, adjusted to refined observations; `cameras` are those before any adjustment.
+  package func run(
+    _ reconstruction: Reconstruction, features: [FeatureSet], cameras: [Camera],
+    images: ImageStore, _ context: StageContext
+  ) throws -> Reconstruction {
+    guard !reconstruction.points.isEmpty else { return reconstruction }
+    var map = SparseMap(reconstruction)
+    var adjustment = MapAdjustment(initialCameras: cameras)
+    let search = try TemplateSearch(
+      map, features: features, photos: reconstruction.photos, images: images, options,
+      context.part(from: 0, to: 0.2))
+    try search.refine(&map, context.part(from: 0.2, to: 0.4))
+    try settle(&map, &adjustment, context.part(from: 0.4, to: 0.5))
+    let found = try search.extend(&map, context.part(from: 0.5, to: 0.75))
+    context.notes.count("newObservations", Double(found))
+    try settle(&map, &adjustment, context.part(from: 0.75, to: 0.85))
+    try adjustment.simplifyCameras(&map, context.control.part(from: 0.85, to: 0.9))
+    try settle(&map, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
+    let refined = map.reconstruction(like: reconstruction, features: features)
+    let isHollow =
+      Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
+    return isHollow ? reconstruction : refined
+  }
+
+  /// Adjusts everything and takes out what then contradicts.
+  private func settle(
+    _ map: inout SparseMap, _ adjustment: inout MapAdjustment, isFinal: Bool = false,
+    _ context: StageContext
+  ) throws {
+    let pixel = workingPixel(map)
+    let median = try map.medianError(context.control)
+    adjustment.options.huberWidth = max(options.huberFactor * median, 0.1 * pixel)
+    try adjustment.adjustGlobally(&map, isFinal: isFinal, context.control)
+    let bounds = options.errorBounds
+    let error = min(
+      max(
+        options.errorFactor * (try map.medianError(context.control)) / pixel,
+        bounds.lowerBound), bounds.upperBound)
+    let points = PointTriangulation(options: .init(maximumError: error * pixel))
+    try points.filter(Array(map.isTriangulated.indices), in: &map, context.control)
+  }
+
+  /// The width of a working pixel in pixels of the largest photo.
+  private func workingPixel(_ map: SparseMap) -> Double {
+    let pixels = map.photos.cameras.map { Double($0.width * $0.height) }.max() ?? 1
+    return max(1, (pixels / Double(options.workingPixels)).squareRoot())
+  }
+}

@@ -1,0 +1,101 @@
+import Kernels
+import SceneModel
+
+extension SparseMap {
+  /// An observation that a track lacks.
+  struct Addition: Hashable, Sendable {
+    var track: Int
+    var photo: Int
+    var pixel: SIMD2<Double>
+  }
+
+  /// The feature of an observation that was found without one.
+  static let noFeature: Int32 = -1
+
+  /// The map that a reconstruction shows: all its photos registered, all its observations active.
+  init(_ reconstruction: Reconstruction) {
+    var tracks = FeatureTracks(photoCount: reconstruction.photos.count)
+    for point in reconstruction.points {
+      tracks.append(point.track.map { ($0.photo.rawValue, $0.feature, $0.pixel) })
+    }
+    self.init(cameras: reconstruction.cameras, photos: reconstruction.photos, tracks: tracks)
+    for photo in reconstruction.registered {
+      if let pose = reconstruction.poses[photo.index] { register(photo.index, pose) }
+    }
+    for (track, point) in reconstruction.points.enumerated() { setPoint(track, point.position) }
+    isActive = isActive.map { _ in true }
+  }
+
+  /// The reconstruction that the map shows now; photos and what isn't in the map are as in `other`.
+  func reconstruction(like other: Reconstruction, features: [FeatureSet]) -> Reconstruction {
+    var result = other
+    result.poses = photos.poses
+    for (index, camera) in photos.cameras.enumerated() {
+      let calibration = result.cameras[index].calibration
+      result.cameras[index] = camera
+      result.cameras[index].calibration = calibration
+    }
+    result.points = (0..<tracks.count).filter { isTriangulated[$0] }.map {
+      scenePoint($0, features)
+    }
+    return result
+  }
+
+  /// The point of a track with its colour, error and active observations.
+  func scenePoint(_ track: Int, _ features: [FeatureSet]) -> ScenePoint {
+    var point = ScenePoint(position: positions[track])
+    var (color, colored, error) = (SIMD3<Int>.zero, 0, 0.0)
+    for index in activeObservations(of: track) {
+      let (photo, feature) = (Int(tracks.photos[index]), tracks.features[index])
+      point.track.append(
+        Observation(photo: ID(photo), feature: feature, pixel: tracks.pixels[index]))
+      if let pose = photos.poses[photo] {
+        let camera = photos.cameras[Int(photos.cameraOfPhoto[photo])]
+        error += (camera.project(pose * point.position) - tracks.pixels[index]).length
+      }
+      if features[photo].colors.indices.contains(Int(feature)) {
+        color &+= SIMD3<Int>(truncatingIfNeeded: features[photo].colors[Int(feature)])
+        colored += 1
+      }
+    }
+    point.error = error / Double(max(1, point.track.count))
+    point.color = SIMD3<UInt8>(clamping: color / max(1, colored))
+    return point
+  }
+
+  /// The median of the active observations' reprojection errors in pixels.
+  func medianError(_ control: KernelControl) throws -> Double {
+    var batch = TrackObservations()
+    var points: [SIMD3<Double>] = []
+    for track in 0..<tracks.count where isTriangulated[track] {
+      batch.append(activeObservations(of: track).map { pointObservation($0, point: points.count) })
+      points.append(positions[track])
+    }
+    let errors = try Triangulation.measure(
+      batch, positions: points, photos: photos, maximumError: 1, control: control
+    ).errors.sorted()
+    return errors.isEmpty ? 0 : errors[errors.count / 2]
+  }
+
+  /// Drops points that fewer than two observations hold.
+  mutating func dropUnsupportedPoints() {
+    for track in 0..<tracks.count where isTriangulated[track] {
+      if activeObservations(of: track).count < 2 { dropPoint(track) }
+    }
+  }
+
+  /// Gives tracks observations in photos that they lack, or in the place of inactive ones.
+  mutating func add(_ additions: [Addition]) {
+    var added = [[Addition]](repeating: [], count: tracks.count)
+    for addition in additions { added[addition.track].append(addition) }
+    var members: [[(photo: Int32, feature: Int32, pixel: SIMD2<Double>, isActive: Bool)]] = []
+    for track in 0..<tracks.count {
+      let new = Set(added[track].map { Int32($0.photo) })
+      let known = tracks.observations(of: track).filter { !new.contains(tracks.photos[$0]) }
+        .map { (tracks.photos[$0], tracks.features[$0], tracks.pixels[$0], isActive[$0]) }
+      let found = added[track].map { (Int32($0.photo), Self.noFeature, $0.pixel, true) }
+      members.append((known + found).sorted { $0.0 < $1.0 })
+    }
+    replaceTracks(members)
+  }
+}

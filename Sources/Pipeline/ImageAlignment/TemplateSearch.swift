@@ -1,0 +1,183 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// The templates of a map's tracks, and the search for them in the photos, photo by photo.
+struct TemplateSearch: Sendable {
+  private let options: ObservationRefinement.Options
+  private let photos: [Photo]
+  private let images: ImageStore
+  /// The reference of each track; nil where there is none.
+  private var references: [TrackReference?]
+  private var templates: TemplateMatching.Templates
+
+  /// A search that waits for its photo.
+  private struct Candidate: Sendable {
+    var track: Int
+    /// The observation that is to be refined; nil for a new one.
+    var observation: Int?
+    var expected: SIMD2<Double>
+    var warp: SIMD4<Double>
+  }
+
+  /// Reads the templates of all tracks.
+  init(
+    _ map: SparseMap, features: [FeatureSet], photos: [Photo], images: ImageStore,
+    _ options: ObservationRefinement.Options, _ context: StageContext
+  ) throws {
+    (self.options, self.photos, self.images) = (options, photos, images)
+    references = (0..<map.tracks.count).map { track in
+      guard map.isTriangulated[track] else { return nil }
+      return TrackReference(track: track, of: map) { photo, feature in
+        let scales = features[photo].scales
+        let scale = scales.indices.contains(Int(feature)) ? Double(scales[Int(feature)]) : 0
+        return max(options.stepPerScale * scale, Self.workingPixel(of: photos[photo], options))
+      }
+    }
+    templates = TemplateMatching.Templates(count: map.tracks.count)
+    try readTemplates(context)
+  }
+
+  /// The width of a working pixel in pixels of the full photo.
+  private static func workingPixel(
+    of photo: Photo, _ options: ObservationRefinement.Options
+  ) -> Double {
+    let pixels = Double(photo.width * photo.height)
+    return max(1, (pixels / Double(options.workingPixels)).squareRoot())
+  }
+
+  private func image(_ photo: Int) throws -> (image: RasterImage, factor: SIMD2<Double>) {
+    let image = try images.image(ID(photo), maximumPixels: options.workingPixels)
+    let full = SIMD2(Double(photos[photo].width), Double(photos[photo].height))
+    return (image, SIMD2(Double(image.width), Double(image.height)) / full)
+  }
+
+  private mutating func readTemplates(_ context: StageContext) throws {
+    var tracksOfPhoto = [[Int]](repeating: [], count: photos.count)
+    for (track, reference) in references.enumerated() {
+      if let reference { tracksOfPhoto[reference.photo].append(track) }
+    }
+    let read = try context.control.parallelMap(photos.count) { [self, tracksOfPhoto] photo in
+      guard !tracksOfPhoto[photo].isEmpty else { return TemplateMatching.Templates(count: 0) }
+      let (image, factor) = try image(photo)
+      let places = tracksOfPhoto[photo].compactMap { references[$0] }.map {
+        TemplateMatching.Place(center: $0.pixel * factor, step: $0.step * factor.x)
+      }
+      return try TemplateMatching.templates(of: places, in: image)
+    }
+    for (photo, part) in read.enumerated() { templates.insert(part, at: tracksOfPhoto[photo]) }
+  }
+
+  /// Moves the observations of the map to where their templates are found; those whose texture differs
+  /// don't count any more.
+  func refine(_ map: inout SparseMap, _ context: StageContext) throws {
+    var candidates = [[Candidate]](repeating: [], count: photos.count)
+    for (track, reference) in references.enumerated() {
+      guard let reference, templates.isValid[track] else { continue }
+      for index in map.activeObservations(of: track) {
+        let photo = Int(map.tracks.photos[index])
+        guard photo != reference.photo, let (_, warp) = reference.warp(to: photo, in: map.photos)
+        else { continue }
+        candidates[photo].append(
+          Candidate(
+            track: track, observation: index, expected: map.tracks.pixels[index], warp: warp))
+      }
+    }
+    let finds = try finds(
+      candidates, shift: options.maximumShift, correlation: options.minimumCorrelation, context)
+    for (photo, found) in finds.enumerated() {
+      let confirmed = found.count { $0 != nil }
+      let share = Double(confirmed) / Double(max(1, map.activeCount(ofPhoto: photo)))
+      for (candidate, pixel) in zip(candidates[photo], found) {
+        guard let index = candidate.observation else { continue }
+        if let pixel {
+          map.moveObservation(index, to: pixel)
+        } else if share >= options.minimumConfirmedShare {
+          map.isActive[index] = false
+        }
+      }
+    }
+    map.dropUnsupportedPoints()
+  }
+
+  /// Adds observations of points in photos that should see them; returns how many.
+  func extend(_ map: inout SparseMap, _ context: StageContext) throws -> Int {
+    let neighbours = neighbours(map)
+    var candidates = [[Candidate]](repeating: [], count: photos.count)
+    for (track, reference) in references.enumerated() {
+      guard let reference, templates.isValid[track], map.isTriangulated[track] else { continue }
+      for candidate in newViews(of: track, reference, neighbours[reference.photo], map) {
+        candidates[candidate.photo].append(candidate.value)
+      }
+    }
+    let finds = try finds(
+      candidates, shift: options.maximumNewShift, correlation: options.minimumNewCorrelation,
+      context)
+    var additions: [SparseMap.Addition] = []
+    for (photo, found) in finds.enumerated() {
+      for (candidate, pixel) in zip(candidates[photo], found) {
+        if let pixel { additions.append(.init(track: candidate.track, photo: photo, pixel: pixel)) }
+      }
+    }
+    map.add(additions)
+    return additions.count
+  }
+
+  /// The photos in which a point should be seen and has no active observation.
+  private func newViews(
+    of track: Int, _ reference: TrackReference, _ neighbours: [Int], _ map: SparseMap
+  ) -> [(photo: Int, value: Candidate)] {
+    let known = Set(map.activeObservations(of: track).map { Int(map.tracks.photos[$0]) })
+    guard known.contains(reference.photo) else { return [] }
+    var current = reference
+    current.point = map.positions[track]
+    let leastCosine = cos(options.maximumAngleDegrees * .pi / 180)
+    return neighbours.compactMap { photo in
+      guard !known.contains(photo), let pose = map.photos.poses[photo],
+        (pose.center - current.point).normalized.dot(current.normal) >= leastCosine,
+        let (pixel, warp) = current.warp(to: photo, in: map.photos),
+        pixel.x > 0, pixel.y > 0, pixel.x < Double(photos[photo].width),
+        pixel.y < Double(photos[photo].height)
+      else { return nil }
+      return (photo, Candidate(track: track, observation: nil, expected: pixel, warp: warp))
+    }
+  }
+
+  /// For each photo those that share most points with it.
+  private func neighbours(_ map: SparseMap) -> [[Int]] {
+    (0..<photos.count).map { photo in
+      var shared = [Int](repeating: 0, count: photos.count)
+      for index in map.tracks.observationsOfPhoto[photo] where map.isActive[Int(index)] {
+        let track = Int(map.tracks.trackOfObservation[Int(index)])
+        for other in map.activeObservations(of: track) {
+          shared[Int(map.tracks.photos[other])] += 1
+        }
+      }
+      return Array(
+        shared.indices.filter { $0 != photo && shared[$0] > 0 }
+          .sorted { (-shared[$0], $0) < (-shared[$1], $1) }.prefix(options.neighbours))
+    }
+  }
+
+  /// Where the candidates of each photo were found, in pixels of the full photo.
+  private func finds(
+    _ candidates: [[Candidate]], shift: Double, correlation: Double, _ context: StageContext
+  ) throws -> [[SIMD2<Double>?]] {
+    var matching = TemplateMatching()
+    matching.maximumShift = shift
+    return try context.control.parallelMap(candidates.count) { [self, matching] photo in
+      guard !candidates[photo].isEmpty else { return [] }
+      let (image, factor) = try image(photo)
+      let searches = candidates[photo].map { candidate in
+        let reference = references[candidate.track]
+        let from = Self.workingPixel(of: photos[reference?.photo ?? photo], options)
+        return TemplateMatching.Search(
+          template: candidate.track, step: (reference?.step ?? from) / from,
+          warp: candidate.warp * from * factor.x, expected: candidate.expected * factor)
+      }
+      return try matching.finds(searches, of: templates, in: image).map { find in
+        find.flatMap { $0.zncc >= correlation ? $0.center / factor : nil }
+      }
+    }
+  }
+}

@@ -1,0 +1,99 @@
+#if canImport(Pipeline)
+  import ArgumentParser
+  import Foundation
+  import Kernels
+  import Logging
+  import Pipeline
+  import SceneModel
+  import Synchronization
+
+  /// Finds cameras, poses and sparse points, and nothing else.
+  struct Align: ParsableCommand {
+    static let configuration = CommandConfiguration(
+      commandName: "align",
+      abstract: "Find where photos were taken from, without making a model.",
+      discussion: """
+        Writes sparse/cameras.txt, images.txt and points3D.txt, the text format of COLMAP that other \
+        programs for neural rendering, stereo and surveying read, and report.json, into the folder \
+        <output>. The same alignment is what 'reconstruct' begins with.
+
+        EXAMPLES
+          photogrammetry-cli align photos/ work/
+          photogrammetry-cli align drone/ work/ -o sequential --mapping global
+
+        Exit codes: 0 cameras were found, 1 too few photos fit together, 2 the command line can't be \
+        carried out, 130 interrupted.
+        """)
+
+    @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
+    var inputFolder: String
+
+    @Argument(help: ArgumentHelp("The folder for the results.", valueName: "output"))
+    var output: String
+
+    @Option(
+      name: [.customShort("o"), .long],
+      help: "Whether neighbours in the order of file names show the same part.")
+    var sampleOrdering = OrderingArgument.unordered
+
+    @Option(
+      name: [.customShort("f"), .long],
+      help: "Use 'high' for objects with little texture; it takes longer.")
+    var featureSensitivity = SensitivityArgument.normal
+
+    @OptionGroup var engine: EngineArguments
+
+    @OptionGroup var logging: LoggingOptions
+
+    mutating func run() throws {
+      logging.bootstrap()
+      let folder = try PhotoFolderArgument(inputFolder).url
+      let target = URL(fileURLWithPath: output, isDirectory: true)
+      try ModelOutput.checkWritable(target)
+      let configuration = try configuration(photos: folder, target)
+      let flag = CancellationFlag()
+      let interrupts = InterruptHandler { flag.cancel() }
+      let listener = AlignmentListener(RunReporter(logging.style(json: false)))
+      let pipeline = ReconstructionPipeline(
+        folder: folder, configuration: configuration, flag: flag, onEvent: listener.take)
+      do {
+        _ = try pipeline.align()
+      } catch {
+        listener.finish()
+        guard interrupts.wasInterrupted else { throw error }
+        throw CommandFailure(
+          sentence: "Interrupted; nothing was written.", exitCode: CommandFailure.interruptedCode)
+      }
+      try pipeline.writeReport()
+      listener.finish()
+      Terminal.shared.result(target.appendingPathComponent("sparse").relativePath)
+    }
+  }
+
+  /// Shows the progress of an alignment and logs what happens on the way; any thread may call it.
+  private final class AlignmentListener: Sendable {
+    private let reporter: Mutex<RunReporter>
+    private let logger = Logger(label: "photogrammetry-cli")
+
+    init(_ reporter: RunReporter) { self.reporter = Mutex(reporter) }
+
+    func take(_ event: PipelineEvent) {
+      switch event {
+      case .progress(let stage, let fraction):
+        // Reading and checking takes a twentieth of the time.
+        let done = stage == .preProcessing ? 0.05 * fraction : 0.05 + 0.95 * fraction
+        let shown: RunStage = stage == .preProcessing ? .preProcessing : .imageAlignment
+        reporter.withLock { reporter in
+          let elapsed = reporter.elapsed
+          let remaining = done > 0.1 ? elapsed / done * (1 - done) : nil
+          reporter.update(RunProgress(fraction: done, stage: shown, remaining: remaining))
+        }
+      case .refused(let photo): logger.warning("\(photo.reason)")
+      case .warning(let sentence): logger.warning("\(sentence)")
+      default: break
+      }
+    }
+
+    func finish() { reporter.withLock { $0.finish() } }
+  }
+#endif

@@ -1,0 +1,92 @@
+import Foundation
+import Kernels
+import SceneModel
+import Testing
+
+/// Pictures of one smooth texture under known maps.
+@Suite struct TemplateMatchingTests {
+  private let center = SIMD2(60.3, 55.7)
+
+  /// Shows texture(inverse · (pixel − shift)), the brightness changed by gain and offset.
+  private func picture(
+    shift: SIMD2<Double> = .zero, inverse: SIMD4<Double> = [1, 0, 0, 1], gain: Double = 1,
+    offset: Double = 0
+  ) -> RasterImage {
+    var image = RasterImage(width: 130, height: 120, channels: 1)
+    for y in 0..<image.height {
+      for x in 0..<image.width {
+        let p = SIMD2(Double(x) + 0.5, Double(y) + 0.5) - shift
+        let q = SIMD2(inverse.x * p.x + inverse.y * p.y, inverse.z * p.x + inverse.w * p.y)
+        let value =
+          110 + 35 * sin(0.31 * q.x + 0.22 * q.y) + 30 * cos(0.27 * q.y - 0.4 * q.x)
+          + 20 * sin(0.5 * q.y)
+        image.pixels[y * image.width + x] = UInt8(
+          min(255, max(0, (gain * value + offset).rounded())))
+      }
+    }
+    return image
+  }
+
+  private func templates(step: Double = 1) throws -> TemplateMatching.Templates {
+    try TemplateMatching.templates(of: [.init(center: center, step: step)], in: picture())
+  }
+
+  @Test(arguments: [1.0, 1.5, 2, 3]) func shiftIsFound(step: Double) throws {
+    let templates = try templates(step: step)
+    #expect(templates.isValid == [true])
+    for shift in [SIMD2(0.37, -0.81), SIMD2(1.6, 1.2), SIMD2(-0.05, 0.5)] {
+      let found = try TemplateMatching().finds(
+        [.init(template: 0, step: step, warp: [1, 0, 0, 1], expected: center)], of: templates,
+        in: picture(shift: shift))
+      let find = try #require(found[0])
+      #expect((find.center - center - shift).length < 0.03)
+      #expect(find.zncc > 0.995)
+    }
+  }
+
+  @Test func warpAndBrightnessAreAllowedFor() throws {
+    // The other photo is turned by 20° and 1.3 times as large.
+    let (c, s) = (1.3 * cos(0.35), 1.3 * sin(0.35))
+    let inverse = SIMD4(c, s, -s, c) / (1.3 * 1.3)
+    let shift = SIMD2(30.0, -10.0)
+    let expected = SIMD2(c * center.x - s * center.y, s * center.x + c * center.y) + shift
+    let found = try TemplateMatching().finds(
+      [.init(template: 0, step: 1, warp: [c, -s, s, c], expected: expected + [0.8, -0.6])],
+      of: templates(), in: picture(shift: shift, inverse: inverse, gain: 0.7, offset: 40))
+    let find = try #require(found[0])
+    #expect((find.center - expected).length < 0.03)
+  }
+
+  @Test func whatCannotBeLocatedIsInvalid() throws {
+    let flat = RasterImage(width: 40, height: 40, channels: 1, filledWith: 90)
+    var stripes = flat
+    for index in stripes.pixels.indices {
+      stripes.pixels[index] = index % 40 / 4 % 2 == 0 ? 60 : 160
+    }
+    let place = TemplateMatching.Place(center: [20, 20], step: 1)
+    #expect(try TemplateMatching.templates(of: [place], in: flat).isValid == [false])
+    #expect(try TemplateMatching.templates(of: [place], in: stripes).isValid == [false])
+    let corner = TemplateMatching.Place(center: [3, 3], step: 1)
+    #expect(try TemplateMatching.templates(of: [corner], in: picture()).isValid == [false])
+  }
+
+  @Test func searchesThatLeaveAreGivenUp() throws {
+    let templates = try templates()
+    func find(_ expected: SIMD2<Double>, _ image: RasterImage) throws -> TemplateMatching.Find? {
+      try TemplateMatching().finds(
+        [.init(template: 0, step: 1, warp: [1, 0, 0, 1], expected: expected)], of: templates,
+        in: image)[0]
+    }
+    #expect(try find([2, 2], picture()) == nil)
+    #expect(try find(center, picture(shift: [4.5, 0])) == nil)
+    let degenerate = try TemplateMatching().finds(
+      [.init(template: 0, step: 1, warp: [1, 1, 1, 1], expected: center)], of: templates,
+      in: picture())
+    #expect(degenerate == [nil])
+    #expect(throws: KernelError.self) {
+      try TemplateMatching().finds(
+        [.init(template: 5, step: 1, warp: [1, 0, 0, 1], expected: center)], of: templates,
+        in: picture())
+    }
+  }
+}
