@@ -10,6 +10,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var isHighSensitivity: Bool = false
   /// Distances in the scene that were measured; they give the scale.
   package var knownDistances: [KnownDistance] = []
+  /// How poses are found.
+  package var mappingMethod = MappingMethod.automatic
   /// Where intermediate results are left; nil leaves none.
   package var checkpointDirectory: URL?
   /// Threads of all stages. Results do not depend on it.

@@ -79,6 +79,7 @@ package final class ReconstructionPipeline {
       options.isSequential = configuration.isSequential
       options.isHighSensitivity = configuration.isHighSensitivity
       options.framing.knownDistances = configuration.knownDistances
+      options.mapping.method = configuration.mappingMethod
       return try ImageAlignment(options)
         .run(photos: ingested.photos, cameras: ingested.cameras, images: images, context)
     }

@@ -1,5 +1,6 @@
 #if canImport(Pipeline)
   import ArgumentParser
+  import Formats
   import Foundation
   import Kernels
   import Logging
@@ -21,6 +22,9 @@
           photogrammetry-cli align photos/ work/
           photogrammetry-cli align drone/ work/ -o sequential --mapping global
 
+        SCALE
+          comes from GPS or from measured distances, as 'reconstruct --help' tells.
+
         Exit codes: 0 cameras were found, 1 too few photos fit together, 2 the command line can't be \
         carried out, 130 interrupted.
         """)
@@ -41,6 +45,13 @@
       help: "Use 'high' for objects with little texture; it takes longer.")
     var featureSensitivity = SensitivityArgument.normal
 
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Find the poses photo by photo, all at once, or as suits the photos.",
+        valueName: "method"))
+    var mapping = MappingMethod.automatic
+
     @OptionGroup var engine: EngineArguments
 
     @OptionGroup var logging: LoggingOptions
@@ -50,6 +61,7 @@
       let folder = try PhotoFolderArgument(inputFolder).url
       let target = URL(fileURLWithPath: output, isDirectory: true)
       try ModelOutput.checkWritable(target)
+      try engine.checkOutputs()
       let configuration = try configuration(photos: folder, target)
       let flag = CancellationFlag()
       let interrupts = InterruptHandler { flag.cancel() }
@@ -64,9 +76,28 @@
         throw CommandFailure(
           sentence: "Interrupted; nothing was written.", exitCode: CommandFailure.interruptedCode)
       }
-      try pipeline.writeReport()
       listener.finish()
+      try pipeline.writeReport()
+      if let report = engine.report {
+        try AtomicFile.write(try pipeline.report.encoded(), to: URL(fileURLWithPath: report))
+      }
       Terminal.shared.result(target.appendingPathComponent("sparse").relativePath)
+    }
+  }
+
+  extension MappingMethod: ExpressibleByArgument {}
+
+  extension Align {
+    /// What the pipeline is told.
+    private func configuration(photos: URL, _ target: URL) throws -> PipelineConfiguration {
+      var configuration = PipelineConfiguration()
+      configuration.isSequential = sampleOrdering == .sequential
+      configuration.isHighSensitivity = featureSensitivity == .high
+      configuration.mappingMethod = mapping
+      configuration.checkpointDirectory = target
+      configuration.knownDistances = try engine.knownDistances(photos: photos)
+      if let threads = engine.threads { configuration.threadCount = threads }
+      return configuration
     }
   }
 
