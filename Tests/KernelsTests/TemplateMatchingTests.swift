@@ -39,7 +39,7 @@ import Testing
         [.init(template: 0, step: step, warp: [1, 0, 0, 1], expected: center)], of: templates,
         in: picture(shift: shift))
       let find = try #require(found[0])
-      #expect((find.center - center - shift).length < 0.03)
+      #expect((find.center - center - shift).length < 0.03 * step)
       #expect(find.zncc > 0.995)
     }
   }

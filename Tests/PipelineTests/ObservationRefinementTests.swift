@@ -65,6 +65,7 @@ import Testing
     // Every other photo lacks the observations of every other point.
     let rough = try Self.disturbed(by: 0.2) { point, photo in point % 2 == 0 && photo % 2 == 0 }
     let fine = try refined(rough)
+    print("DEBUG", rough.points.count, fine.points.count, fine.points.reduce(0) { $0 + $1.track.count(where: { $0.feature == -1 }) }, Self.scene.reconstruction.points.reduce(0) { $0 + $1.track.count }, rough.points.reduce(0) { $0 + $1.track.count })
     let counts = [rough, fine].map { $0.points.reduce(0) { $0 + $1.track.count } }
     #expect(counts[1] > counts[0] * 6 / 5)
     let new = fine.points.flatMap { point in

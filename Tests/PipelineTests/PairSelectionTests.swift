@@ -67,6 +67,31 @@ import Testing
     #expect(Double(found) > 0.95 * Double(overlaps.count))
   }
 
+  @Test func aFirstLookAtFewPhotosIsBelievedWhereASampleProvesIt() throws {
+    let scene = try Self.scene(.streets, photos: 30)
+    var options = CorrespondenceSearch.Options()
+    options.selection.firstLook.features = 300
+    func search(_ options: CorrespondenceSearch.Options) throws -> (pairs: Int, verified: Int) {
+      let context = StageContext()
+      let graph = try CorrespondenceSearch(options).run(
+        photos: scene.photos, cameras: [scene.camera], features: scene.features,
+        isSequential: false, context
+      ).viewGraph
+      return (Int(context.notes.counts["pairs"] ?? 0), graph.pairs.count)
+    }
+    let all = 30 * 29 / 2
+    let looked = try search(options)
+    options.selection.lookedPairs = .max
+    let unlooked = try search(options)
+    #expect(unlooked.pairs == all)
+    #expect(looked.pairs < all)
+    #expect(Double(looked.verified) > 0.95 * Double(unlooked.verified))
+    // A look that rejects everything is found out, and all pairs are matched.
+    options.selection.lookedPairs = 0
+    options.selection.firstLook.minimumMatches = .max
+    #expect(try search(options) == unlooked)
+  }
+
   @Test func photosInOrderAreRecognised() throws {
     let scene = try Self.scene(.orbits, isShuffled: false)
     var options = Self.options(partners: 8)

@@ -6,6 +6,8 @@ import SceneModel
 package struct CorrespondenceSearch {
   package struct Options: Hashable, Codable, Sendable {
     package var selection = PairSelection.Options()
+    /// Share of the sample of pairs that looked hopeless above which the look isn't believed.
+    package var maximumWrongRejections = 0.03
     package var expansion = PairExpansion.Options()
     package var matching = FeatureMatching.Options()
     package var verification = PairVerification.Options()
@@ -25,11 +27,17 @@ package struct CorrespondenceSearch {
     _ context: StageContext
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
     var round = Round(options: options, photos: photos, cameras: cameras, features: features)
-    let choice = try PairSelection(options.selection)
+    var choice = try PairSelection(options.selection)
       .run(
         features, positions: photos.map(\.position), isSequential: isSequential,
         context.part(from: 0, to: 0.1))
-    try round.add(choice.pairs, context.part(from: 0.1, to: 0.65))
+    try round.add(choice.pairs, context.part(from: 0.1, to: 0.5))
+    if isLookWrong(choice, round.graph) {
+      let known = Set(choice.pairs)
+      try round.add(
+        choice.candidates.filter { !known.contains($0) }, context.part(from: 0.5, to: 0.65))
+      choice.pairs = choice.candidates
+    }
     let more = try PairExpansion(options.expansion)
       .run(
         choice, round.graph, features: features,
@@ -45,6 +53,13 @@ package struct CorrespondenceSearch {
     context.notes.count("candidatePairs", Double(Set(choice.candidates).union(more).count))
     round.report(context.notes)
     return (round.graph, calibrated)
+  }
+
+  /// Whether too many of the pairs that looked hopeless were verified.
+  private func isLookWrong(_ choice: PairSelection.Choice, _ graph: ViewGraph) -> Bool {
+    let verified = Set(graph.pairs.map(\.pair))
+    let wrong = choice.sample.count { verified.contains($0) }
+    return Double(wrong) > options.maximumWrongRejections * Double(choice.sample.count)
   }
 }
 

@@ -4,14 +4,19 @@ import SceneModel
 
 /// Chooses the pairs of photos worth matching.
 ///
-/// Few photos: all pairs. Many photos: for each the photos most alike as a whole and the nearest by
-/// GPS. Photos in order of capture: a window of neighbours, and the photos most alike where the path
-/// comes back to itself. Pairs that the order does not vouch for must pass a first look.
+/// Few photos: all pairs, of which a first look rejects the hopeless, with a sample to prove it right.
+/// Many photos: for each the photos most alike as a whole and the nearest by GPS. Photos in order of
+/// capture: a window of neighbours, and the photos most alike where the path comes back to itself.
+/// Pairs that the order does not vouch for must pass a first look.
 package struct PairSelection {
   package struct Options: Hashable, Codable, Sendable {
-    /// Up to this number of pairs all are matched, without a first look: it rejects pairs whose large
-    /// features differ, as those of close-ups and of objects with fine texture only do.
+    /// Up to this number of pairs all are considered.
     package var exhaustivePairs = 1300
+    /// From this number of pairs on, a first look at all of them pays.
+    package var lookedPairs = 100
+    /// One of so many pairs that the first look rejects is matched all the same: the look is wrong
+    /// about pairs whose large features differ, as those of close-ups and of fine texture do.
+    package var sampledRejection = 4
     /// Partners of a photo among many: those most alike.
     package var partners = 40
     /// Partners of a photo by its position.
@@ -38,11 +43,14 @@ package struct PairSelection {
     /// The photos most alike each photo; empty where retrieval wasn't needed.
     package var alike: [[Int]]
     package var isSequential: Bool
+    /// Those of `pairs` that looked hopeless and show whether the first look was right.
+    package var sample: [PhotoPair]
 
     package init(
-      pairs: [PhotoPair], candidates: [PhotoPair], alike: [[Int]], isSequential: Bool
+      pairs: [PhotoPair], candidates: [PhotoPair], alike: [[Int]], isSequential: Bool,
+      sample: [PhotoPair] = []
     ) {
-      (self.pairs, self.candidates) = (pairs, candidates)
+      (self.pairs, self.candidates, self.sample) = (pairs, candidates, sample)
       (self.alike, self.isSequential) = (alike, isSequential)
     }
   }
@@ -59,7 +67,7 @@ package struct PairSelection {
     let photos = features.indices.filter { features[$0].count > 0 }
     if !isSequential, photos.count * (photos.count - 1) / 2 <= options.exhaustivePairs {
       let all = photos.indices.flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
-      return Choice(pairs: all, candidates: all, alike: [], isSequential: false)
+      return try exhaustive(all, features, context)
     }
     let alike = try PhotoRetrieval(options.retrieval)
       .run(features, partners: 2 * options.partners, context.part(from: 0, to: 0.5))
@@ -75,6 +83,22 @@ package struct PairSelection {
     return Choice(
       pairs: sure.union(hopeful).sorted(), candidates: sure.union(likely).sorted(), alike: alike,
       isSequential: isSequential)
+  }
+
+  /// All pairs but those that the first look rejects and that aren't in the sample of these.
+  private func exhaustive(
+    _ all: [PhotoPair], _ features: [FeatureSet], _ context: StageContext
+  ) throws -> Choice {
+    guard all.count >= options.lookedPairs else {
+      return Choice(pairs: all, candidates: all, alike: [], isSequential: false)
+    }
+    let hopeful = try FirstLook(options.firstLook).run(all, features: features, context)
+    let rejected = Set(all).subtracting(hopeful).sorted()
+    let sample = stride(from: 0, to: rejected.count, by: max(1, options.sampledRejection))
+      .map { rejected[$0] }
+    return Choice(
+      pairs: (hopeful + sample).sorted(), candidates: all, alike: [], isSequential: false,
+      sample: sample)
   }
 
   private func pair(_ first: Int, _ second: Int) -> PhotoPair { PhotoPair(ID(first), ID(second)) }
