@@ -12,13 +12,19 @@ import TestSupport
 /// sizes and makes the table.
 @main
 struct GrowthBenchmark: ParsableCommand {
-  enum Mapping: String, CaseIterable, ExpressibleByArgument { case incremental, none }
+  enum Mapping: String, CaseIterable, ExpressibleByArgument {
+    case automatic, incremental, global, none
+
+    /// nil: match only.
+    var method: MappingMethod? { MappingMethod(rawValue: rawValue) }
+  }
 
   static let configuration = CommandConfiguration(commandName: "growth-benchmark")
 
   @Option(help: "Number of photos.") var photos = 50
   @Option(help: "streets or orbits.") var layout = GrowthScene.Layout.streets
-  @Option(help: "incremental, or none to match only.") var mapping = Mapping.incremental
+  @Option(help: "automatic, incremental, global, or none to match only.")
+  var mapping = Mapping.automatic
   @Option(help: "Features of a photo at most.") var features = 2500
   @Option(help: "Threads.") var threads = 2
   @Option(help: "Seed of the scene.") var seed: UInt64 = 1
@@ -58,12 +64,11 @@ struct GrowthBenchmark: ParsableCommand {
   private func map(
     _ graph: ViewGraph, _ cameras: [Camera], _ scene: GrowthScene, _ context: StageContext
   ) throws -> Reconstruction? {
-    switch mapping {
-    case .none: nil
-    case .incremental:
-      try IncrementalMapping().run(
-        graph, features: scene.features, photos: scene.photos, cameras: cameras, context)
-    }
+    guard let method = mapping.method else { return nil }
+    var options = SparseMapping.Options()
+    options.method = method
+    return try SparseMapping(options).run(
+      graph, features: scene.features, photos: scene.photos, cameras: cameras, context)
   }
 }
 

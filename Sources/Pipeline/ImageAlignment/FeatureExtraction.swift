@@ -20,7 +20,10 @@ package struct FeatureExtraction {
     package var sparseFeatures = 1500
     package var sparseFactor = 0.4
     /// Pixels for each feature at least, so that tiny photos don't get more than they hold.
-    package var pixelsPerFeature = 150
+    package var pixelsPerFeature = 80
+    /// Photos of fewer pixels get fewer features, in proportion to their sides: matching takes the
+    /// square of their number.
+    package var manyFeaturePixels = 2_000_000
     /// How high sensitivity looks.
     package var high = HighSensitivity()
 
@@ -83,9 +86,11 @@ package struct FeatureExtraction {
     // A unit runs on one thread; the units run side by side.
     let control = KernelControl()
     let factor = options.sensitivity == .high ? options.high.featureFactor : 1
+    let pixels = image.width * image.height
+    let share = min(1, (Double(pixels) / Double(max(1, options.manyFeaturePixels))).squareRoot())
     detection.maximumFeatures = min(
-      detection.maximumFeatures,
-      image.width * image.height * factor / max(1, options.pixelsPerFeature))
+      Int(share * Double(detection.maximumFeatures)),
+      pixels * factor / max(1, options.pixelsPerFeature))
     var set = try detection.features(in: image, control)
     if set.count < options.sparseFeatures, options.sensitivity == .normal {
       detection.contrastThreshold *= options.sparseFactor

@@ -52,7 +52,7 @@ package struct ImageAlignment: Sendable {
     }
     try check(mapped, graph, context.notes)
     let refined = try timed("refinementSeconds", context) {
-      try refined(mapped, features, calibrated, images, context.part(from: 0.85, to: 0.98))
+      try refine(mapped, features, calibrated, images, context.part(from: 0.85, to: 0.98))
     }
     let reconstruction = WorldFraming(options.framing).run(refined, context.part(from: 0.98, to: 1))
     report(reconstruction, context.notes)
@@ -61,7 +61,7 @@ package struct ImageAlignment: Sendable {
   }
 
   /// The reconstruction with refined observations, or as it is where that comes to nothing.
-  private func refined(
+  private func refine(
     _ mapped: Reconstruction, _ features: [FeatureSet], _ cameras: [Camera], _ images: ImageStore,
     _ context: StageContext
   ) throws -> Reconstruction {
