@@ -29,6 +29,8 @@ struct MapAdjustment: Sendable {
     var photosForPrincipalPoint = 6
     /// Relative rise of the cost that a simpler camera model may bring.
     var simplificationTolerance = 0.01
+    /// Observations that decide on it.
+    var simplificationObservations = 20_000
   }
 
   var options = Options()

@@ -14,6 +14,7 @@ package struct ImageAlignment: Sendable {
     package var parallaxDegrees = 1.0
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
+    package var standpoint = StandpointCheck.Options()
     package var mapping = SparseMapping.Options()
     package var refinement = ObservationRefinement.Options()
     package var framing = WorldFraming.Options()
@@ -45,6 +46,9 @@ package struct ImageAlignment: Sendable {
     guard !graph.pairs.isEmpty else {
       throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
     }
+    let isOfOnePlace = StandpointCheck(options.standpoint)
+      .isOfOnePlace(graph, features: features, photos: photos, cameras: calibrated)
+    guard !isOfOnePlace else { throw PipelineError.alignmentFailed(reason: Self.onePlace) }
     let mapped = try timed("mappingSeconds", context) {
       try SparseMapping(options.mapping).run(
         graph, features: features, photos: photos, cameras: calibrated,
@@ -75,6 +79,9 @@ package struct ImageAlignment: Sendable {
     }
   }
 
+  private static let onePlace =
+    "all photos were taken from one place; walk around the object between photos."
+
   private func check(
     _ reconstruction: Reconstruction, _ graph: ViewGraph, _ notes: StageNotes
   ) throws {
@@ -85,13 +92,13 @@ package struct ImageAlignment: Sendable {
     throw PipelineError.alignmentFailed(
       reason: count > 0
         ? "only \(count) of the \(photos) photos see enough of the same surface."
-        : isOfOnePlace(graph)
-          ? "all photos were taken from one place; walk around the object between photos."
+        : hasNoParallax(graph)
+          ? Self.onePlace
           : "no pair of the \(photos) photos shows a surface from two different places.")
   }
 
   /// Whether hardly any pair of photos has parallax.
-  private func isOfOnePlace(_ graph: ViewGraph) -> Bool {
+  private func hasNoParallax(_ graph: ViewGraph) -> Bool {
     let limit = options.parallaxDegrees * .pi / 180
     return 10 * graph.pairs.count { $0.medianAngle < limit } >= 9 * graph.pairs.count
   }

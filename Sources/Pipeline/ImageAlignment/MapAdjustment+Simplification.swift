@@ -7,21 +7,21 @@ extension MapAdjustment {
   /// Errors of measurement aren't independent, so nearly every parameter looks significant, and on few
   /// photos it bends the poses. Of the models k2 = 0, no distortion, and no distortion with the principal
   /// point in the centre, the simplest is taken whose cost is higher by less than
-  /// `simplificationTolerance`.
+  /// `simplificationTolerance`. A part of the points decides; the map isn't adjusted.
   mutating func simplifyCameras(_ map: inout SparseMap, _ control: KernelControl) throws {
     guard withheld.isEmpty else { return }
-    var best = map
-    let limit = (1 + options.simplificationTolerance) * (try cost(of: &best, control))
+    var probe = map.thinned(toObservations: options.simplificationObservations)
+    let limit = (1 + options.simplificationTolerance) * (try cost(of: &probe, control))
     for withheld: BundleAdjustment.CameraFreedom in [
       [.k2], [.k1, .k2], [.k1, .k2, .principalPoint],
     ] {
-      var (trial, simpler) = (map, self)
+      var (trial, simpler) = (probe, self)
       simpler.withheld = withheld
       simpler.resetWithheld(&trial)
       guard try simpler.cost(of: &trial, control) <= limit else { break }
-      (best, self.withheld) = (trial, withheld)
+      self.withheld = withheld
     }
-    map = best
+    resetWithheld(&map)
   }
 
   /// Adjusts all and returns the robust cost.
@@ -37,5 +37,17 @@ extension MapAdjustment {
         map.photos.cameras[index].principalPoint = initialCameras[index].principalPoint
       }
     }
+  }
+}
+
+extension SparseMap {
+  /// The map with every n-th point only, so that about `count` observations are left.
+  fileprivate func thinned(toObservations count: Int) -> SparseMap {
+    let step = isActive.count { $0 } / max(1, count) + 1
+    var map = self
+    for track in 0..<tracks.count where track % step != 0 && isTriangulated[track] {
+      map.dropPoint(track)
+    }
+    return map
   }
 }
