@@ -10,7 +10,8 @@ import Testing
   @Test(arguments: ["photogrammetry-cli", "reconstruct", "align", "inspect", "evaluate"])
   func helpIsAsItWas(_ name: String) throws {
     let commands: [String: any ParsableCommand.Type] = [
-      "reconstruct": Reconstruct.self, "align": Align.self, "inspect": Inspect.self, "evaluate": Evaluate.self,
+      "reconstruct": Reconstruct.self, "align": Align.self, "inspect": Inspect.self,
+      "evaluate": Evaluate.self,
     ]
     let help =
       commands[name].map { PhotogrammetryCLI.helpMessage(for: $0, columns: 80) }
