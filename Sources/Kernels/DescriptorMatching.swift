@@ -3,27 +3,11 @@ import SceneModel
 
 /// Exact nearest neighbours of descriptors: mutual best, with Lowe's ratio test both ways.
 package struct DescriptorMatching: Hashable, Codable, Sendable {
-  /// The instructions to use; all give the same result.
-  package enum Instructions: String, CaseIterable, Codable, Sendable {
-    case automatic, portable, avx2, avx512VNNI
-
-    /// Whether this processor has them.
-    package var isSupported: Bool { ck_simd_supported(path) }
-
-    fileprivate var path: ck_simd_path {
-      switch self {
-      case .automatic: ck_simd_automatic
-      case .portable: ck_simd_portable
-      case .avx2: ck_simd_avx2
-      case .avx512VNNI: ck_simd_avx512_vnni
-      }
-    }
-  }
-
   /// The best distance is below this fraction of the second best.
   package var ratio = 0.7
   /// Largest distance of a match; a descriptor has length 512.
   package var maximumDistance = 360.0
+  /// All give the same result.
   package var instructions = Instructions.automatic
 
   package init() {}
@@ -39,7 +23,7 @@ package struct DescriptorMatching: Hashable, Codable, Sendable {
       repeating: FeatureMatch(first: 0, second: 0), count: min(counts.0, counts.1))
     guard !matches.isEmpty else { return [] }
     var options = ck_match_options(
-      ratio: ratio, maximum_distance: maximumDistance, path: instructions.path)
+      ratio: ratio, maximum_distance: maximumDistance, instructions: instructions.raw)
     var count = 0
     try withKernel(control) { control in
       matches.withUnsafeMutableBytes { pairs in

@@ -3,24 +3,6 @@ import SceneModel
 
 /// SIFT with root-SIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR 2012).
 package struct FeatureDetection: Hashable, Codable, Sendable {
-  /// The instructions to use. Vector instructions give the same bytes as each other; the portable path
-  /// differs by rounding.
-  package enum Instructions: String, CaseIterable, Codable, Sendable {
-    case automatic, portable, avx2, avx512
-
-    /// Whether this processor has them.
-    package var isSupported: Bool { ck_sift_supported(kernelValue) }
-
-    fileprivate var kernelValue: ck_sift_instructions {
-      switch self {
-      case .automatic: ck_sift_automatic
-      case .portable: ck_sift_portable
-      case .avx2: ck_sift_avx2
-      case .avx512: ck_sift_avx512
-      }
-    }
-  }
-
   /// Features kept at most, the strongest of each part of the photo.
   package var maximumFeatures = 8000
   /// Lowe's contrast threshold for intensities 0…1.
@@ -42,6 +24,7 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
   package var sigma = 1.6
   /// Cells along the longer side of the grid over which the features are balanced.
   package var gridCells = 12
+  /// Vector instructions all give the same bytes; the portable path differs by rounding.
   package var instructions = Instructions.automatic
 
   package init() {}
@@ -84,7 +67,7 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
       low_contrast_threshold: contrastThreshold * lowestFactor,
       sufficient_features: Int32(clamping: sufficientFeatures), edge_threshold: edgeThreshold,
       sigma: sigma, grid_cells: Int32(gridCells),
-      instructions: instructions.kernelValue)
+      instructions: instructions.raw)
   }
 }
 

@@ -76,23 +76,6 @@ package final class PatchMap: @unchecked Sendable {
 
 /// Patch multi-view stereo on pinhole views (Furukawa and Ponce, PAMI 2010).
 package enum PatchStereo {
-  /// Instructions of the inner loops; results differ by rounding only.
-  package enum Instructions: String, CaseIterable, Codable, Sendable {
-    case automatic, portable, avx2, avx512
-
-    /// Whether this processor has them.
-    package var isSupported: Bool { ck_patches_supported(raw) }
-
-    fileprivate var raw: ck_patch_instructions {
-      switch self {
-      case .automatic: ck_patch_automatic
-      case .portable: ck_patch_portable
-      case .avx2: ck_patch_avx2
-      case .avx512: ck_patch_avx512
-      }
-    }
-  }
-
   /// How patches are made.
   package struct Options: Hashable, Codable, Sendable {
     /// Resolutions, each half of the next.
@@ -110,6 +93,7 @@ package enum PatchStereo {
     /// Standard deviation of the photos' noise in grey levels.
     package var noise: Float = 1
     package var seed: UInt32 = 1
+    /// Of the inner loops; results differ by rounding only.
     package var instructions = Instructions.automatic
 
     package init() {}

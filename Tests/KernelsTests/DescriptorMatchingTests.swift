@@ -63,12 +63,12 @@ import Testing
       })
   }
 
-  static let supported = DescriptorMatching.Instructions.allCases.filter(\.isSupported)
+  static let supported = Instructions.allCases.filter(\.isSupported)
 
   @Test(
     arguments: supported, [(0, 5), (1, 1), (1, 40), (40, 1), (33, 70), (200, 161)])
   func equalsTheObviousWay(
-    instructions: DescriptorMatching.Instructions, counts: (Int, Int)
+    instructions: Instructions, counts: (Int, Int)
   ) throws {
     let a = Self.descriptors(counts.0, seed: 3)
     let b = Self.noisyCopy(of: a, counts.1, seed: 4)
@@ -82,7 +82,7 @@ import Testing
   }
 
   @Test(arguments: supported)
-  func allInstructionsGiveTheSame(instructions: DescriptorMatching.Instructions) throws {
+  func allInstructionsGiveTheSame(instructions: Instructions) throws {
     // More than one block of rows, and no multiple of any vector width.
     let a = Self.descriptors(4200, seed: 1)
     let b = Self.noisyCopy(of: a, 517, seed: 2)
@@ -98,7 +98,7 @@ import Testing
   }
 
   @Test(arguments: supported)
-  func extremeBytesDoNotOverflow(instructions: DescriptorMatching.Instructions) throws {
+  func extremeBytesDoNotOverflow(instructions: Instructions) throws {
     var a = [UInt8](repeating: 255, count: 64 * 128)
     for index in 0..<64 { for k in 0..<index { a[index * 128 + k] = 0 } }
     var matching = DescriptorMatching()

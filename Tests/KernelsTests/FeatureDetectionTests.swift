@@ -238,7 +238,7 @@ import Testing
     let portable = try detection.features(in: image, KernelControl())
     #expect(portable.count > 100)
     var vector: [FeatureSet] = []
-    for instructions in [FeatureDetection.Instructions.avx2, .avx512]
+    for instructions in [Instructions.avx2, .avx512]
     where instructions.isSupported {
       detection.instructions = instructions
       let set = try detection.features(in: image, KernelControl())
@@ -258,7 +258,7 @@ import Testing
   @Test func missingInstructionsAreRefused() throws {
     var detection = FeatureDetection()
     let image = Self.texture(width: 64, height: 64)
-    for instructions in FeatureDetection.Instructions.allCases where !instructions.isSupported {
+    for instructions in Instructions.allCases where !instructions.isSupported {
       detection.instructions = instructions
       #expect(throws: KernelError.self) {
         _ = try detection.features(in: image, KernelControl())

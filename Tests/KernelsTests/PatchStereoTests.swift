@@ -74,8 +74,8 @@ import Testing
     #expect(error.median < 0.7 * Self.depthError(unrefined[2], Self.scene, view: 2).median)
   }
 
-  @Test(arguments: PatchStereo.Instructions.allCases.filter(\.isSupported))
-  func instructionsAgree(_ instructions: PatchStereo.Instructions) throws {
+  @Test(arguments: Instructions.allCases.filter(\.isSupported))
+  func instructionsAgree(_ instructions: Instructions) throws {
     var options = PatchStereo.Options()
     options.instructions = .portable
     let expected = try Self.maps(Self.scene, options)[2]

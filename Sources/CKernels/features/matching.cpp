@@ -10,6 +10,7 @@ namespace ck {
 namespace {
 
 constexpr size_t kMaximumCount = 65536;
+
 struct Match {
   double quality;
   int32_t first, second;
@@ -41,8 +42,6 @@ std::vector<Match> mutual_matches(const std::vector<NearestTwo>& by_row,
 }  // namespace
 }  // namespace ck
 
-bool ck_simd_supported(ck_simd_path path) { return ck::is_supported(path); }
-
 ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const uint8_t* second,
                                size_t second_count, const ck_match_options* options,
                                const ck_control* control, int32_t* pairs, size_t* pair_count) {
@@ -51,9 +50,8 @@ ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const u
     *pair_count = 0;
     ck::require(first_count <= ck::kMaximumCount && second_count <= ck::kMaximumCount,
                 "there are more than 65,536 descriptors");
-    ck::require(ck::is_supported(options->path), "this processor lacks the instructions asked for");
     const ck::NearestTable table =
-        ck::nearest_two(first, first_count, second, second_count, options->path, control);
+        ck::nearest_two(first, first_count, second, second_count, options->instructions, control);
     for (const ck::Match& match : ck::mutual_matches(table.by_row, table.by_column, *options)) {
       pairs[2 * *pair_count] = match.first;
       pairs[2 * *pair_count + 1] = match.second;

@@ -53,17 +53,14 @@ void nearest_portable(const DistanceBlock& block, NearestTwo* by_row, NearestTwo
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 void nearest_avx512_vnni(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 
-/// Whether this processor can run `path`.
-bool is_supported(ck_simd_path path);
-
 /// The nearest two among the others of every descriptor of two sets.
 struct NearestTable {
   std::vector<NearestTwo> by_row, by_column;
 };
 
-/// Compares all descriptors of two sets by the fastest instructions, or those wished for.
+/// Compares all descriptors of two sets. Throws where the processor lacks the instructions.
 NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* columns,
-                         size_t column_count, ck_simd_path wish, const ck_control* control);
+                         size_t column_count, ck_instructions wish, const ck_control* control);
 
 inline size_t rounded_up(size_t count, size_t step) { return (count + step - 1) / step * step; }
 

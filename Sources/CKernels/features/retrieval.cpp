@@ -26,7 +26,7 @@ std::vector<uint32_t> assign(const uint8_t* descriptors, size_t count, const uin
   parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
     const size_t begin = chunk * kChunk, end = std::min(count, begin + kChunk);
     const NearestTable table = nearest_two(descriptors + begin * kDescriptorLength, end - begin,
-                                           words, word_count, ck_simd_automatic, nullptr);
+                                           words, word_count, ck_instructions_automatic, nullptr);
     for (size_t i = begin; i < end; ++i) nearest[i] = table.by_row[i - begin].index;
   });
   return nearest;

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
 #include "features/scale_space.h"
-#include "features/vectors16.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
 #include "features/scale_space.h"
-#include "features/vectors16.h"
 
 #define CK_SIFT_KERNELS portable_kernels
 

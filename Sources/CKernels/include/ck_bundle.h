@@ -7,6 +7,7 @@
 extern "C" {
 #endif
 
+/// When a track becomes a point.
 typedef struct {
   /// Largest reprojection error of an inlier in pixels.
   double max_error;
@@ -84,6 +85,7 @@ typedef struct {
   size_t observation_count;
 } ck_bundle;
 
+/// How a bundle is adjusted.
 typedef struct {
   int32_t max_iterations;
   /// Where the Huber loss turns from square to linear, in pixels.
@@ -96,6 +98,7 @@ typedef struct {
   int32_t direct_photo_limit;
 } ck_bundle_options;
 
+/// How the adjustment went.
 typedef struct {
   /// Robustified cost in square pixels.
   double initial_cost, final_cost;

@@ -28,6 +28,23 @@ typedef struct {
   int32_t threads;
 } ck_control;
 
+/// Sets of instructions that a kernel may use, each with all of those before it.
+typedef enum {
+  /// The last of these that the processor has.
+  ck_instructions_automatic = 0,
+  /// What every processor of the architecture has.
+  ck_instructions_portable = 1,
+  /// AVX2 and FMA.
+  ck_instructions_avx2 = 2,
+  /// AVX-512 F, BW, DQ and VL.
+  ck_instructions_avx512 = 3,
+  /// The products of bytes of AVX-512 VNNI.
+  ck_instructions_avx512_vnni = 4,
+} ck_instructions;
+
+/// Whether this processor has the instructions; always true of automatic ones.
+bool ck_instructions_supported(ck_instructions instructions);
+
 /// What went wrong in the last call on this thread that did not return `ck_ok`.
 ///
 /// Valid until the next kernel call on the same thread.

@@ -10,18 +10,10 @@ extern "C" {
 /// Bytes of one descriptor.
 #define CK_DESCRIPTOR_LENGTH 128
 
-/// Which instructions SIFT uses. AVX2 and AVX-512 give the same bytes; the portable path differs by
-/// rounding.
-typedef enum {
-  /// The fastest that the processor has.
-  ck_sift_automatic = 0,
-  ck_sift_portable = 1,
-  ck_sift_avx2 = 2,
-  ck_sift_avx512 = 3,
-} ck_sift_instructions;
+/// The instructions of SIFT.
+typedef ck_instructions ck_sift_instructions;
 
-bool ck_sift_supported(ck_sift_instructions instructions);
-
+/// How features are detected.
 typedef struct {
   /// Features kept at most; the output buffers hold as many.
   int32_t maximum_features;
@@ -41,7 +33,8 @@ typedef struct {
   double sigma;
   /// Cells along the longer side of the grid over which the strongest features are balanced.
   int32_t grid_cells;
-  ck_sift_instructions instructions;
+  /// Vector instructions all give the same bytes; the portable path differs by rounding.
+  ck_instructions instructions;
 } ck_sift_options;
 
 /// Detects SIFT features (Lowe, IJCV 2004) and describes them by root-SIFT bytes (Arandjelović and

@@ -16,6 +16,7 @@ typedef struct {
   double weight;
 } ck_relative_rotation;
 
+/// How rotations are averaged.
 typedef struct {
   /// Iterations with weights that minimise the sum of angles, and then with robust weights.
   int32_t absolute_iterations, robust_iterations;
@@ -43,6 +44,7 @@ typedef struct {
   double x, y, z;
 } ck_direction;
 
+/// How cameras and points are placed.
 typedef struct {
   int32_t max_iterations;
   /// Where the Huber loss turns from square to linear; residuals are about sines of angles.
@@ -51,6 +53,7 @@ typedef struct {
   double function_tolerance;
 } ck_positioning_options;
 
+/// How the placement went; costs are sums of ρ.
 typedef struct {
   double initial_cost, final_cost;
   int32_t iterations;

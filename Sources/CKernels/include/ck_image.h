@@ -13,6 +13,7 @@ typedef struct ck_image ck_image;
 /// Bytes of unknown size that a kernel made. Free with `ck_bytes_free`.
 typedef struct ck_bytes ck_bytes;
 
+/// The kinds of image file.
 typedef enum {
   ck_codec_jpeg = 0,
   ck_codec_png = 1,
@@ -44,18 +45,24 @@ typedef struct {
 ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                           const ck_decode_limits* limits, ck_image** image);
 
+/// Pixels of a row.
 int32_t ck_image_width(const ck_image* image);
+/// Rows.
 int32_t ck_image_height(const ck_image* image);
 /// Copies `width × height × 3` bytes.
 void ck_image_copy(const ck_image* image, uint8_t* destination);
+/// Frees the image; null does nothing.
 void ck_image_free(ck_image* image);
 
 /// Encodes gray, RGB or RGBA (JPEG: gray or RGB). `quality` is 0…100, JPEG only.
 ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
                           ck_codec codec, int32_t quality, ck_bytes** encoded);
 
+/// How many bytes there are.
 size_t ck_bytes_count(const ck_bytes* bytes);
+/// Copies all bytes.
 void ck_bytes_copy(const ck_bytes* bytes, uint8_t* destination);
+/// Frees the bytes; null does nothing.
 void ck_bytes_free(ck_bytes* bytes);
 
 /// Resizes: area averages where it shrinks, linear where it grows.

@@ -7,24 +7,15 @@
 extern "C" {
 #endif
 
-/// Which instructions `ck_match_descriptors` uses. All give the same result.
-typedef enum {
-  ck_simd_automatic = 0,
-  ck_simd_portable = 1,
-  ck_simd_avx2 = 2,
-  ck_simd_avx512_vnni = 3,
-} ck_simd_path;
-
+/// What a match is.
 typedef struct {
   /// The best distance is below this fraction of the second best (Lowe's ratio test).
   double ratio;
   /// Largest distance of a match, in units where a root-SIFT descriptor has length 512.
   double maximum_distance;
-  ck_simd_path path;
+  /// All give the same result.
+  ck_instructions instructions;
 } ck_match_options;
-
-/// Whether this processor can run `path`.
-bool ck_simd_supported(ck_simd_path path);
 
 /// Matches descriptors by exact nearest neighbours: mutual best with the ratio test both ways.
 ///

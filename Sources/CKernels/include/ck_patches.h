@@ -32,17 +32,7 @@ typedef struct {
   float cost;
 } ck_patch;
 
-/// Which instructions the inner loops use. Results differ by rounding only.
-typedef enum {
-  ck_patch_automatic = 0,
-  ck_patch_portable = 1,
-  ck_patch_avx2 = 2,
-  ck_patch_avx512 = 3,
-} ck_patch_instructions;
-
-/// Whether this processor has the instructions.
-bool ck_patches_supported(ck_patch_instructions instructions);
-
+/// How the patches of a view are made.
 typedef struct {
   /// Resolutions, each half of the next.
   int32_t level_count;
@@ -58,8 +48,10 @@ typedef struct {
   float bilateral_contrast;
   /// Standard deviation of the photos' noise in grey levels.
   float noise;
+  /// The same seed gives the same patches.
   uint32_t seed;
-  ck_patch_instructions instructions;
+  /// Of the inner loops. Results differ by rounding only.
+  ck_instructions instructions;
 } ck_patch_options;
 
 /// Makes the patches of one reference view, coarse to fine (Furukawa and Ponce, PAMI 2010, with the
@@ -83,6 +75,7 @@ typedef struct {
   size_t neighbor_count;
 } ck_patch_map;
 
+/// Which patches are kept and how they are joined.
 typedef struct {
   /// Largest cost of a patch that `minimum_agreeing` views may confirm.
   float photometric_threshold;

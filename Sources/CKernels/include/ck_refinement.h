@@ -9,6 +9,7 @@ extern "C" {
 
 /// Samples along a side of a template, its border of one sample for derivatives included.
 #define CK_TEMPLATE_SIDE 13
+/// Samples of a template.
 #define CK_TEMPLATE_SAMPLES (CK_TEMPLATE_SIDE * CK_TEMPLATE_SIDE)
 
 /// A square of texture to be found again in other photos.
@@ -31,6 +32,7 @@ typedef struct {
   double x, y;
 } ck_template_search;
 
+/// Where a template was found in another photo.
 typedef struct {
   /// The centre found, in pixels.
   double x, y;

@@ -14,6 +14,7 @@ extern "C" {
 /// the world. `poses` holds at least four. Degenerate input gives no pose.
 ck_status ck_p3p(ck_pose* poses, size_t* pose_count, const double* rays, const double* points);
 
+/// How a pose is searched for.
 typedef struct {
   /// Largest reprojection error of an inlier in pixels.
   double max_error;
@@ -23,6 +24,7 @@ typedef struct {
   double confidence;
   /// Fewer inliers are `ck_degenerate`.
   int32_t minimum_inliers;
+  /// The same seed gives the same pose.
   uint64_t seed;
 } ck_resection_options;
 

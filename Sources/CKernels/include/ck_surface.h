@@ -10,6 +10,7 @@ extern "C" {
 /// A triangle mesh of unknown size that a kernel made. Free with `ck_surface_free`.
 typedef struct ck_surface ck_surface;
 
+/// How fine the surface is.
 typedef struct {
   /// The finest cells have a side of `scale × extent / 2^depth`.
   int32_t depth;
@@ -26,12 +27,15 @@ ck_status ck_poisson(const float* positions, const float* normals, size_t stride
                      const ck_poisson_options* options, const ck_control* control,
                      ck_surface** surface);
 
+/// How many vertices the mesh has.
 size_t ck_surface_vertex_count(const ck_surface* surface);
+/// How many triangles the mesh has.
 size_t ck_surface_triangle_count(const ck_surface* surface);
 /// Copies the positions (three floats every `stride` bytes), the depth of the octree that the
 /// samples around each vertex support (one float a vertex), and three indices a triangle.
 void ck_surface_copy(const ck_surface* surface, float* positions, size_t stride, float* densities,
                      uint32_t* triangles);
+/// Frees the mesh; null does nothing.
 void ck_surface_free(ck_surface* surface);
 
 /// Sorts points into the cells of a cubic grid and joins occupied cells that touch (26 neighbours).

@@ -14,10 +14,13 @@ extern "C" {
 /// A surface made ready for ray casting. Immutable; may be used from several threads.
 typedef struct ck_ray_scene ck_ray_scene;
 
+/// Makes a surface ready for ray casting; it keeps copies of the arrays. Free with
+/// `ck_ray_scene_free`.
 ck_status ck_ray_scene_create(const float* positions, size_t position_count, size_t position_stride,
                               const uint32_t* triangles, size_t triangle_count,
                               const ck_control* control, ck_ray_scene** scene);
 
+/// Frees the scene; null does nothing.
 void ck_ray_scene_free(ck_ray_scene* scene);
 
 /// A photo without lens distortion: `pixel = focal * (x, y) / z + center` of the point
@@ -49,6 +52,7 @@ typedef struct {
   float color[3];
 } ck_face_observation;
 
+/// When a view sees a triangle.
 typedef struct {
   /// Triangles seen at a smaller cosine count as not seen.
   float minimum_cosine;
@@ -81,6 +85,7 @@ ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, cons
                           const uint32_t* columns, const double* entries, double tolerance,
                           size_t iterations, const ck_control* control, double* values);
 
+/// How large charts grow.
 typedef struct {
   /// Half the opening of the cone that holds all normals of a chart, in radians, below π/2.
   float maximum_angle;
@@ -106,6 +111,7 @@ typedef struct {
   float offset[2];
 } ck_chart_placement;
 
+/// The atlas to pack charts into.
 typedef struct {
   /// Side of the square atlas in texels.
   int32_t side;
@@ -131,6 +137,7 @@ ck_status ck_atlas_create(const ck_ray_scene* scene, const float* corners, size_
                           int32_t side, int32_t gutter, const ck_control* control,
                           ck_atlas** atlas);
 
+/// Frees the atlas; null does nothing.
 void ck_atlas_free(ck_atlas* atlas);
 
 /// Texels whose centre lies in a triangle, without the gutter.

@@ -20,6 +20,7 @@ ck_status ck_five_point(const double* first, const double* second, double* matri
 ck_status ck_seven_point(const double* first, const double* second, double* matrices,
                          size_t* count);
 
+/// How the geometry of two views is searched for.
 typedef struct {
   /// Estimate an essential matrix; otherwise a fundamental one.
   bool is_calibrated;
@@ -27,11 +28,14 @@ typedef struct {
   double maximum_error;
   /// Probability with which the best model is to be found.
   double confidence;
+  /// Samples drawn at least and at most.
   int32_t minimum_iterations;
   int32_t maximum_iterations;
+  /// The same seed gives the same geometry.
   uint64_t seed;
 } ck_two_view_options;
 
+/// The geometry of two views.
 typedef struct {
   /// Essential or fundamental matrix of norm 1.
   double matrix[9];

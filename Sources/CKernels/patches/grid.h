@@ -86,8 +86,8 @@ struct Kernels {
                uint8_t sources, Plane& result);
 };
 
-/// The kernels for the instructions; automatic: the fastest that this processor has.
-const Kernels& kernels(ck_patch_instructions instructions);
+/// The kernels for the instructions. Throws where the processor lacks them.
+const Kernels& kernels(ck_instructions instructions);
 const Kernels& portable_kernels();
 const Kernels& avx2_kernels();
 const Kernels& avx512_kernels();

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
 #include "patches/grid.h"
-#include "patches/vectors.h"
 
 #if defined(__x86_64__)
 #include <immintrin.h>

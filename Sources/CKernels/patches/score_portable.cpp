@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
 #include "patches/grid.h"
-#include "patches/vectors.h"
 
 #define CK_PATCH_KERNELS portable_kernels
 
