@@ -8,8 +8,8 @@
 
 #include "core/guard.h"
 #include "core/parallel.h"
+#include "core/random.h"
 #include "features/nearest.h"
-#include "two_view/ransac.h"
 
 namespace ck {
 namespace {

@@ -1,6 +1,6 @@
 #include "patches/optimise.h"
 
-#include "patches/random.h"
+#include "core/random.h"
 
 namespace ck::patches {
 
@@ -31,7 +31,8 @@ bool PatchOptimiser::offer(const Plane& plane) {
 }
 
 void PatchOptimiser::perturb(int count, uint32_t seed) {
-  Random random(seed, static_cast<uint32_t>(x_), static_cast<uint32_t>(y_));
+  const uint64_t place = uint64_t{static_cast<uint32_t>(y_)} << 32 | static_cast<uint32_t>(x_);
+  Random random(Random::mixed(seed) ^ place);
   float range = 1;
   for (int i = 0; i < count; ++i, range *= 0.5f) {
     const float depth = 0.02f * range, slant = 0.7f * range;

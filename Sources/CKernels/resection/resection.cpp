@@ -6,23 +6,11 @@
 #include <vector>
 
 #include "core/guard.h"
+#include "core/random.h"
 #include "resection/p3p.h"
 
 namespace ck {
 namespace {
-
-/// SplitMix64: the same sequence everywhere.
-struct Random {
-  uint64_t state;
-
-  uint64_t next() {
-    uint64_t z = (state += 0x9E3779B97F4A7C15ull);
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return z ^ (z >> 31);
-  }
-  size_t below(size_t bound) { return static_cast<size_t>(next() % bound); }
-};
 
 struct Resection {
   const ck_camera_model& camera;
@@ -58,11 +46,12 @@ struct Resection {
   }
 
   bool sample(Random& random, std::array<Pose, 4>& poses, int& found) const {
+    const auto draw = [&] { return static_cast<size_t>(random.next() % size()); };
     size_t index[3];
-    index[0] = random.below(size());
-    do index[1] = random.below(size());
+    index[0] = draw();
+    do index[1] = draw();
     while (index[1] == index[0]);
-    do index[2] = random.below(size());
+    do index[2] = draw();
     while (index[2] == index[0] || index[2] == index[1]);
     std::array<Vector3, 3> r, p;
     for (int k = 0; k < 3; ++k) {
@@ -150,7 +139,7 @@ int needed_iterations(double inlier_ratio, double confidence) {
 
 bool search(const Resection& problem, const ck_resection_options& options,
             const ck_control* control, Pose& best) {
-  Random random{options.seed};
+  Random random(options.seed);
   double best_score = std::numeric_limits<double>::infinity();
   // A hypothesis of three points is never exact: the bound on iterations gets a floor.
   const int least = std::min(options.max_iterations, 30);

@@ -8,26 +8,9 @@
 #include <vector>
 
 #include "core/guard.h"
+#include "core/random.h"
 
 namespace ck {
-
-/// SplitMix64 (Steele et al., OOPSLA 2014).
-class Random {
- public:
-  explicit Random(uint64_t seed) : state_(seed) {}
-
-  /// A number below `bound`, which is small against 2³².
-  size_t below(size_t bound) {
-    state_ += 0x9E3779B97F4A7C15ull;
-    uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-    return static_cast<size_t>(((z ^ (z >> 31)) >> 32) * bound >> 32);
-  }
-
- private:
-  uint64_t state_;
-};
 
 struct RansacOptions {
   /// Largest error of an inlier in the estimator's unit.

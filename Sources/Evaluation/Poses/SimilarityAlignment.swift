@@ -147,28 +147,3 @@ struct SymmetricEigenvalues {
     }
   }
 }
-
-/// A small random generator that gives the same numbers everywhere (Steele et al., OOPSLA 2014).
-struct SplitMix64: RandomNumberGenerator {
-  private var state: UInt64
-
-  init(seed: UInt64) { state = seed }
-
-  mutating func next() -> UInt64 {
-    state &+= 0x9E37_79B9_7F4A_7C15
-    var z = state
-    z = (z ^ (z >> 30)) &* 0xBF58_476D_1CE4_E5B9
-    z = (z ^ (z >> 27)) &* 0x94D0_49BB_1331_11EB
-    return z ^ (z >> 31)
-  }
-
-  /// `count` different numbers of `0..<limit`.
-  mutating func distinct(_ count: Int, below limit: Int) -> [Int] {
-    var numbers: [Int] = []
-    while numbers.count < min(count, limit) {
-      let number = Int(next() % UInt64(limit))
-      if !numbers.contains(number) { numbers.append(number) }
-    }
-    return numbers
-  }
-}

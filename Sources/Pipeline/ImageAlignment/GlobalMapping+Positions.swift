@@ -36,10 +36,10 @@ extension GlobalMapping {
   ) throws -> Bool {
     let seen = TrackDirections(chosenTracks(map, rotations), map, rotations)
     guard !seen.tracks.isEmpty else { return false }
-    var random = RandomPlaces(state: options.seed)
+    var random = SplitMix64(seed: options.seed)
     let places = try GlobalPositioning(options.positioning).run(
-      seen.directions, centers: rotations.map { _ in random.next() },
-      points: seen.tracks.map { _ in random.next() }, control: context.control)
+      seen.directions, centers: rotations.map { _ in random.place() },
+      points: seen.tracks.map { _ in random.place() }, control: context.control)
     for photo in Set(seen.directions.map { Int($0.photo) }).sorted() {
       guard let rotation = rotations[photo] else { continue }
       map.register(
@@ -146,20 +146,10 @@ extension GlobalMapping {
   }
 }
 
-/// Random places in a cube (SplitMix64: the same on every machine).
-private struct RandomPlaces {
-  var state: UInt64
-
-  private mutating func uniform() -> Double {
-    state &+= 0x9E37_79B9_7F4A_7C15
-    var z = state
-    z = (z ^ (z >> 30)) &* 0xBF58_476D_1CE4_E5B9
-    z = (z ^ (z >> 27)) &* 0x94D0_49BB_1331_11EB
-    return Double((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1
-  }
-
-  mutating func next() -> SIMD3<Double> {
+extension SplitMix64 {
+  /// A place in the cube of −100…100.
+  fileprivate mutating func place() -> SIMD3<Double> {
     let (x, y, z) = (uniform(), uniform(), uniform())
-    return 100 * SIMD3(x, y, z)
+    return 100 * (2 * SIMD3(x, y, z) - 1)
   }
 }

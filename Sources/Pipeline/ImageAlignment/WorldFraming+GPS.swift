@@ -131,7 +131,7 @@ struct GPSFit: Sendable {
   private static func robustFit(
     _ pairs: [Located], _ options: WorldFraming.Options
   ) -> (SimilarityTransform, [Located])? {
-    var random = SplitMix64(state: options.seed)
+    var random = SplitMix64(seed: options.seed)
     var best: SimilarityTransform?
     var bestScore = Double.infinity
     let limit = 3 * options.gpsNoise
@@ -142,7 +142,7 @@ struct GPSFit: Sendable {
       // The first hypothesis is the fit of all.
       let sample =
         round == 0
-        ? pairs : (0..<4).map { _ in pairs[Int(random.next() % UInt64(pairs.count))] }
+        ? pairs : (0..<4).map { _ in pairs[random.below(pairs.count)] }
       guard
         let fit = SimilarityTransform.fitting(sample.map(\.center), to: sample.map(\.world))
       else { continue }

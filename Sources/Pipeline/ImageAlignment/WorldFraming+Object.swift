@@ -111,10 +111,10 @@ struct SupportPlane: Sendable {
     // With an up direction that is off, low points may lie a little above the middle.
     let limit = heights[heights.count / 2] + 2 * thickness
     let low = points.filter { $0.dot(up) < limit }
-    var random = SplitMix64(state: options.seed)
+    var random = SplitMix64(seed: options.seed)
     var best = (score: 0, normal: up, offset: 0.0)
     for _ in 0..<1000 {
-      let triple = (0..<3).map { _ in low[Int(random.next() % UInt64(low.count))] }
+      let triple = (0..<3).map { _ in low[random.below(low.count)] }
       var normal = (triple[1] - triple[0]).cross(triple[2] - triple[0]).normalized
       if normal.dot(up) < 0 { normal = -normal }
       guard normal.dot(up) > cos(tilt) else { continue }
@@ -176,19 +176,6 @@ struct SupportPlane: Sendable {
     let vector = Matrix3(rows: rows[0], rows[1], rows[2]).symmetricEigen.vectors[0]
     normal = vector.dot(up) < 0 ? -vector : vector
     offset = normal.dot(mean)
-  }
-}
-
-/// A small generator of random numbers, the same everywhere (Steele et al. 2014).
-struct SplitMix64: Sendable {
-  var state: UInt64
-
-  mutating func next() -> UInt64 {
-    state &+= 0x9E37_79B9_7F4A_7C15
-    var z = state
-    z = (z ^ (z >> 30)) &* 0xBF58_476D_1CE4_E5B9
-    z = (z ^ (z >> 27)) &* 0x94D0_49BB_1331_11EB
-    return z ^ (z >> 31)
   }
 }
 

@@ -51,7 +51,7 @@ struct StandingPlaneDetection {
     let scoring = Swift.stride(from: 0, to: positions.count, by: stride).map {
       SIMD3<Double>(positions[$0])
     }
-    var random = PlaneRandom(state: 0x5eed_0001)
+    var random = SplitMix64(seed: 0x5eed_0001)
     var best: (plane: StandingPlane, score: Double)?
     for _ in 0..<options.iterations {
       let corners = (0..<3).map { _ in
@@ -147,20 +147,4 @@ extension SIMD3 where Scalar == Double {
     let u = cross(helper).normalized
     return (u, cross(u))
   }
-}
-
-/// A small generator of repeatable numbers (Steele et al., OOPSLA 2014).
-struct PlaneRandom {
-  var state: UInt64
-
-  mutating func next() -> UInt64 {
-    state &+= 0x9e37_79b9_7f4a_7c15
-    var z = state
-    z = (z ^ (z >> 30)) &* 0xbf58_476d_1ce4_e5b9
-    z = (z ^ (z >> 27)) &* 0x94d0_49bb_1331_11eb
-    return z ^ (z >> 31)
-  }
-
-  /// A number in 0..<count.
-  mutating func below(_ count: Int) -> Int { Int(next() % UInt64(count)) }
 }
