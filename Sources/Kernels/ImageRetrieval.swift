@@ -26,7 +26,7 @@ package struct VisualVocabulary: Sendable {
     self.words = words
   }
 
-  /// The vector of a photo, of unit length; the inner product of two tells how alike they are. Zeros
+  /// The vector of a photo, of unit length; the inner product of two tells how similar they are. Zeros
   /// without features.
   package func vector(of features: FeatureSet, _ control: KernelControl) throws -> [Float] {
     var vector = [Float](repeating: 0, count: words.count)
@@ -38,30 +38,32 @@ package struct VisualVocabulary: Sendable {
   }
 }
 
-/// The photos most alike each photo.
-package struct LikePhotos: Sendable {
-  /// Partners of a photo: less than the number of photos.
-  package let partners: Int
-  /// `partners` entries a photo, the most alike first.
+/// For each photo the most similar others, by the inner products of their vectors.
+package struct SimilarityRanking: Sendable {
+  /// Neighbours of a photo: less than the number of photos.
+  package let neighborCount: Int
+  /// `neighborCount` entries a photo, the most similar first.
   package private(set) var indices: [Int32]
   /// The inner products that belong to `indices`.
-  package private(set) var products: [Float]
+  package private(set) var similarities: [Float]
 
   /// Compares the vectors of all photos, one after the other in `vectors`, with each other.
-  package init(vectors: [Float], photoCount: Int, partners: Int, _ control: KernelControl) throws {
-    self.partners = max(0, min(partners, photoCount - 1))
-    indices = [Int32](repeating: 0, count: photoCount * self.partners)
-    products = [Float](repeating: 0, count: photoCount * self.partners)
-    guard self.partners > 0, !vectors.isEmpty else { return }
+  package init(
+    vectors: [Float], photoCount: Int, neighborCount: Int, _ control: KernelControl
+  ) throws {
+    self.neighborCount = max(0, min(neighborCount, photoCount - 1))
+    indices = [Int32](repeating: 0, count: photoCount * self.neighborCount)
+    similarities = [Float](repeating: 0, count: photoCount * self.neighborCount)
+    guard self.neighborCount > 0, !vectors.isEmpty else { return }
     try withKernel(control) { control in
-      ck_largest_products(
-        vectors, photoCount, vectors.count / photoCount, self.partners, control, &indices,
-        &products)
+      ck_most_similar(
+        vectors, photoCount, vectors.count / photoCount, self.neighborCount, control, &indices,
+        &similarities)
     }
   }
 
-  /// The photos most alike `photo`, the most alike first.
-  package func partners(of photo: Int) -> [Int] {
-    indices[photo * partners..<(photo + 1) * partners].map(Int.init)
+  /// The photos most similar to `photo`, the most similar first.
+  package func neighbors(of photo: Int) -> [Int] {
+    indices[photo * neighborCount..<(photo + 1) * neighborCount].map(Int.init)
   }
 }

@@ -52,15 +52,17 @@ import Testing
     #expect(vectors[0] == vectors[1])
   }
 
-  @Test func largestProductsComeFirst() throws {
+  @Test func mostSimilarComeFirst() throws {
     let vectors: [Float] = [1, 0, 0.8, 0.6, 0, 1, -1, 0, 0.8, 0.6]
-    let alike = try LikePhotos(vectors: vectors, photoCount: 5, partners: 3, KernelControl())
-    #expect(alike.partners(of: 0) == [1, 4, 2])
-    #expect(alike.partners(of: 1) == [4, 0, 2])
-    #expect(alike.partners(of: 3) == [2, 1, 4])
-    let all = try LikePhotos(vectors: vectors, photoCount: 5, partners: 9, KernelControl())
-    #expect(all.partners == 4 && all.partners(of: 2) == [1, 4, 0, 3])
-    let one = try LikePhotos(vectors: [1], photoCount: 1, partners: 3, KernelControl())
-    #expect(one.partners(of: 0).isEmpty)
+    let ranking = try SimilarityRanking(
+      vectors: vectors, photoCount: 5, neighborCount: 3, KernelControl())
+    #expect(ranking.neighbors(of: 0) == [1, 4, 2])
+    #expect(ranking.neighbors(of: 1) == [4, 0, 2])
+    #expect(ranking.neighbors(of: 3) == [2, 1, 4])
+    let all = try SimilarityRanking(
+      vectors: vectors, photoCount: 5, neighborCount: 9, KernelControl())
+    #expect(all.neighborCount == 4 && all.neighbors(of: 2) == [1, 4, 0, 3])
+    let one = try SimilarityRanking(vectors: [1], photoCount: 1, neighborCount: 3, KernelControl())
+    #expect(one.neighbors(of: 0).isEmpty)
   }
 }

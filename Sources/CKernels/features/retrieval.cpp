@@ -16,8 +16,8 @@ namespace {
 
 /// Descriptors that one unit of work assigns to words.
 constexpr size_t kChunk = 4096;
-/// Vectors whose products with all others are had together.
-constexpr size_t kProductRows = 32;
+/// Vectors that are compared with all others together.
+constexpr size_t kRankedRows = 32;
 
 /// The index of the nearest word of each descriptor.
 std::vector<uint32_t> assign(const uint8_t* descriptors, size_t count, const uint8_t* words,
@@ -71,12 +71,12 @@ void scale_to_unit_length(float* values, size_t count) {
   for (size_t k = 0; k < count; ++k) values[k] *= factor;
 }
 
-struct Partner {
-  float product;
+struct Neighbor {
+  float similarity;
   int32_t index;
 
-  bool operator<(const Partner& other) const {
-    return product != other.product ? product > other.product : index < other.index;
+  bool operator<(const Neighbor& other) const {
+    return similarity != other.similarity ? similarity > other.similarity : index < other.index;
   }
 };
 
@@ -120,32 +120,33 @@ ck_status ck_encode_vlad(const uint8_t* descriptors, size_t count, const uint8_t
   });
 }
 
-ck_status ck_largest_products(const float* vectors, size_t count, size_t length, size_t partners,
-                              const ck_control* control, int32_t* indices, float* products) {
+ck_status ck_most_similar(const float* vectors, size_t count, size_t length, size_t neighbor_count,
+                          const ck_control* control, int32_t* indices, float* similarities) {
   return ck::guarded([&] {
-    ck::require(vectors && indices && products, "an argument is missing");
-    ck::require(length > 0 && partners < count, "there are not as many vectors");
+    ck::require(vectors && indices && similarities, "an argument is missing");
+    ck::require(length > 0 && neighbor_count < count, "there are not as many vectors");
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const Rows> all(vectors, static_cast<Eigen::Index>(count),
                                      static_cast<Eigen::Index>(length));
-    ck::parallel_for(control, (count + ck::kProductRows - 1) / ck::kProductRows, [&](size_t chunk) {
-      const size_t begin = chunk * ck::kProductRows;
-      const size_t rows = std::min(count - begin, ck::kProductRows);
+    ck::parallel_for(control, (count + ck::kRankedRows - 1) / ck::kRankedRows, [&](size_t chunk) {
+      const size_t begin = chunk * ck::kRankedRows;
+      const size_t rows = std::min(count - begin, ck::kRankedRows);
       const Eigen::MatrixXf table =
           all * all.middleRows(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(rows))
                     .transpose();
       for (size_t r = 0; r < rows; ++r) {
-        std::vector<ck::Partner> others;
+        std::vector<ck::Neighbor> others;
         for (size_t i = 0; i < count; ++i) {
           if (i == begin + r) continue;
           others.push_back({table(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(r)),
                             static_cast<int32_t>(i)});
         }
-        std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(partners),
+        std::partial_sort(others.begin(),
+                          others.begin() + static_cast<std::ptrdiff_t>(neighbor_count),
                           others.end());
-        for (size_t k = 0; k < partners; ++k) {
-          indices[(begin + r) * partners + k] = others[k].index;
-          products[(begin + r) * partners + k] = others[k].product;
+        for (size_t k = 0; k < neighbor_count; ++k) {
+          indices[(begin + r) * neighbor_count + k] = others[k].index;
+          similarities[(begin + r) * neighbor_count + k] = others[k].similarity;
         }
       }
     });

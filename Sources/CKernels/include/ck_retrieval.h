@@ -22,12 +22,12 @@ ck_status ck_learn_words(const uint8_t* descriptors, size_t count, size_t word_c
 ck_status ck_encode_vlad(const uint8_t* descriptors, size_t count, const uint8_t* words,
                          size_t word_count, const ck_control* control, float* vector);
 
-/// Finds for each of `count` vectors of `length` the others with the largest inner products.
+/// Finds for each of `count` vectors of `length` the most similar others by their inner products.
 ///
-/// `indices` and `products` receive `partners` entries a vector, the largest first; ties go to the
-/// lower index. `partners` is less than `count`.
-ck_status ck_largest_products(const float* vectors, size_t count, size_t length, size_t partners,
-                              const ck_control* control, int32_t* indices, float* products);
+/// `indices` and `similarities` receive `neighbor_count` entries a vector, the most similar first;
+/// ties go to the lower index. `neighbor_count` is less than `count`.
+ck_status ck_most_similar(const float* vectors, size_t count, size_t length, size_t neighbor_count,
+                          const ck_control* control, int32_t* indices, float* similarities);
 
 #ifdef __cplusplus
 }

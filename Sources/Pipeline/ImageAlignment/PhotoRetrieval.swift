@@ -17,7 +17,7 @@ package struct PhotoRetrieval: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The `partners` photos most alike each photo, the most alike first; none for a photo without
+  /// The `partners` photos most similar to each photo, the most similar first; none for a photo without
   /// features.
   package func run(
     _ features: [FeatureSet], partners: Int, _ context: StageContext
@@ -28,12 +28,12 @@ package struct PhotoRetrieval: Sendable {
     let vectors = try context.part(from: 0.3, to: 0.8).control.parallelMap(features.count) {
       try vocabulary.vector(of: features[$0], KernelControl())
     }
-    let alike = try LikePhotos(
-      vectors: Array(vectors.joined()), photoCount: features.count, partners: partners,
+    let ranking = try SimilarityRanking(
+      vectors: Array(vectors.joined()), photoCount: features.count, neighborCount: partners,
       context.part(from: 0.8, to: 1).control)
     return features.indices.map { photo in
       guard features[photo].count > 0, vocabulary.count > 0 else { return [] }
-      return alike.partners(of: photo).filter { features[$0].count > 0 }
+      return ranking.neighbors(of: photo).filter { features[$0].count > 0 }
     }
   }
 
