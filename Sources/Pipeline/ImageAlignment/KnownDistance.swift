@@ -43,19 +43,18 @@ package struct KnownDistance: Hashable, Codable, Sendable {
 /// The scale that measured distances give a reconstruction.
 struct MeasuredScale: Sendable {
   /// Metres per unit of the reconstruction, by least squares over all distances that could be used.
-  var scale: Double
+  var metersPerUnit: Double
   /// Of each used distance: what the reconstruction makes of it, relative to what was measured, less 1.
   var deviations: [Double]
-  /// Sentences about distances that could not be used, or that disagree.
-  var problems: [String] = []
 
   /// Largest distance of a pick from its point, as a fraction of the photo's longer side.
   static let largestPickError = 0.01
 
-  /// Nil without a usable distance; `problems` then says why.
+  /// Nil without a usable distance. `problems` are sentences about distances that could not be used,
+  /// or that disagree.
   static func measure(
     _ distances: [KnownDistance], in reconstruction: Reconstruction
-  ) -> (result: MeasuredScale?, problems: [String]) {
+  ) -> (scale: MeasuredScale?, problems: [String]) {
     var problems: [String] = []
     var used: [(length: Double, meters: Double)] = []
     for distance in distances {
@@ -81,7 +80,7 @@ struct MeasuredScale: Sendable {
         "The known distances disagree by up to \(Int((100 * worst).rounded())) %; check them and "
           + "what they were measured between.")
     }
-    return (MeasuredScale(scale: scale, deviations: deviations, problems: problems), problems)
+    return (MeasuredScale(metersPerUnit: scale, deviations: deviations), problems)
   }
 
   private struct Unusable: Error {

@@ -67,13 +67,12 @@ package struct WorldFraming: Sendable {
     _ reconstruction: Reconstruction, _ object: ObjectRegion, _ gps: GPSFit?, _ notes: StageNotes
   ) -> (Double, WorldFrame.Scale) {
     if let residual = gps?.residual { report(residual, notes) }
-    let (measured, problems) = MeasuredScale.measure(
-      options.knownDistances, in: reconstruction)
+    let (measured, problems) = MeasuredScale.measure(options.knownDistances, in: reconstruction)
     problems.forEach(notes.warn)
     if let measured {
       notes.count("knownDistances", Double(measured.deviations.count))
       notes.count("knownDistanceDeviation", measured.deviations.map { abs($0) }.max() ?? 0)
-      return (measured.scale, .knownDistance)
+      return (measured.metersPerUnit, .knownDistance)
     }
     if let gps { return (gps.scale, .gps) }
     notes.warn(
