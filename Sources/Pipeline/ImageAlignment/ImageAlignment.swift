@@ -10,8 +10,6 @@ package struct ImageAlignment: Sendable {
     package var isHighSensitivity = false
     /// Fewer registered photos are an error.
     package var minimumPhotos = 3
-    /// Below this median angle of their points, in degrees, two photos are of one standpoint.
-    package var parallaxDegrees = 1.0
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
     package var standpoint = StandpointCheck.Options()
@@ -48,13 +46,16 @@ package struct ImageAlignment: Sendable {
     }
     let isOfOnePlace = StandpointCheck(options.standpoint)
       .isOfOnePlace(graph, features: features, photos: photos, cameras: calibrated)
-    guard !isOfOnePlace else { throw PipelineError.alignmentFailed(reason: Self.onePlace) }
+    guard !isOfOnePlace else {
+      throw PipelineError.alignmentFailed(
+        reason: "all photos were taken from one place; walk around the object between photos.")
+    }
     let mapped = try timed("mappingSeconds", context) {
       try SparseMapping(options.mapping).run(
         graph, features: features, photos: photos, cameras: calibrated,
         context.part(from: 0.7, to: 0.85))
     }
-    try check(mapped, graph, context.notes)
+    try check(mapped, context.notes)
     let refined = try timed("refinementSeconds", context) {
       try refine(mapped, features, calibrated, images, context.part(from: 0.85, to: 0.98))
     }
@@ -79,12 +80,7 @@ package struct ImageAlignment: Sendable {
     }
   }
 
-  private static let onePlace =
-    "all photos were taken from one place; walk around the object between photos."
-
-  private func check(
-    _ reconstruction: Reconstruction, _ graph: ViewGraph, _ notes: StageNotes
-  ) throws {
+  private func check(_ reconstruction: Reconstruction, _ notes: StageNotes) throws {
     let count = reconstruction.registered.count
     if count >= options.minimumPhotos, !reconstruction.points.isEmpty { return }
     reconstruction.unregistered.forEach { notes.warn($0.reason) }
@@ -92,15 +88,7 @@ package struct ImageAlignment: Sendable {
     throw PipelineError.alignmentFailed(
       reason: count > 0
         ? "only \(count) of the \(photos) photos see enough of the same surface."
-        : hasNoParallax(graph)
-          ? Self.onePlace
-          : "no pair of the \(photos) photos shows a surface from two different places.")
-  }
-
-  /// Whether hardly any pair of photos has parallax.
-  private func hasNoParallax(_ graph: ViewGraph) -> Bool {
-    let limit = options.parallaxDegrees * .pi / 180
-    return 10 * graph.pairs.count { $0.medianAngle < limit } >= 9 * graph.pairs.count
+        : "no pair of the \(photos) photos shows a surface from two different places.")
   }
 
   private func report(_ reconstruction: Reconstruction, _ notes: StageNotes) {
