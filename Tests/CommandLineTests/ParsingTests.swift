@@ -13,16 +13,16 @@ import Testing
     #expect(reconstruct.inputFolder == "photos")
     #expect(reconstruct.output == "model.usdz")
     #expect(reconstruct.detail == .medium)
-    #expect(reconstruct.sampleOrdering == .sequential)
-    #expect(reconstruct.featureSensitivity == .high)
+    #expect(reconstruct.alignment.sampleOrdering == .sequential)
+    #expect(reconstruct.alignment.featureSensitivity == .high)
     #expect(!reconstruct.noObjectMasking)
   }
 
   @Test func defaultsAreApples() throws {
     let reconstruct = try Reconstruct.parse(["a", "b.usdz"])
     #expect(reconstruct.detail == .reduced)
-    #expect(reconstruct.sampleOrdering == .unordered)
-    #expect(reconstruct.featureSensitivity == .normal)
+    #expect(reconstruct.alignment.sampleOrdering == .unordered)
+    #expect(reconstruct.alignment.featureSensitivity == .normal)
     #expect(reconstruct.engine.threads == nil)
   }
 

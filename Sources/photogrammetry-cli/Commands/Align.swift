@@ -22,9 +22,7 @@
           photogrammetry-cli align photos/ work/
           photogrammetry-cli align drone/ work/ -o sequential --mapping global
 
-        SCALE
-          comes from GPS or from measured distances, as 'reconstruct --help' tells.
-
+        \(EngineArguments.scaleHelp)
         Exit codes: 0 cameras were found, 1 too few photos fit together, 2 the command line can't be \
         carried out, 130 interrupted.
         """)
@@ -35,15 +33,7 @@
     @Argument(help: ArgumentHelp("The folder for the results.", valueName: "output"))
     var output: String
 
-    @Option(
-      name: [.customShort("o"), .long],
-      help: "Whether neighbours in the order of file names show the same part.")
-    var sampleOrdering = OrderingArgument.unordered
-
-    @Option(
-      name: [.customShort("f"), .long],
-      help: "Use 'high' for objects with little texture; it takes longer.")
-    var featureSensitivity = SensitivityArgument.normal
+    @OptionGroup var alignment: AlignmentArguments
 
     @Option(
       name: .long,
@@ -91,8 +81,8 @@
     /// What the pipeline is told.
     private func configuration(photos: URL, _ target: URL) throws -> PipelineConfiguration {
       var configuration = PipelineConfiguration()
-      configuration.isSequential = sampleOrdering == .sequential
-      configuration.isHighSensitivity = featureSensitivity == .high
+      configuration.isSequential = alignment.sampleOrdering == .sequential
+      configuration.isHighSensitivity = alignment.featureSensitivity == .high
       configuration.mappingMethod = mapping
       configuration.checkpointDirectory = target
       configuration.knownDistances = try engine.knownDistances(photos: photos)

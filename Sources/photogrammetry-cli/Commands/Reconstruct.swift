@@ -32,20 +32,7 @@ struct Reconstruct: AsyncParsableCommand {
         full        250,000    8192 x 8192       and roughness, displacement
         raw      30,000,000    8192 x 8192, 16   colour
 
-      SCALE
-        Photos with GPS give it. Distances that you measured come before GPS:
-        --camera-distance IMG_1.jpg,IMG_5.jpg=0.42
-            The two photos were taken 0.42 m apart (lens to lens).
-        --measurements points.json
-            Distances between points. Each point is picked in two or more photos
-            taken from different sides, in pixels from the top left as a viewer
-            shows the photo:
-            [{"meters": 0.2,
-              "from": [{"photo": "IMG_1.jpg", "x": 812, "y": 1440},
-                       {"photo": "IMG_5.jpg", "x": 1022, "y": 1396}],
-              "to":   [{"photo": "IMG_1.jpg", "x": 1730, "y": 1452},
-                       {"photo": "IMG_5.jpg", "x": 1911, "y": 1377}]}]
-
+      \(EngineArguments.scaleHelp)
       Paths of what was written go to stdout, everything else to stderr.
       """)
 
@@ -61,15 +48,7 @@ struct Reconstruct: AsyncParsableCommand {
   @Option(name: .shortAndLong, help: "How fine the model is; see the table above.")
   var detail = DetailArgument.reduced
 
-  @Option(
-    name: [.customShort("o"), .long],
-    help: "Whether neighbours in the order of file names show the same part.")
-  var sampleOrdering = OrderingArgument.unordered
-
-  @Option(
-    name: [.customShort("f"), .long],
-    help: "Use 'high' for objects with little texture; it takes longer.")
-  var featureSensitivity = SensitivityArgument.normal
+  @OptionGroup var alignment: AlignmentArguments
 
   @Option(
     name: .long,
@@ -115,23 +94,5 @@ enum DetailArgument: String, ExpressibleByArgument, CaseIterable {
     case .full: .full
     case .raw: .raw
     }
-  }
-}
-
-/// The orders of photos of the command line.
-enum OrderingArgument: String, ExpressibleByArgument, CaseIterable {
-  case unordered, sequential
-
-  var ordering: PhotogrammetrySession.Configuration.SampleOrdering {
-    self == .sequential ? .sequential : .unordered
-  }
-}
-
-/// The feature sensitivities of the command line.
-enum SensitivityArgument: String, ExpressibleByArgument, CaseIterable {
-  case normal, high
-
-  var sensitivity: PhotogrammetrySession.Configuration.FeatureSensitivity {
-    self == .high ? .high : .normal
   }
 }

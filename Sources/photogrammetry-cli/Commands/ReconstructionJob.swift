@@ -82,8 +82,8 @@ struct ReconstructionJob {
   private var configuration: PhotogrammetrySession.Configuration {
     var configuration = PhotogrammetrySession.Configuration()
     configuration.isObjectMaskingEnabled = !arguments.noObjectMasking
-    configuration.sampleOrdering = arguments.sampleOrdering.ordering
-    configuration.featureSensitivity = arguments.featureSensitivity.sensitivity
+    configuration.sampleOrdering = arguments.alignment.sampleOrdering.ordering
+    configuration.featureSensitivity = arguments.alignment.featureSensitivity.sensitivity
     configuration.checkpointDirectory = checkpointURL
     return configuration
   }

@@ -8,6 +8,24 @@ import RealityKit
 
   /// What only our engine can do.
   struct EngineArguments: ParsableArguments {
+    /// How the scale is told, as a section of help.
+    static let scaleHelp = """
+      SCALE
+        Photos with GPS give it. Distances that you measured come before GPS:
+        --camera-distance IMG_1.jpg,IMG_5.jpg=0.42
+            The two photos were taken 0.42 m apart (lens to lens).
+        --measurements points.json
+            Distances between points. Each point is picked in two or more photos
+            taken from different sides, in pixels from the top left as a viewer
+            shows the photo:
+            [{"meters": 0.2,
+              "from": [{"photo": "IMG_1.jpg", "x": 812, "y": 1440},
+                       {"photo": "IMG_5.jpg", "x": 1022, "y": 1396}],
+              "to":   [{"photo": "IMG_1.jpg", "x": 1730, "y": 1452},
+                       {"photo": "IMG_5.jpg", "x": 1911, "y": 1377}]}]
+
+      """
+
     @Option(
       name: .long,
       help: ArgumentHelp(
@@ -84,6 +102,8 @@ import RealityKit
 #else
   /// Apple's engine has no options beyond its configuration.
   struct EngineArguments: ParsableArguments {
+    static let scaleHelp = ""
+
     var report: String? { nil }
 
     func checkOutputs() throws {}
