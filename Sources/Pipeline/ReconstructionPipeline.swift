@@ -55,14 +55,7 @@ package final class ReconstructionPipeline {
     }
     result.refused.forEach { onEvent(.refused($0)) }
     if result.isDownsampled { onEvent(.downsampled) }
-    guard !result.photos.isEmpty else {
-      throw PipelineError.noPhotos(folder: folder.path, refused: result.refused.count)
-    }
-    onEvent(.ingested(photos: result.photos.count))
-    let needed = 3
-    guard result.photos.count >= needed else {
-      throw PipelineError.tooFewPhotos(found: result.photos.count, needed: needed)
-    }
+    try noting { try checkCount(result) }
     ingested = result
     images = ImageStore(
       photos: result.photos, byteBudget: configuration.imageMemory,
@@ -160,6 +153,28 @@ extension ReconstructionPipeline {
     return (photos, images)
   }
 
+  /// Throws where there are too few photos for anything.
+  private func checkCount(_ photos: IngestedPhotos) throws {
+    let (count, needed) = (photos.photos.count, 3)
+    guard count > 0 else {
+      throw PipelineError.noPhotos(folder: folder.path, refused: photos.refused.count)
+    }
+    onEvent(.ingested(photos: count))
+    guard count >= needed else {
+      throw PipelineError.tooFewPhotos(found: count, needed: needed)
+    }
+  }
+
+  /// Puts into the report why `body` fails.
+  private func noting<Value>(_ body: () throws -> Value) throws -> Value {
+    do {
+      return try body()
+    } catch {
+      report.note(error)
+      throw error
+    }
+  }
+
   /// Runs one stage with its own progress and notes, and puts what it cost into the report.
   private func run<Value>(
     _ stage: PipelineStage, _ body: (StageContext) throws -> Value
@@ -169,7 +184,7 @@ extension ReconstructionPipeline {
       [onEvent] fraction in onEvent(.progress(stage, fraction: fraction))
     }
     let start = ResourceUsage.now
-    try control.step(0)
+    try noting { try control.step(0) }
     defer {
       let end = ResourceUsage.now
       report.stages.append(
@@ -182,9 +197,11 @@ extension ReconstructionPipeline {
       notes.warnings.forEach { onEvent(.warning($0)) }
       notes.details.forEach { onEvent(.detail($0)) }
     }
-    let value = try body(StageContext(control: control, notes: notes))
-    try control.step(1)
-    return value
+    return try noting {
+      let value = try body(StageContext(control: control, notes: notes))
+      try control.step(1)
+      return value
+    }
   }
 
   private func describe(_ reconstruction: Reconstruction) {

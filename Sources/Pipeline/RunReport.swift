@@ -25,11 +25,22 @@ package struct RunReport: Codable, Sendable {
   package var photos: [PhotoEntry] = []
   package var meanReprojectionError: Double?
   package var worldFrame: WorldFrame?
+  /// Why the run failed, or parts of it: sentences.
+  package var errors: [String] = []
   package var warnings: [String] = []
   package var details: [String] = []
 
   package init(configuration: PipelineConfiguration) {
     self.configuration = configuration
+  }
+
+  /// Adds why something failed, once.
+  mutating func note(_ error: any Error) {
+    let sentence =
+      error is CancellationError
+      ? "The run was cancelled."
+      : (error as? any LocalizedError)?.errorDescription ?? String(describing: error)
+    if !errors.contains(sentence) { errors.append(sentence) }
   }
 
   /// The report as JSON with sorted keys.

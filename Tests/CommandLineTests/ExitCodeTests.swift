@@ -1,5 +1,6 @@
 import Foundation
 import Kernels
+import Pipeline
 import SceneModel
 import TestSupport
 import Testing
@@ -75,6 +76,25 @@ import Testing
     try expectFailure(
       ["texts", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "JPEG or PNG"])
     try expectFailure(["two", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "2"])
+    _ = temporary
+  }
+
+  @Test func reportTellsWhyARunFailed() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    try makePhotos(2, in: folder, "two")
+    let align = try CommandProcess.run(
+      ["align", "two", "aligned", "--report", "r.json"], in: folder)
+    #expect(align.exitCode == 1 && align.output.isEmpty, "\(align.errors)")
+    let model = try CommandProcess.run(
+      ["two", "m.usdz", "--checkpoint-directory", "made", "--report", "q.json"], in: folder)
+    #expect(model.exitCode == 1, "\(model.errors)")
+    for name in ["aligned/report.json", "r.json", "made/report.json", "q.json"] {
+      let data = try Data(contentsOf: folder.appendingPathComponent(name))
+      let report = try JSONDecoder().decode(RunReport.self, from: data)
+      #expect(report.errors == [PipelineError.tooFewPhotos(found: 2, needed: 3).errorDescription])
+      #expect(report.stages.map(\.name) == ["preProcessing"])
+    }
     _ = temporary
   }
 

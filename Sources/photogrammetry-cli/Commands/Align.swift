@@ -16,7 +16,7 @@
       discussion: """
         Writes sparse/cameras.txt, images.txt and points3D.txt, the text format of COLMAP that other \
         programs for neural rendering, stereo and surveying read, and report.json, into the folder \
-        <output>. The same alignment is what 'reconstruct' begins with.
+        <output>; where alignment fails, report.json alone, which says why. The same alignment is what 'reconstruct' begins with.
 
         EXAMPLES
           photogrammetry-cli align photos/ work/
@@ -58,18 +58,14 @@
       let listener = AlignmentListener(RunReporter(logging.style(json: false)))
       let pipeline = ReconstructionPipeline(
         folder: folder, configuration: configuration, flag: flag, onEvent: listener.take)
-      do {
-        _ = try pipeline.align()
-      } catch {
-        listener.finish()
+      let outcome = Result { try pipeline.align() }
+      listener.finish()
+      try writeReport(of: pipeline)
+      if case .failure(let error) = outcome {
         guard interrupts.wasInterrupted else { throw error }
         throw CommandFailure(
-          sentence: "Interrupted; nothing was written.", exitCode: CommandFailure.interruptedCode)
-      }
-      listener.finish()
-      try pipeline.writeReport()
-      if let report = engine.report {
-        try AtomicFile.write(try pipeline.report.encoded(), to: URL(fileURLWithPath: report))
+          sentence: "Interrupted; no cameras were written.",
+          exitCode: CommandFailure.interruptedCode)
       }
       Terminal.shared.result(target.appendingPathComponent("sparse").relativePath)
     }
@@ -78,6 +74,14 @@
   extension MappingMethod: ExpressibleByArgument {}
 
   extension Align {
+    /// Writes the report into the folder for the results, and where it was asked for besides.
+    private func writeReport(of pipeline: ReconstructionPipeline) throws {
+      try pipeline.writeReport()
+      if let report = engine.report {
+        try AtomicFile.write(try pipeline.report.encoded(), to: URL(fileURLWithPath: report))
+      }
+    }
+
     /// What the pipeline is told.
     private func configuration(photos: URL, _ target: URL) throws -> PipelineConfiguration {
       var configuration = PipelineConfiguration()
