@@ -100,6 +100,11 @@ class Adjustment {
 
   double* camera(size_t i) { return blocks_[i].data(); }
   double* pose(size_t i) { return blocks_[bundle_.camera_count + i].data(); }
+  Eigen::Quaterniond rotation(size_t i) {
+    const double* p = pose(i);
+    return {p[3], p[0], p[1], p[2]};
+  }
+  Vector3 translation(size_t i) { return Eigen::Map<const Vector3>(pose(i) + 4); }
   double* point(size_t i) const {
     return reinterpret_cast<double*>(reinterpret_cast<char*>(bundle_.points) +
                                      i * bundle_.point_stride);
@@ -160,16 +165,27 @@ class Adjustment {
         continue;
       }
       ++free_photos_;
-      int axis = -1;
-      if (bundle_.pose_freedom[i] == ck_pose_scale_fixed) {
-        Vector3(block[4], block[5], block[6]).cwiseAbs().maxCoeff(&axis);
-      }
-      manifolds_.push_back(std::make_unique<PoseManifold>(axis));
+      const bool keeps_scale = bundle_.pose_freedom[i] == ck_pose_scale_fixed;
+      manifolds_.push_back(std::make_unique<PoseManifold>(keeps_scale ? scale_axis(i) : -1));
       problem_.SetManifold(block, manifolds_.back().get());
     }
     for (size_t i = 0; i < bundle_.camera_count; ++i) {
       if (used_cameras_[i]) constrain_camera(i);
     }
+  }
+
+  /// The component of a photo's translation that changes most when the world is scaled about the
+  /// first constant photo: the translation's derivative is that photo's centre in this one's frame.
+  int scale_axis(size_t i) {
+    Vector3 center = Vector3::Zero();
+    for (size_t k = 0; k < bundle_.photo_count; ++k) {
+      if (!used_photos_[k] || bundle_.pose_freedom[k] != ck_pose_constant) continue;
+      center = -(rotation(k).conjugate() * translation(k));
+      break;
+    }
+    int axis = 0;
+    (rotation(i) * center + translation(i)).cwiseAbs().maxCoeff(&axis);
+    return axis;
   }
 
   void constrain_camera(size_t i) {
