@@ -91,6 +91,27 @@ import Testing
     #expect(one.cameras == two.cameras)
   }
 
+  @Test func aPhotoThatContradictsIsNamed() throws {
+    var rough = try Self.disturbed(by: 0.2)
+    // All that this photo shows is somewhere else, each point in a direction of its own.
+    let stray = 3
+    var random = SeededGenerator(seed: 5)
+    for point in rough.points.indices {
+      for index in rough.points[point].track.indices
+      where rough.points[point].track[index].photo.index == stray {
+        rough.points[point].track[index].pixel += 20 * SIMD2(random.normal(), random.normal())
+      }
+    }
+    let result = try refined(rough)
+    #expect(result.poses[stray] == nil)
+    #expect(result.unregistered.map(\.name) == [rough.photos[stray].name])
+    #expect(result.registered.count == rough.registered.count - 1)
+    #expect(
+      result.points.allSatisfy { point in
+        point.track.count > 1 && point.track.allSatisfy { $0.photo.index != stray }
+      })
+  }
+
   @Test func photosWithoutTextureKeepTheirObservations() throws {
     let rough = try Self.disturbed(by: 0.2)
     let blank = Self.scene.views.map {

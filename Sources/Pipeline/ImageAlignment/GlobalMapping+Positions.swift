@@ -136,13 +136,7 @@ extension GlobalMapping {
       return active < growth.minimumInliers
         || Double(active) < options.minimumPhotoShare * Double(seen.count)
     }
-    for photo in bad {
-      let tracks = map.tracks(ofPhoto: photo)
-      map.unregister(photo)
-      for track in tracks where map.isTriangulated[track] {
-        if map.activeObservations(of: track).count < 2 { map.dropPoint(track) }
-      }
-    }
+    for photo in bad { map.remove(photo) }
   }
 }
 

@@ -12,11 +12,11 @@ struct MapGrowth: Sendable {
 
   var options: IncrementalMapping.Options { mapping.options }
 
-  private var adjustment: MapAdjustment {
+  var adjustment: MapAdjustment {
     MapAdjustment(options: mapping.adjustment, initialCameras: empty.photos.cameras)
   }
 
-  private var growthPoints: PointTriangulation {
+  var growthPoints: PointTriangulation {
     PointTriangulation(
       options: .init(
         maximumError: options.growthError, minimumAngleDegrees: options.minimumAngleDegrees))
@@ -76,8 +76,12 @@ struct MapGrowth: Sendable {
     while true {
       try context.step(map.registered.count, of: photos.count)
       guard try registerNext(&map, isTaken, isRelaxed, &ranking, &failures) else {
-        if isRelaxed || map.registered.count == photos.count { break }
-        try settle(&map, rounds: 1)
+        if map.registered.count == photos.count { break }
+        if isRelaxed {
+          guard try registerWithoutStructure(&map, isTaken, &failures) else { break }
+          continue
+        }
+        try settle(&map)
         (isRelaxed, failures) = (true, failures.map { _ in 0 })
         continue
       }
@@ -85,7 +89,7 @@ struct MapGrowth: Sendable {
         Double(map.registered.count) >= options.globalGrowth * Double(lastPhotos)
         || Double(map.pointCount) >= options.globalGrowth * Double(lastPoints)
       if isGrown {
-        try settle(&map, rounds: 1)
+        try settle(&map)
         (lastPhotos, lastPoints) = (map.registered.count, map.pointCount)
       }
     }
@@ -135,8 +139,13 @@ struct MapGrowth: Sendable {
     }
     map.register(photo, found.cameraFromWorld)
     for (index, isInlier) in zip(seen, found.isInlier) where isInlier { map.isActive[index] = true }
-    let tracks = map.tracks(ofPhoto: photo)
     try adjustment.adjustLocally(around: photo, &map, control(map))
+    return try addPoints(of: photo, &map)
+  }
+
+  /// Brings the points that a new photo sees up to date, and its pose; false when too few are left.
+  func addPoints(of photo: Int, _ map: inout SparseMap) throws -> Bool {
+    let tracks = map.tracks(ofPhoto: photo)
     try growthPoints.filter(tracks, in: &map, control(map))
     try growthPoints.triangulate(tracks, in: &map, control(map))
     try growthPoints.complete(tracks, in: &map, control(map))
@@ -146,20 +155,18 @@ struct MapGrowth: Sendable {
   }
 
   /// Adjusts everything and brings the points up to date.
-  private func settle(_ map: inout SparseMap, rounds: Int) throws {
+  private func settle(_ map: inout SparseMap) throws {
     let all = Array(map.isTriangulated.indices)
-    for _ in 0..<rounds {
-      try adjustment.adjustGlobally(&map, control(map))
-      try growthPoints.filter(all, in: &map, control(map))
-      try growthPoints.complete(all, in: &map, control(map))
-      try growthPoints.triangulate(all, in: &map, control(map))
-      dropWeakPhotos(&map)
-    }
+    try adjustment.adjustGlobally(&map, control(map))
+    try growthPoints.filter(all, in: &map, control(map))
+    try growthPoints.complete(all, in: &map, control(map))
+    try growthPoints.triangulate(all, in: &map, control(map))
+    dropWeakPhotos(&map)
   }
 
   /// Adjusts, splits, completes and filters until little changes.
   private func finish(_ map: inout SparseMap) throws {
-    try settle(&map, rounds: 1)
+    try settle(&map)
     map.splitTracks()
     let all = Array(map.isTriangulated.indices)
     var strict = growthPoints
@@ -182,13 +189,7 @@ struct MapGrowth: Sendable {
   private func dropWeakPhotos(_ map: inout SparseMap, only photo: Int? = nil) -> Int {
     let weak = (photo.map { [$0] } ?? map.registered)
       .filter { map.activeCount(ofPhoto: $0) < options.minimumObservations }
-    for photo in weak {
-      let tracks = map.tracks(ofPhoto: photo)
-      map.unregister(photo)
-      for track in tracks where map.isTriangulated[track] {
-        if map.activeObservations(of: track).count < 2 { map.dropPoint(track) }
-      }
-    }
+    for photo in weak { map.remove(photo) }
     return weak.count
   }
 }

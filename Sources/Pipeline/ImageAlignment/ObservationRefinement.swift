@@ -23,6 +23,8 @@ package struct ObservationRefinement: Sendable {
     package var maximumNewShift = 1.0
     /// A photo with fewer confirmed observations than this share keeps the others as they were.
     package var minimumConfirmedShare = 0.25
+    /// Observations that keep a photo registered.
+    package var minimumObservations = 10
     /// With fewer of the points left than this share, nothing is changed: the photos don't show what
     /// the poses say.
     package var minimumPointShare = 0.5
@@ -37,6 +39,11 @@ package struct ObservationRefinement: Sendable {
     package var huberFactor = 2.5
 
     package init() {}
+
+    /// The width of a working pixel of a photo in pixels of the full photo.
+    func workingPixel(width: Int, height: Int) -> Double {
+      max(1, (Double(width * height) / Double(workingPixels)).squareRoot())
+    }
   }
 
   package var options: Options
@@ -61,18 +68,30 @@ package struct ObservationRefinement: Sendable {
     try settle(&map, &adjustment, context.part(from: 0.75, to: 0.85))
     try adjustment.simplifyCameras(&map, context.control.part(from: 0.85, to: 0.9))
     try settle(&map, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
-    let refined = map.reconstruction(like: reconstruction, features: features)
+    var refined = map.reconstruction(like: reconstruction, features: features)
     let isHollow =
       Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
-    return isHollow ? reconstruction : refined
+    guard !isHollow else { return reconstruction }
+    refined.unregistered += reconstruction.registered.map(\.index)
+      .filter { !map.isRegistered($0) }.map { Self.refusal(of: reconstruction.photos[$0]) }
+    return refined
   }
 
-  /// Adjusts everything and takes out what then contradicts.
+  private static func refusal(of photo: Photo) -> RefusedPhoto {
+    RefusedPhoto(
+      sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
+      reason: "\(photo.name) shows hardly any point where its pose says; it may be blurred, or "
+        + "something moved.")
+  }
+
+  /// Adjusts everything and takes out what then contradicts: observations, and photos that hardly any
+  /// observation holds any more, whose poses would go stale.
   private func settle(
     _ map: inout SparseMap, _ adjustment: inout MapAdjustment, isFinal: Bool = false,
     _ context: StageContext
   ) throws {
-    let pixel = workingPixel(map)
+    let pixel = map.photos.cameras.map { options.workingPixel(width: $0.width, height: $0.height) }
+      .max() ?? 1
     let median = try map.medianError(context.control)
     adjustment.options.huberWidth = max(options.huberFactor * median, 0.1 * pixel)
     try adjustment.adjustGlobally(&map, isFinal: isFinal, context.control)
@@ -83,11 +102,8 @@ package struct ObservationRefinement: Sendable {
         bounds.lowerBound), bounds.upperBound)
     let points = PointTriangulation(options: .init(maximumError: error * pixel))
     try points.filter(Array(map.isTriangulated.indices), in: &map, context.control)
-  }
-
-  /// The width of a working pixel in pixels of the largest photo.
-  private func workingPixel(_ map: SparseMap) -> Double {
-    let pixels = map.photos.cameras.map { Double($0.width * $0.height) }.max() ?? 1
-    return max(1, (pixels / Double(options.workingPixels)).squareRoot())
+    for photo in map.registered where map.activeCount(ofPhoto: photo) < options.minimumObservations {
+      map.remove(photo)
+    }
   }
 }

@@ -35,12 +35,15 @@ struct SparseMap: Sendable {
     photos.poses[photo] = cameraFromWorld
   }
 
-  /// Takes a photo out again, with its observations.
-  mutating func unregister(_ photo: Int) {
+  /// Takes a photo out with its observations, and the points that less than two others hold.
+  mutating func remove(_ photo: Int) {
     photos.poses[photo] = nil
     registered.removeAll { $0 == photo }
     for index in tracks.observationsOfPhoto[photo] { isActive[Int(index)] = false }
     noteChange(ofPhoto: photo)
+    for track in tracks(ofPhoto: photo) where isTriangulated[track] {
+      if activeObservations(of: track).count < 2 { dropPoint(track) }
+    }
   }
 
   mutating func setPoint(_ track: Int, _ position: SIMD3<Double>) {

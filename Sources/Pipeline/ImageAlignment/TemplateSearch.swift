@@ -31,19 +31,11 @@ struct TemplateSearch: Sendable {
       return TrackReference(track: track, of: map) { photo, feature in
         let scales = features[photo].scales
         let scale = scales.indices.contains(Int(feature)) ? Double(scales[Int(feature)]) : 0
-        return max(options.stepPerScale * scale, Self.workingPixel(of: photos[photo], options))
+        return max(options.stepPerScale * scale, options.workingPixel(width: photos[photo].width, height: photos[photo].height))
       }
     }
     templates = TemplateMatching.Templates(count: map.tracks.count)
     try readTemplates(context)
-  }
-
-  /// The width of a working pixel in pixels of the full photo.
-  private static func workingPixel(
-    of photo: Photo, _ options: ObservationRefinement.Options
-  ) -> Double {
-    let pixels = Double(photo.width * photo.height)
-    return max(1, (pixels / Double(options.workingPixels)).squareRoot())
   }
 
   private func image(_ photo: Int) throws -> (image: RasterImage, factor: SIMD2<Double>) {
@@ -170,7 +162,8 @@ struct TemplateSearch: Sendable {
       let (image, factor) = try image(photo)
       let searches = candidates[photo].map { candidate in
         let reference = references[candidate.track]
-        let from = Self.workingPixel(of: photos[reference?.photo ?? photo], options)
+        let source = photos[reference?.photo ?? photo]
+        let from = options.workingPixel(width: source.width, height: source.height)
         return TemplateMatching.Search(
           template: candidate.track, step: (reference?.step ?? from) / from,
           warp: candidate.warp * from * factor.x, expected: candidate.expected * factor)

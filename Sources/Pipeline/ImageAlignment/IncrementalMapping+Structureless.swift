@@ -1,0 +1,33 @@
+extension MapGrowth {
+  /// Failures of a photo that had all its trials.
+  private static let lastTrial = 100
+
+  /// Registers a photo by its pairs with registered photos alone; false when none can be. A photo has
+  /// one trial.
+  func registerWithoutStructure(
+    _ map: inout SparseMap, _ isTaken: [Bool], _ failures: inout [Int]
+  ) throws -> Bool {
+    for photo in photos.indices
+    where !map.isRegistered(photo) && !isTaken[photo] && failures[photo] < Self.lastTrial {
+      let pairs = graph.pairs.filter {
+        $0.pair.first.index == photo || $0.pair.second.index == photo
+      }
+      guard let pose = StructurelessPose().run(photo, pairs: pairs, poses: map.photos.poses) else {
+        continue
+      }
+      failures[photo] = Self.lastTrial
+      map.register(photo, pose)
+      // The pose is rough: its points may be off until it is adjusted.
+      var roughPoints = growthPoints
+      roughPoints.options.maximumError = 4 * options.growthError
+      let tracks = map.tracks(ofPhoto: photo)
+      try roughPoints.complete(tracks, in: &map, control(map))
+      try roughPoints.triangulate(tracks, in: &map, control(map))
+      try adjustment.adjustLocally(around: photo, &map, control(map))
+      let isHeld = try addPoints(of: photo, &map)
+      if isHeld && map.activeCount(ofPhoto: photo) >= options.minimumInliers { return true }
+      map.remove(photo)
+    }
+    return false
+  }
+}

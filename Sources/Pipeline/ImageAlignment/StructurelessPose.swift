@@ -1,0 +1,120 @@
+import Foundation
+import SceneModel
+
+/// The pose of a photo from its pairs with posed photos alone, for photos that see too few points of
+/// the map: the rotations that the pairs imply are averaged, and the centre is where the directions
+/// from the other photos meet (in the spirit of Zheng and Wu, "Structure from motion using
+/// structure-less resection", ICCV 2015).
+struct StructurelessPose: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Matches of a pair that counts.
+    var minimumMatches = 30
+    /// Median angle in degrees of a pair whose direction counts.
+    var minimumAngleDegrees = 2.0
+    /// Pairs that have to agree.
+    var minimumPairs = 2
+    /// Largest angle in degrees between a pair's rotation or direction and the pose.
+    var maximumErrorDegrees = 5.0
+    /// Smallest angle in degrees at which two directions have to meet.
+    var minimumMeetingDegrees = 10.0
+  }
+
+  var options = Options()
+
+  /// What a pair with a posed photo says.
+  private struct Hint {
+    /// `photoFromWorld` of the photo that is looked for.
+    var rotation: Quaternion
+    /// The other photo's centre, and the direction from there.
+    var origin: SIMD3<Double>
+    var direction: SIMD3<Double>
+  }
+
+  /// `cameraFromWorld` of `photo`; nil where too few of its verified pairs agree.
+  func run(
+    _ photo: Int, pairs: [VerifiedPair], poses: [RigidTransform?]
+  ) -> RigidTransform? {
+    let hints = pairs.compactMap { hint(photo, $0, poses) }
+    guard let agreeing = largestAgreement(hints.map(\.rotation)),
+      agreeing.count >= options.minimumPairs
+    else { return nil }
+    let rotation = mean(agreeing.map { hints[$0].rotation })
+    guard let center = meetingPoint(agreeing.map { hints[$0] }) else { return nil }
+    return RigidTransform(rotation: rotation, translation: -(rotation * center))
+  }
+
+  private func hint(_ photo: Int, _ pair: VerifiedPair, _ poses: [RigidTransform?]) -> Hint? {
+    let isFirst = pair.pair.first.index == photo
+    guard isFirst || pair.pair.second.index == photo,
+      pair.matches.count >= options.minimumMatches,
+      pair.medianAngle >= options.minimumAngleDegrees * .pi / 180,
+      let secondFromFirst = pair.secondFromFirst,
+      let other = poses[isFirst ? pair.pair.second.index : pair.pair.first.index]
+    else { return nil }
+    let photoFromOther = isFirst ? secondFromFirst.inverse : secondFromFirst
+    return Hint(
+      rotation: (photoFromOther.rotation * other.rotation).normalized, origin: other.center,
+      direction: (other.rotation.conjugate * photoFromOther.center).normalized)
+  }
+
+  /// The indices of the rotations that are near the one that most are near to.
+  private func largestAgreement(_ rotations: [Quaternion]) -> [Int]? {
+    let limit = options.maximumErrorDegrees * .pi / 180
+    return rotations.map { center in
+      rotations.indices.filter { (rotations[$0] * center.conjugate).angle <= limit }
+    }.max { $0.count < $1.count }
+  }
+
+  /// The mean of rotations that lie near each other.
+  private func mean(_ rotations: [Quaternion]) -> Quaternion {
+    let all = rotations.map { SIMD4($0.x, $0.y, $0.z, $0.w) }
+    // A quaternion and its negative are one rotation.
+    let sum = all.reduce(SIMD4<Double>.zero) { $0 + (($1 * all[0]).sum() < 0 ? -$1 : $1) }
+    return Quaternion(x: sum.x, y: sum.y, z: sum.z, w: sum.w).normalized
+  }
+
+  /// Where the directions of most hints meet: the best meeting of two, then of all that agree with it.
+  private func meetingPoint(_ hints: [Hint]) -> SIMD3<Double>? {
+    var best: [Hint] = []
+    for first in hints.indices {
+      for second in hints.indices where second > first {
+        guard let point = meeting([hints[first], hints[second]]) else { continue }
+        let agreeing = hints.filter { isNear(point, $0) }
+        if agreeing.count > best.count { best = agreeing }
+      }
+    }
+    guard best.count >= options.minimumPairs, let point = meeting(best),
+      best.allSatisfy({ isNear(point, $0) })
+    else { return nil }
+    return point
+  }
+
+  private func isNear(_ point: SIMD3<Double>, _ hint: Hint) -> Bool {
+    (point - hint.origin).normalized.dot(hint.direction)
+      >= cos(options.maximumErrorDegrees * .pi / 180)
+  }
+
+  /// The point nearest to all lines; nil where they are nearly parallel.
+  private func meeting(_ hints: [Hint]) -> SIMD3<Double>? {
+    let cosines = hints.map { abs($0.direction.dot(hints[0].direction)) }
+    guard (cosines.min() ?? 1) < cos(options.minimumMeetingDegrees * .pi / 180) else { return nil }
+    // Σ (I − d dᵀ) x = Σ (I − d dᵀ) o
+    var rows = [SIMD3<Double>](repeating: .zero, count: 3)
+    var right = SIMD3<Double>.zero
+    for hint in hints {
+      let d = hint.direction
+      for row in 0..<3 {
+        var unit = SIMD3<Double>.zero
+        unit[row] = 1
+        rows[row] += unit - d[row] * d
+      }
+      right += hint.origin - d.dot(hint.origin) * d
+    }
+    let determinant = rows[0].dot(rows[1].cross(rows[2]))
+    guard abs(determinant) > 1e-12 else { return nil }
+    // The matrix is symmetric: its rows are its columns.
+    return SIMD3(
+      right.dot(rows[1].cross(rows[2])), right.dot(rows[2].cross(rows[0])),
+      right.dot(rows[0].cross(rows[1]))) / determinant
+  }
+}
