@@ -19,7 +19,9 @@ import Testing
   private static let graph: ViewGraph = {
     var graph = scene.viewGraph
     for index in graph.pairs.indices {
-      let (first, second) = (graph.pairs[index].pair.first.index, graph.pairs[index].pair.second.index)
+      let (first, second) = (
+        graph.pairs[index].pair.first.index, graph.pairs[index].pair.second.index
+      )
       graph.pairs[index].matches.removeAll { match in
         let point = Int(scene.pointOfFeature[first][Int(match.first)])
         // Every other point is the stray photo's, each with the partner that its number gives.

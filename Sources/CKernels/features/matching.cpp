@@ -20,16 +20,15 @@ bool more_distinctive(const Match& a, const Match& b) {
   return a.quality != b.quality ? a.quality < b.quality : a.first < b.first;
 }
 
-std::vector<Match> mutual_matches(const std::vector<NearestTwo>& by_row,
-                                  const std::vector<NearestTwo>& by_column,
-                                  const ck_match_options& options) {
-  const double squared_ratio = options.ratio * options.ratio;
-  const double squared_maximum = options.maximum_distance * options.maximum_distance;
+std::vector<Match> mutual_matches(const NearestTable& table, double ratio,
+                                  double maximum_distance) {
+  const double squared_ratio = ratio * ratio;
+  const double squared_maximum = maximum_distance * maximum_distance;
   std::vector<Match> matches;
-  for (size_t i = 0; i < by_row.size(); ++i) {
-    const NearestTwo& row = by_row[i];
-    if (row.index >= by_column.size() || by_column[row.index].index != i) continue;
-    const double second = std::min(row.second, by_column[row.index].second);
+  for (size_t i = 0; i < table.by_row.size(); ++i) {
+    const NearestTwo& row = table.by_row[i];
+    if (row.index >= table.by_column.size() || table.by_column[row.index].index != i) continue;
+    const double second = std::min(row.second, table.by_column[row.index].second);
     const double distance = row.distance;
     if (distance > squared_maximum || distance >= squared_ratio * second) continue;
     matches.push_back(
@@ -40,6 +39,17 @@ std::vector<Match> mutual_matches(const std::vector<NearestTwo>& by_row,
 }
 
 }  // namespace
+
+size_t write_mutual_matches(const NearestTable& table, double ratio, double maximum_distance,
+                            int32_t* pairs) {
+  const std::vector<Match> matches = mutual_matches(table, ratio, maximum_distance);
+  for (const Match& match : matches) {
+    *pairs++ = match.first;
+    *pairs++ = match.second;
+  }
+  return matches.size();
+}
+
 }  // namespace ck
 
 ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const uint8_t* second,
@@ -52,10 +62,6 @@ ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const u
                 "there are more than 65,536 descriptors");
     const ck::NearestTable table =
         ck::nearest_two(first, first_count, second, second_count, options->instructions, control);
-    for (const ck::Match& match : ck::mutual_matches(table.by_row, table.by_column, *options)) {
-      pairs[2 * *pair_count] = match.first;
-      pairs[2 * *pair_count + 1] = match.second;
-      ++*pair_count;
-    }
+    *pair_count = ck::write_mutual_matches(table, options->ratio, options->maximum_distance, pairs);
   });
 }

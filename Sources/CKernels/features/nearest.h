@@ -58,11 +58,18 @@ struct NearestTable {
   std::vector<NearestTwo> by_row, by_column;
 };
 
+/// Writes the pairs that are each other's nearest and pass the ratio test both ways, the most
+/// distinctive first; returns how many. `pairs` has room for the smaller set's size.
+size_t write_mutual_matches(const NearestTable& table, double ratio, double maximum_distance,
+                            int32_t* pairs);
+
 /// Compares all descriptors of two sets. Throws where the processor lacks the instructions.
 NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* columns,
                          size_t column_count, ck_instructions wish, const ck_control* control);
 
 inline size_t rounded_up(size_t count, size_t step) { return (count + step - 1) / step * step; }
+
+uint32_t squared_distance(const uint8_t* a, const uint8_t* b);
 
 /// Squared length of a descriptor.
 uint32_t squared_norm(const uint8_t* descriptor);

@@ -3,7 +3,6 @@
 #include "features/nearest.h"
 
 namespace ck {
-namespace {
 
 uint32_t squared_distance(const uint8_t* a, const uint8_t* b) {
   int32_t sum = 0;
@@ -14,8 +13,6 @@ uint32_t squared_distance(const uint8_t* a, const uint8_t* b) {
   }
   return static_cast<uint32_t>(sum);
 }
-
-}  // namespace
 
 uint32_t squared_norm(const uint8_t* descriptor) {
   uint32_t sum = 0;

@@ -12,6 +12,7 @@ package struct CorrespondenceSearch {
     package var matching = FeatureMatching.Options()
     package var verification = PairVerification.Options()
     package var selfCalibration = SelfCalibration.Options()
+    package var guidedMatching = GuidedMatching.Options()
 
     package init() {}
   }
@@ -48,8 +49,9 @@ package struct CorrespondenceSearch {
         round.graph, features: features, photos: photos, cameras: cameras,
         context.part(from: 0.9, to: 0.95))
     if calibrated != cameras {
-      try round.verifyAgain(calibrated, context.part(from: 0.95, to: 1))
+      try round.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
     }
+    try round.guide(calibrated, context.part(from: 0.97, to: 1))
     context.notes.count("candidatePairs", Double(Set(choice.candidates).union(more).count))
     round.report(context.notes)
     return (round.graph, calibrated)
@@ -70,6 +72,7 @@ private struct Round {
   let cameras: [Camera]
   let features: [FeatureSet]
   private(set) var graph: ViewGraph
+  private var verification: PairVerification.Options
   private var pairs: [PhotoPair] = []
   private var matches: [[FeatureMatch]] = []
 
@@ -79,6 +82,7 @@ private struct Round {
   ) {
     (self.options, self.photos, self.cameras, self.features) = (options, photos, cameras, features)
     graph = ViewGraph(photoCount: photos.count, pairs: [])
+    verification = options.verification
   }
 
   /// Matches and verifies more pairs.
@@ -86,7 +90,7 @@ private struct Round {
     guard !more.isEmpty else { return }
     let found = try FeatureMatching(options.matching)
       .run(more, features: features, context.part(from: 0, to: 0.85))
-    let verified = try PairVerification(options.verification)
+    let verified = try PairVerification(verification)
       .run(
         more, matches: found, features: features, photos: photos, cameras: cameras,
         context.part(from: 0.85, to: 1))
@@ -98,11 +102,17 @@ private struct Round {
 
   /// Verifies all pairs with cameras known well enough for essential matrices.
   mutating func verifyAgain(_ cameras: [Camera], _ context: StageContext) throws {
-    var verification = options.verification
     verification.isUncalibratedWhereAssumed = false
     graph = try PairVerification(verification)
       .run(
         pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
+  }
+
+  /// Looks for more matches of weak pairs.
+  mutating func guide(_ cameras: [Camera], _ context: StageContext) throws {
+    graph = try GuidedMatching(
+      options.guidedMatching, verification: PairVerification(verification)
+    ).run(graph, features: features, photos: photos, cameras: cameras, context)
   }
 
   func report(_ notes: StageNotes) {

@@ -90,7 +90,8 @@ package struct ObservationRefinement: Sendable {
     _ map: inout SparseMap, _ adjustment: inout MapAdjustment, isFinal: Bool = false,
     _ context: StageContext
   ) throws {
-    let pixel = map.photos.cameras.map { options.workingPixel(width: $0.width, height: $0.height) }
+    let pixel =
+      map.photos.cameras.map { options.workingPixel(width: $0.width, height: $0.height) }
       .max() ?? 1
     let median = try map.medianError(context.control)
     adjustment.options.huberWidth = max(options.huberFactor * median, 0.1 * pixel)
@@ -102,7 +103,8 @@ package struct ObservationRefinement: Sendable {
         bounds.lowerBound), bounds.upperBound)
     let points = PointTriangulation(options: .init(maximumError: error * pixel))
     try points.filter(Array(map.isTriangulated.indices), in: &map, context.control)
-    for photo in map.registered where map.activeCount(ofPhoto: photo) < options.minimumObservations {
+    for photo in map.registered where map.activeCount(ofPhoto: photo) < options.minimumObservations
+    {
       map.remove(photo)
     }
   }

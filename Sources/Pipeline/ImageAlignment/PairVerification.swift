@@ -74,9 +74,7 @@ package struct PairVerification {
       return .rejected(RejectedPair(pair: pair, matches: inliers, needed: needed))
     }
     guard matches.count >= options.minimumInliers else { return rejected(matches.count) }
-    let isCalibrated =
-      !options.isUncalibratedWhereAssumed
-      || (cameras.0.calibration != .assumed && cameras.1.calibration != .assumed)
+    let isCalibrated = isCalibrated(cameras)
     var estimation = TwoViewEstimation()
     estimation.isCalibrated = isCalibrated
     estimation.maximumError = maximumError(cameras)
@@ -102,8 +100,14 @@ package struct PairVerification {
         medianAngle: geometry.medianAngle))
   }
 
+  /// Whether the focal lengths are known well enough for an essential matrix.
+  func isCalibrated(_ cameras: (Camera, Camera)) -> Bool {
+    !options.isUncalibratedWhereAssumed
+      || (cameras.0.calibration != .assumed && cameras.1.calibration != .assumed)
+  }
+
   /// The largest error at depth 1, the mean of the two photos'.
-  private func maximumError(_ cameras: (Camera, Camera)) -> Double {
+  func maximumError(_ cameras: (Camera, Camera)) -> Double {
     func size(_ camera: Camera) -> Double {
       Double(max(camera.width, camera.height)) * 2 / (camera.focalLength.x + camera.focalLength.y)
     }

@@ -31,7 +31,9 @@ struct TemplateSearch: Sendable {
       return TrackReference(track: track, of: map) { photo, feature in
         let scales = features[photo].scales
         let scale = scales.indices.contains(Int(feature)) ? Double(scales[Int(feature)]) : 0
-        return max(options.stepPerScale * scale, options.workingPixel(width: photos[photo].width, height: photos[photo].height))
+        return max(
+          options.stepPerScale * scale,
+          options.workingPixel(width: photos[photo].width, height: photos[photo].height))
       }
     }
     templates = TemplateMatching.Templates(count: map.tracks.count)

@@ -1,0 +1,82 @@
+import Kernels
+import SceneModel
+
+/// Gives weak pairs a second pass: once their geometry is known, features are matched among those near
+/// their epipolar line, where what looks alike elsewhere in the photo can't confuse them.
+package struct GuidedMatching {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Pairs with as many matches don't need more.
+    package var sufficientMatches = 60
+    package var matching = EpipolarMatching()
+
+    package init() {}
+  }
+
+  package var options: Options
+  /// How pairs are verified: its limit also bounds the distance from the epipolar line.
+  package var verification: PairVerification
+
+  package init(_ options: Options, verification: PairVerification) {
+    (self.options, self.verification) = (options, verification)
+  }
+
+  /// The graph in which weak pairs with a known geometry have the matches that it leads to.
+  package func run(
+    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
+    _ context: StageContext
+  ) throws -> ViewGraph {
+    let cameraOfPhoto = photos.map { cameras[$0.camera.index] }
+    let weak = graph.pairs.indices.filter {
+      let pair = graph.pairs[$0]
+      return pair.matches.count < options.sufficientMatches
+        && verification.isCalibrated(
+          (cameraOfPhoto[pair.pair.first.index], cameraOfPhoto[pair.pair.second.index]))
+    }
+    let isNeeded = Set(weak.flatMap { [graph.pairs[$0].pair.first, graph.pairs[$0].pair.second] })
+    let points = try context.control.parallelMap(photos.count) { index in
+      isNeeded.contains(ID(index))
+        ? features[index].positions.map { cameraOfPhoto[index].unproject(SIMD2<Double>($0)) } : []
+    }
+    let better = try context.control.parallelMap(weak.count) { index in
+      try guided(graph.pairs[weak[index]], features, points, cameraOfPhoto)
+    }
+    var result = graph
+    for (index, pair) in zip(weak, better) { result.pairs[index] = pair }
+    let found = result.pairs.reduce(0) { $0 + $1.matches.count }
+    let known = graph.pairs.reduce(0) { $0 + $1.matches.count }
+    context.notes.count("guidedMatches", Double(found - known))
+    return result
+  }
+
+  /// The pair with more matches, or as it was where they don't help.
+  private func guided(
+    _ pair: VerifiedPair, _ features: [FeatureSet], _ points: [[SIMD2<Double>]],
+    _ cameraOfPhoto: [Camera]
+  ) throws -> VerifiedPair {
+    guard let secondFromFirst = pair.secondFromFirst else { return pair }
+    let (first, second) = (pair.pair.first.index, pair.pair.second.index)
+    let cameras = (cameraOfPhoto[first], cameraOfPhoto[second])
+    var matching = options.matching
+    matching.maximumError = verification.maximumError(cameras)
+    let new = try matching.matches(
+      .init(features[first], points: points[first], except: pair.matches.map(\.first)),
+      .init(features[second], points: points[second], except: pair.matches.map(\.second)),
+      matrix: secondFromFirst.essentialMatrix, KernelControl())
+    guard !new.isEmpty else { return pair }
+    let verdict = try verification.verify(
+      pair.pair, pair.matches + new, points: (points[first], points[second]), cameras: cameras)
+    guard case .verified(let better) = verdict, better.matches.count > pair.matches.count else {
+      return pair
+    }
+    return better
+  }
+}
+
+extension RigidTransform {
+  /// The essential matrix E of `bFromA`, `x_bᵀ E x_a = 0` for viewing rays of one point.
+  var essentialMatrix: Matrix3 {
+    let t = translation
+    let cross = Matrix3(rows: [0, -t.z, t.y], [t.z, 0, -t.x], [-t.y, t.x, 0])
+    return cross * rotation.matrix
+  }
+}
