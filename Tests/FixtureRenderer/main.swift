@@ -5,7 +5,8 @@ import SceneModel
 import TestSupport
 
 // Writes the photo sets in Fixtures/ anew: `swift run -c release render-fixtures Fixtures`.
-// The same program gives the same bytes.
+// The same program gives the same bytes. `render-fixtures <folder> faint` writes a set of low texture
+// instead, to compare sensitivities on.
 
 let folder = URL(
   fileURLWithPath: CommandLine.arguments.dropFirst().first ?? "Fixtures", isDirectory: true)
@@ -20,6 +21,12 @@ let statue = RenderedScene.statue()
 let tenths = UInt32((statue.camera.focalLength.x / Double(statue.camera.width) * 360).rounded())
 exif.focalLength = (tenths, 10)
 exif.focalLengthIn35mmFilm = Int((Double(tenths) / 10).rounded())
+if CommandLine.arguments.dropFirst(2).first == "faint" {
+  try PhotoSet(scene: .faintStatue(), exif: exif, quality: 0.92)
+    .write(to: folder.appendingPathComponent("faint", isDirectory: true), control)
+  exit(0)
+}
+
 let statueSet = PhotoSet(scene: statue, exif: exif, quality: 0.82)
 try statueSet.write(to: folder.appendingPathComponent("orbit", isDirectory: true), control)
 

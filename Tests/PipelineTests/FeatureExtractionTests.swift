@@ -61,4 +61,32 @@ import Testing
     #expect(one.map(\.descriptors) == two.map(\.descriptors))
     #expect(one.map(\.positions) == two.map(\.positions))
   }
+
+  /// Of a statue of hardly any texture high sensitivity has more photos, or more points, and poses
+  /// that are right.
+  @Test func highSensitivityRegistersMoreOfAFaintObject() throws {
+    var scene = RenderedScene.faintStatue()
+    let noise = scene.noise
+    scene = scene.seen(from: Array(scene.poses.prefix(8)))
+    (scene.noise, scene.samplesPerSide) = (noise, 1)
+    let control = KernelControl(threadCount: 2)
+    let images = try scene.photos(control)
+    func align(isHigh: Bool) -> Reconstruction? {
+      var options = ImageAlignment.Options()
+      options.isHighSensitivity = isHigh
+      return try? ImageAlignment(options).run(
+        photos: Self.photos(of: images), cameras: [scene.camera],
+        images: ImageStore(images: images), StageContext(control: control))
+    }
+    let normal = align(isHigh: false)
+    let high = try #require(align(isHigh: true))
+    let photos = (normal: normal?.registered.count ?? 0, high: high.registered.count)
+    let points = (normal: normal?.points.count ?? 0, high: high.points.count)
+    #expect(photos.high >= photos.normal)
+    #expect(
+      photos.high > photos.normal || 100 * points.high >= 115 * points.normal,
+      "photos \(photos), points \(points)")
+    let poses = PoseComparison(estimated: high.poses, true: scene.poses)
+    #expect(poses.maximumRotationError < 0.05 && poses.maximumCenterError < 0.03)
+  }
 }

@@ -102,6 +102,33 @@ import Testing
     #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 4 || $0.first.index < 2 })
   }
 
+  @Test func sequenceBridgesGapsAndClosesLoops() throws {
+    let scene = try Self.scene(.orbits, isShuffled: false)
+    var features = scene.features
+    // Two photos in a row have come to nothing.
+    (features[20], features[21]) = (FeatureSet(), FeatureSet())
+    var options = PairSelection.Options()
+    options.firstLook.features = 400
+    let choice = try PairSelection(options).run(features, isSequential: true, StageContext())
+    let pairs = Set(choice.pairs)
+    #expect(choice.pairs == choice.pairs.sorted() && pairs.count == choice.pairs.count)
+    #expect(pairs.count < 60 * 6)
+    #expect(!pairs.contains { [20, 21].contains($0.first.index) || $0.second.index == 21 })
+    let overlaps = scene.overlaps(minimum: 100)
+    #expect(overlaps[PhotoPair(ID(19), ID(22))] != nil)
+    #expect(pairs.contains(PhotoPair(ID(19), ID(22))))
+    // Of each photo, the one from another time that shares the most.
+    let distant = overlaps.filter { $0.key.second.index - $0.key.first.index > 4 }
+    let best = (0..<60).filter { $0 != 20 && $0 != 21 }.compactMap { photo in
+      distant.filter {
+        ($0.key.first.index == photo || $0.key.second.index == photo)
+          && features[$0.key.first.index].count > 0 && features[$0.key.second.index].count > 0
+      }.max { ($0.value, $1.key) < ($1.value, $0.key) }?.key
+    }
+    #expect(best.count > 20)
+    #expect(10 * best.count { pairs.contains($0) } > 9 * best.count)
+  }
+
   @Test func nearPositionsMakePartners() throws {
     let features = try Self.scene(.streets, photos: 30).features
     var options = Self.options(partners: 0)

@@ -37,4 +37,16 @@ package struct FirstLook {
     }
     return zip(pairs, isHopeful).filter { $1 }.map(\.0)
   }
+
+  /// How many of the largest features of each of `pairs` match.
+  package func counts(
+    _ pairs: [PhotoPair], features: [FeatureSet], _ context: StageContext
+  ) throws -> [Int] {
+    var matching = DescriptorMatching()
+    matching.ratio = options.ratio
+    return try context.control.parallelMap(pairs.count) { [matching, options] index in
+      let first = features[pairs[index].first.index], second = features[pairs[index].second.index]
+      return try matching.matches(first, second, prefix: options.features, KernelControl()).count
+    }
+  }
 }

@@ -8,6 +8,9 @@ package struct ImageAlignment: Sendable {
     package var isSequential = false
     /// Look harder for features on objects of low texture.
     package var isHighSensitivity = false
+    /// The ratio test of matching at high sensitivity: faint features are less distinctive. What it
+    /// lets through is for the two-view geometry to reject.
+    package var highSensitivityRatio = 0.8
     /// Fewer registered photos are an error.
     package var minimumPhotos = 3
     package var features = FeatureExtraction.Options()
@@ -32,12 +35,16 @@ package struct ImageAlignment: Sendable {
       throw PipelineError.tooFewPhotos(found: photos.count, needed: options.minimumPhotos)
     }
     var extraction = options.features
-    if options.isHighSensitivity { extraction.sensitivity = .high }
+    var search = options.correspondences
+    if options.isHighSensitivity {
+      extraction.sensitivity = .high
+      search.matching.matching.ratio = options.highSensitivityRatio
+    }
     let features = try timed("featureSeconds", context) {
       try FeatureExtraction(extraction).run(photos, images: images, context.part(from: 0, to: 0.4))
     }
     let (graph, calibrated) = try timed("matchingSeconds", context) {
-      try CorrespondenceSearch(options.correspondences).run(
+      try CorrespondenceSearch(search).run(
         photos: photos, cameras: cameras, features: features, isSequential: options.isSequential,
         context.part(from: 0.4, to: 0.7))
     }

@@ -8,7 +8,7 @@ package struct PairExpansion {
     /// Partners of partners that a photo is paired with at most.
     package var partners = 10
     /// The same for photos in order of capture.
-    package var sequencePartners = 3
+    package var sequencePartners = 1
     /// Verified partners that two photos must have in common.
     package var commonPartners = 2
     /// A photo with fewer verified partners is matched with all its candidates, the hopeless too.

@@ -6,8 +6,9 @@ import SceneModel
 ///
 /// Few photos: all pairs, of which a first look rejects the hopeless, with a sample to prove it right.
 /// Many photos: for each the photos most alike as a whole and the nearest by GPS. Photos in order of
-/// capture: a window of neighbours, and the photos most alike where the path comes back to itself.
-/// Pairs that the order does not vouch for must pass a first look.
+/// capture: the nearest neighbours, and the photos that a first look finds to share the most; among
+/// many, a window of neighbours, and the photos most alike where the path comes back to itself.
+/// Pairs that the order does not vouch for must pass the first look.
 package struct PairSelection {
   package struct Options: Hashable, Codable, Sendable {
     /// Up to this number of pairs all are considered.
@@ -25,6 +26,15 @@ package struct PairSelection {
     package var sequenceSteps = [1, 2, 3, 4]
     /// Partners of a photo of a sequence: those most alike outside its window of neighbours.
     package var sequencePartners = 4
+    /// Up to this number of pairs of a sequence all are looked at, which tells more than
+    /// retrieval and costs less.
+    package var sequenceLookedPairs = 20_000
+    /// Distances in the order of capture at which photos of such a sequence are paired; further
+    /// neighbours compete with the rest by what the look has seen of them.
+    package var lookedSequenceSteps = [1, 2]
+    /// Pairs of such a sequence that the look finds fewer matches for are taken for strangers: of
+    /// pairs with fewer, one in a hundred is verified, and barely.
+    package var sequenceMatches = 8
     /// Photos are taken to be in order of capture when this share of them is most like a neighbour.
     package var orderedShare = 0.7
     /// Partners of a photo among many that turned out to be in order.
@@ -69,10 +79,13 @@ package struct PairSelection {
       let all = photos.indices.flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
       return try exhaustive(all, features, context)
     }
+    if isSequential, photos.count * (photos.count - 1) / 2 <= options.sequenceLookedPairs {
+      return try sequence(photos, features, context)
+    }
     let alike = try PhotoRetrieval(options.retrieval)
       .run(features, partners: 2 * options.partners, context.part(from: 0, to: 0.5))
     let isOrdered = isSequential || isInOrder(alike)
-    let sure = isOrdered ? neighbours(features) : []
+    let sure = isOrdered ? neighbours(features, options.sequenceSteps) : []
     let count =
       isSequential
       ? options.sequencePartners : isOrdered ? options.orderedPartners : options.partners
@@ -101,10 +114,10 @@ package struct PairSelection {
       sample: sample)
   }
 
-  private func pair(_ first: Int, _ second: Int) -> PhotoPair { PhotoPair(ID(first), ID(second)) }
+  func pair(_ first: Int, _ second: Int) -> PhotoPair { PhotoPair(ID(first), ID(second)) }
 
   /// Pairs of each photo with the `count` photos most alike that it isn't paired with already.
-  private func retrieved(
+  func retrieved(
     _ alike: [[Int]], _ count: Int, besides known: Set<PhotoPair>
   ) -> Set<PhotoPair> {
     Set(
@@ -122,11 +135,11 @@ package struct PairSelection {
   }
 
   /// A window of neighbours that thins out, and the two ends, which may have come together.
-  private func neighbours(_ features: [FeatureSet]) -> Set<PhotoPair> {
+  func neighbours(_ features: [FeatureSet], _ steps: [Int]) -> Set<PhotoPair> {
     let count = features.count
     var chosen: Set<PhotoPair> = []
     for first in 0..<count {
-      for step in options.sequenceSteps where first + step < count {
+      for step in steps where first + step < count {
         chosen.insert(pair(first, first + step))
       }
     }

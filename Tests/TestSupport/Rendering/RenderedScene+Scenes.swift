@@ -8,9 +8,10 @@ extension RenderedScene {
   /// - Parameters:
   ///   - upperCount: how many of the photos form the upper ring.
   ///   - meshColumns: vertices around the statue; the reference mesh has about half as many rows.
+  ///   - textureContrast: how far colours differ from their mean, 0…1.
   package static func statue(
     photoCount: Int = 20, upperCount: Int = 6, width: Int = 800, height: Int = 600,
-    meshColumns: Int = 120, seed: UInt64 = 1
+    meshColumns: Int = 120, textureContrast: Float = 1, seed: UInt64 = 1
   ) -> RenderedScene {
     let lowerCount = photoCount - upperCount
     let target = SIMD3<Double>(0, 0.128, 0)
@@ -35,18 +36,31 @@ extension RenderedScene {
             [0.05, 0.035, 0.03], [0.42, 0.16, 0.08], [0.62, 0.50, 0.34], [0.16, 0.28, 0.30],
             [0.85, 0.80, 0.68],
           ],
-          wavelength: 0.05, octaves: 6, seed: UInt32(truncatingIfNeeded: seed))),
+          wavelength: 0.05, octaves: 6, seed: UInt32(truncatingIfNeeded: seed)
+        ).withContrast(textureContrast)),
       surroundings: [
         Surface(
           mesh: tableMesh(halfSide: 0.5),
           texture: SolidTexture(
             palette: [[0.10, 0.06, 0.035], [0.36, 0.24, 0.13], [0.58, 0.47, 0.33]],
-            wavelength: 0.09, octaves: 6, seed: UInt32(truncatingIfNeeded: seed &+ 77)))
+            wavelength: 0.09, octaves: 6, seed: UInt32(truncatingIfNeeded: seed &+ 77)
+          ).withContrast(textureContrast))
       ],
       camera: Camera(
         width: width, height: height, focalLength: SIMD2(repeating: focalLength),
         calibration: .exif),
       poses: poses, seed: seed)
+  }
+
+  /// The statue in all but plain colours, with the noise of a sensor in little light: hardly any texture.
+  package static func faintStatue(
+    photoCount: Int = 20, upperCount: Int = 6, width: Int = 800, height: Int = 600
+  ) -> RenderedScene {
+    var scene = statue(
+      photoCount: photoCount, upperCount: upperCount, width: width, height: height,
+      textureContrast: 0.1)
+    scene.noise = 2
+    return scene
   }
 
   /// A wall of 4 × 3 m with niches, columns and ornaments, photographed on an arc in front of it.

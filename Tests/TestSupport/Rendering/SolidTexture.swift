@@ -12,6 +12,8 @@ package struct SolidTexture: Sendable {
   package var seed: UInt32
   /// How far the noise is spread; more makes flat patches with sharp borders.
   package var contrast: Float
+  /// How much the fine octaves darken and lighten.
+  private var shading: Float = 1.6
 
   package init(
     palette: [SIMD3<Float>], wavelength: Float, octaves: Int, seed: UInt32, contrast: Float = 2.2
@@ -21,6 +23,16 @@ package struct SolidTexture: Sendable {
     self.octaves = octaves
     self.seed = seed
     self.contrast = contrast
+  }
+
+  /// The same texture with all colours nearer to their mean: 1 leaves them as they are, 0 is plain.
+  package func withContrast(_ factor: Float) -> SolidTexture {
+    guard factor != 1, !palette.isEmpty else { return self }
+    var result = self
+    let mean = palette.reduce(SIMD3<Float>.zero, +) / Float(palette.count)
+    result.palette = palette.map { mean + ($0 - mean) * factor }
+    result.shading *= factor
+    return result
   }
 
   /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't show are left out.
@@ -45,7 +57,7 @@ package struct SolidTexture: Sendable {
     let spread = contrast * sum / total * Float(octaves).squareRoot()
     let position = 0.5 + 0.5 * spread / (0.5 + abs(spread))
     // The fine octaves also darken and lighten, so that no patch is flat.
-    let shade = min(max(1 + 1.6 * fine / total * Float(octaves).squareRoot(), 0.35), 1.5)
+    let shade = min(max(1 + shading * fine / total * Float(octaves).squareRoot(), 0.35), 1.5)
     return palette(at: position) * shade
   }
 
