@@ -8,14 +8,14 @@ extension PairSelection {
   func sequence(
     _ photos: [Int], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Choice {
-    let sure = neighbours(features, options.lookedSequenceSteps)
+    let sure = neighbours(photos, options.lookedSequenceSteps)
     let others = photos.indices
       .flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
       .filter { !sure.contains($0) }
     let counts = try FirstLook(options.firstLook).counts(others, features: features, context)
     let alike = ranked(others, counts, features)
     let likely = retrieved(alike, options.sequencePartners, besides: sure)
-    let window = neighbours(features, options.sequenceSteps)
+    let window = neighbours(photos, options.sequenceSteps)
     return Choice(
       pairs: sure.union(likely).sorted(), candidates: sure.union(likely).union(window).sorted(),
       alike: alike, isSequential: true)

@@ -85,7 +85,7 @@ package struct PairSelection {
     let alike = try PhotoRetrieval(options.retrieval)
       .run(features, partners: 2 * options.partners, context.part(from: 0, to: 0.5))
     let isOrdered = isSequential || isInOrder(alike)
-    let sure = isOrdered ? neighbours(features, options.sequenceSteps) : []
+    let sure = isOrdered ? neighbours(photos, options.sequenceSteps) : []
     let count =
       isSequential
       ? options.sequencePartners : isOrdered ? options.orderedPartners : options.partners
@@ -134,23 +134,22 @@ package struct PairSelection {
     return Double(near) >= options.orderedShare * Double(alike.count)
   }
 
-  /// A window of neighbours that thins out, and the two ends, which may have come together.
-  func neighbours(_ features: [FeatureSet], _ steps: [Int]) -> Set<PhotoPair> {
-    let count = features.count
+  /// A window of neighbours among `photos`, and the two ends, which may have come together. Photos
+  /// left out in between, which have no features, don't break the path.
+  func neighbours(_ photos: [Int], _ steps: [Int]) -> Set<PhotoPair> {
+    let count = photos.count
     var chosen: Set<PhotoPair> = []
     for first in 0..<count {
       for step in steps where first + step < count {
-        chosen.insert(pair(first, first + step))
+        chosen.insert(pair(photos[first], photos[first + step]))
       }
     }
     for first in 0..<min(2, count) {
       for second in max(first + 1, count - 2)..<max(first + 1, count) {
-        chosen.insert(pair(first, second))
+        chosen.insert(pair(photos[first], photos[second]))
       }
     }
-    return chosen.filter {
-      features[$0.first.index].count > 0 && features[$0.second.index].count > 0
-    }
+    return chosen
   }
 
   /// Pairs of each photo that has a position with the nearest others.
