@@ -26,9 +26,9 @@ package struct PairSelection {
     package var sequenceSteps = [1, 2, 3, 4]
     /// Partners of a photo of a sequence: those most alike outside its window of neighbours.
     package var sequencePartners = 4
-    /// Up to this number of pairs of a sequence all are looked at, which tells more than
-    /// retrieval and costs less.
-    package var sequenceLookedPairs = 20_000
+    /// Up to this number of pairs of a sequence all are looked at, which tells more than retrieval.
+    /// Beyond some sixty photos it would cost more than it spares.
+    package var sequenceLookedPairs = 2000
     /// Distances in the order of capture at which photos of such a sequence are paired; further
     /// neighbours compete with the rest by what the look has seen of them.
     package var lookedSequenceSteps = [1, 2]
