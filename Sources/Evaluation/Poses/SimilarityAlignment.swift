@@ -93,7 +93,7 @@ package struct SimilarityAlignment: Sendable {
       [y, s[0].y + s[1].x, s[1].y - s[0].x - s[2].z, s[1].z + s[2].y],
       [z, s[2].x + s[0].z, s[1].z + s[2].y, s[2].z - s[0].x - s[1].y],
     ]
-    let eigen = SymmetricEigenvalues(matrix)
+    let eigen = SymmetricEigen(matrix)
     let order = eigen.values.indices.sorted { eigen.values[$0] > eigen.values[$1] }
     let scale = eigen.values.reduce(0) { max($0, abs($1)) }
     guard scale > 0, eigen.values[order[0]] - eigen.values[order[1]] > 1e-9 * scale else {
@@ -101,49 +101,5 @@ package struct SimilarityAlignment: Sendable {
     }
     let q = eigen.vectors[order[0]]
     return Quaternion(x: q[1], y: q[2], z: q[3], w: q[0]).normalized
-  }
-}
-
-/// Eigenvalues and eigenvectors of a small symmetric matrix by Jacobi's rotations.
-struct SymmetricEigenvalues {
-  private(set) var values: [Double]
-  /// `vectors[i]` belongs to `values[i]`.
-  private(set) var vectors: [[Double]]
-
-  init(_ matrix: [[Double]]) {
-    var a = matrix
-    let n = matrix.count
-    var v = (0..<n).map { row in (0..<n).map { $0 == row ? 1.0 : 0.0 } }
-    for _ in 0..<50 {
-      var offDiagonal = 0.0
-      for p in 0..<n { for q in 0..<n where p != q { offDiagonal += a[p][q] * a[p][q] } }
-      guard offDiagonal > 1e-300 else { break }
-      for p in 0..<n {
-        for q in (p + 1)..<max(p + 1, n) where a[p][q] != 0 {
-          Self.rotate(&a, &v, p, q)
-        }
-      }
-    }
-    values = (0..<n).map { a[$0][$0] }
-    vectors = (0..<n).map { column in (0..<n).map { v[$0][column] } }
-  }
-
-  private static func rotate(_ a: inout [[Double]], _ v: inout [[Double]], _ p: Int, _ q: Int) {
-    let theta = (a[q][q] - a[p][p]) / (2 * a[p][q])
-    let t = (theta < 0 ? -1.0 : 1.0) / (abs(theta) + (theta * theta + 1).squareRoot())
-    let c = 1 / (t * t + 1).squareRoot()
-    let s = t * c
-    for k in a.indices {
-      let (kp, kq) = (a[k][p], a[k][q])
-      (a[k][p], a[k][q]) = (c * kp - s * kq, s * kp + c * kq)
-    }
-    for k in a.indices {
-      let (pk, qk) = (a[p][k], a[q][k])
-      (a[p][k], a[q][k]) = (c * pk - s * qk, s * pk + c * qk)
-    }
-    for k in v.indices {
-      let (kp, kq) = (v[k][p], v[k][q])
-      (v[k][p], v[k][q]) = (c * kp - s * kq, s * kp + c * kq)
-    }
   }
 }

@@ -178,31 +178,3 @@ struct SupportPlane: Sendable {
     offset = normal.dot(mean)
   }
 }
-
-extension Matrix3 {
-  /// Eigenvalues of a symmetric matrix ascending, with unit eigenvectors (Jacobi's cyclic method).
-  var symmetricEigen: (values: [Double], vectors: [SIMD3<Double>]) {
-    var a = [row0, row1, row2]
-    var v: [SIMD3<Double>] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
-    for _ in 0..<50 {
-      var change = 0.0
-      for (p, q) in [(0, 1), (0, 2), (1, 2)] where a[p][q] != 0 {
-        change = max(change, abs(a[p][q]))
-        let theta = (a[q][q] - a[p][p]) / (2 * a[p][q])
-        let t = (theta < 0 ? -1 : 1) / (abs(theta) + (theta * theta + 1).squareRoot())
-        let c = 1 / (t * t + 1).squareRoot()
-        let s = t * c
-        for k in 0..<3 {
-          (a[k][p], a[k][q]) = (c * a[k][p] - s * a[k][q], s * a[k][p] + c * a[k][q])
-        }
-        (a[p], a[q]) = (c * a[p] - s * a[q], s * a[p] + c * a[q])
-        for k in 0..<3 {
-          (v[k][p], v[k][q]) = (c * v[k][p] - s * v[k][q], s * v[k][p] + c * v[k][q])
-        }
-      }
-      if change < 1e-300 { break }
-    }
-    let order = [0, 1, 2].sorted { (a[$0][$0], $0) < (a[$1][$1], $1) }
-    return (order.map { a[$0][$0] }, order.map { [v[0][$0], v[1][$0], v[2][$0]] })
-  }
-}
