@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -74,6 +75,20 @@ uint32_t squared_distance(const uint8_t* a, const uint8_t* b);
 /// Squared length of a descriptor.
 uint32_t squared_norm(const uint8_t* descriptor);
 
+/// The two smallest keys seen by each lane of a vector.
+template <size_t Lanes>
+struct alignas(4 * Lanes) LaneState {
+  uint32_t best[Lanes], second[Lanes];
+};
+
+template <size_t Lanes>
+std::vector<LaneState<Lanes>> empty_states(size_t count) {
+  LaneState<Lanes> empty;
+  std::fill_n(empty.best, Lanes, UINT32_MAX);
+  std::fill_n(empty.second, Lanes, UINT32_MAX);
+  return std::vector<LaneState<Lanes>>(count, empty);
+}
+
 /// Offers the packed (distance, index) pairs that one lane of a vector has kept.
 inline void offer_packed(NearestTwo& nearest, uint32_t best, uint32_t second, uint32_t first_index,
                          uint32_t index_step) {
@@ -83,6 +98,28 @@ inline void offer_packed(NearestTwo& nearest, uint32_t best, uint32_t second, ui
   }
   // Its index doesn't matter: it can't be the best any more, or ties with it and comes later.
   if (second != UINT32_MAX) nearest.offer(second >> kIndexBits, UINT32_MAX);
+}
+
+/// Offers what all lanes have kept of a block. Lane l of a row's state has seen the columns l, l +
+/// Lanes and so on; lane l of the state i of the columns all rows of column i · Lanes + l.
+template <size_t Lanes>
+void offer_states(const DistanceBlock& block, const std::vector<LaneState<Lanes>>& row_states,
+                  const std::vector<LaneState<Lanes>>& column_states, NearestTwo* by_row,
+                  NearestTwo* by_column) {
+  const auto row_begin = static_cast<uint32_t>(block.row_begin);
+  const auto column_begin = static_cast<uint32_t>(block.column_begin);
+  for (size_t i = 0; i < block.row_count(); ++i) {
+    const LaneState<Lanes>& state = row_states[i];
+    for (uint32_t lane = 0; lane < Lanes; ++lane) {
+      offer_packed(by_row[row_begin + i], state.best[lane], state.second[lane], column_begin + lane,
+                   Lanes);
+    }
+  }
+  for (size_t j = 0; j < block.column_count(); ++j) {
+    const LaneState<Lanes>& state = column_states[j / Lanes];
+    offer_packed(by_column[column_begin + j], state.best[j % Lanes], state.second[j % Lanes],
+                 row_begin, 1);
+  }
 }
 
 }  // namespace ck

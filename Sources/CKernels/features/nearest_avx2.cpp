@@ -39,10 +39,7 @@ Panel pack(const uint8_t* descriptors, size_t count, size_t padded, uint32_t far
   return panel;
 }
 
-/// The two smallest keys seen by each of eight lanes.
-struct alignas(32) LaneState {
-  uint32_t best[kLanes], second[kLanes];
-};
+using Lanes = LaneState<kLanes>;
 
 #define CK_AVX2 __attribute__((target("avx2")))
 
@@ -61,8 +58,7 @@ CK_AVX2 inline void keep(__m256i& best, __m256i& second, __m256i key) {
 
 /// Four rows against two tiles of columns.
 CK_AVX2 inline void group_against_tiles(const Panel& rows, size_t row, const Panel& columns,
-                                        size_t tile, LaneState* row_states,
-                                        LaneState* column_states) {
+                                        size_t tile, Lanes* row_states, Lanes* column_states) {
   const int32_t* a = rows.words.data() + row * kSteps;
   const int32_t* b = columns.words.data() + tile * kLanes * kSteps;
   __m256i sums[kGroup][2];
@@ -79,14 +75,14 @@ CK_AVX2 inline void group_against_tiles(const Panel& rows, size_t row, const Pan
   }
 #pragma clang loop unroll(full)
   for (size_t t = 0; t < 2; ++t) {
-    LaneState& own = column_states[tile + t];
+    Lanes& own = column_states[tile + t];
     __m256i column_best = load(own.best), column_second = load(own.second);
     const __m256i term = load(&columns.term[(tile + t) * kLanes]);
     const __m256i indexed = load(&columns.term_with_index[(tile + t) * kLanes]);
 #pragma clang loop unroll(full)
     for (size_t r = 0; r < kGroup; ++r) {
       const __m256i doubled = _mm256_slli_epi32(sums[r][t], kIndexBits + 1);
-      LaneState& lanes = row_states[row + r];
+      Lanes& lanes = row_states[row + r];
       __m256i best = load(lanes.best), second = load(lanes.second);
       keep(best, second,
            _mm256_add_epi32(_mm256_sub_epi32(indexed, doubled),
@@ -102,8 +98,8 @@ CK_AVX2 inline void group_against_tiles(const Panel& rows, size_t row, const Pan
   }
 }
 
-CK_AVX2 void scan(const Panel& rows, const Panel& columns, std::vector<LaneState>& row_states,
-                  std::vector<LaneState>& column_states) {
+CK_AVX2 void scan(const Panel& rows, const Panel& columns, std::vector<Lanes>& row_states,
+                  std::vector<Lanes>& column_states) {
   const size_t row_count = rows.term.size();
   for (size_t chunk = 0; chunk < row_count; chunk += kChunk) {
     const size_t end = std::min(row_count, chunk + kChunk);
@@ -115,13 +111,6 @@ CK_AVX2 void scan(const Panel& rows, const Panel& columns, std::vector<LaneState
   }
 }
 
-std::vector<LaneState> empty_states(size_t count) {
-  LaneState empty;
-  std::fill_n(empty.best, kLanes, UINT32_MAX);
-  std::fill_n(empty.second, kLanes, UINT32_MAX);
-  return std::vector<LaneState>(count, empty);
-}
-
 }  // namespace
 
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column) {
@@ -131,22 +120,10 @@ void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by
   const Panel columns =
       pack(block.columns + block.column_begin * kDescriptorLength, block.column_count(),
            rounded_up(block.column_count(), 2 * kLanes), kFar - 1 - block.row_norm, kLanes, kLanes);
-  auto row_states = empty_states(rows.term.size());
-  auto column_states = empty_states(columns.term.size() / kLanes);
+  auto row_states = empty_states<kLanes>(rows.term.size());
+  auto column_states = empty_states<kLanes>(columns.term.size() / kLanes);
   scan(rows, columns, row_states, column_states);
-  const auto row_begin = static_cast<uint32_t>(block.row_begin);
-  const auto column_begin = static_cast<uint32_t>(block.column_begin);
-  for (size_t i = 0; i < block.row_count(); ++i) {
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      offer_packed(by_row[row_begin + i], row_states[i].best[lane], row_states[i].second[lane],
-                   column_begin + lane, kLanes);
-    }
-  }
-  for (size_t j = 0; j < block.column_count(); ++j) {
-    const LaneState& state = column_states[j / kLanes];
-    offer_packed(by_column[column_begin + j], state.best[j % kLanes], state.second[j % kLanes],
-                 row_begin, 1);
-  }
+  offer_states(block, row_states, column_states, by_row, by_column);
 }
 
 }  // namespace ck

@@ -65,10 +65,7 @@ Columns pack_columns(const DistanceBlock& block) {
   return columns;
 }
 
-/// The two smallest keys seen by each of sixteen lanes.
-struct alignas(64) LaneState {
-  uint32_t best[kLanes], second[kLanes];
-};
+using Lanes = LaneState<kLanes>;
 
 #define CK_AVX512 __attribute__((target("avx512f,avx512bw,avx512vl,avx512vnni")))
 
@@ -79,7 +76,7 @@ CK_AVX512 inline void keep(__m512i& best, __m512i& second, __m512i key) {
 
 /// Eight rows against two tiles of columns.
 CK_AVX512 inline void group_against_tiles(const Rows& rows, size_t row, const Columns& columns,
-                                          size_t tile, LaneState* row_states, __m512i state[4]) {
+                                          size_t tile, Lanes* row_states, __m512i state[4]) {
   const int32_t* a = rows.words.data() + row * kSteps;
   const uint8_t* b = columns.bytes.data() + tile * kLanes * kDescriptorLength;
   __m512i sums[kGroup][2];
@@ -103,7 +100,7 @@ CK_AVX512 inline void group_against_tiles(const Rows& rows, size_t row, const Co
 #pragma clang loop unroll(full)
     for (size_t r = 0; r < kGroup; ++r) {
       const __m512i doubled = _mm512_slli_epi32(sums[r][t], kIndexBits + 1);
-      LaneState& lanes = row_states[row + r];
+      Lanes& lanes = row_states[row + r];
       __m512i best = _mm512_load_si512(lanes.best), second = _mm512_load_si512(lanes.second);
       keep(best, second,
            _mm512_add_epi32(_mm512_sub_epi32(indexed, doubled),
@@ -117,13 +114,13 @@ CK_AVX512 inline void group_against_tiles(const Rows& rows, size_t row, const Co
   }
 }
 
-CK_AVX512 void scan(const Rows& rows, const Columns& columns, std::vector<LaneState>& row_states,
-                    std::vector<LaneState>& column_states) {
+CK_AVX512 void scan(const Rows& rows, const Columns& columns, std::vector<Lanes>& row_states,
+                    std::vector<Lanes>& column_states) {
   const size_t row_count = rows.term.size(), tile_count = columns.term.size() / kLanes;
   for (size_t chunk = 0; chunk < row_count; chunk += kChunk) {
     const size_t end = std::min(row_count, chunk + kChunk);
     for (size_t tile = 0; tile < tile_count; tile += 2) {
-      LaneState* lanes = &column_states[tile];
+      Lanes* lanes = &column_states[tile];
       __m512i state[4] = {_mm512_load_si512(lanes[0].best), _mm512_load_si512(lanes[0].second),
                           _mm512_load_si512(lanes[1].best), _mm512_load_si512(lanes[1].second)};
       for (size_t row = chunk; row < end; row += kGroup) {
@@ -137,34 +134,15 @@ CK_AVX512 void scan(const Rows& rows, const Columns& columns, std::vector<LaneSt
   }
 }
 
-std::vector<LaneState> empty_states(size_t count) {
-  LaneState empty;
-  std::fill_n(empty.best, kLanes, UINT32_MAX);
-  std::fill_n(empty.second, kLanes, UINT32_MAX);
-  return std::vector<LaneState>(count, empty);
-}
-
 }  // namespace
 
 void nearest_avx512_vnni(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column) {
   const Rows rows = pack_rows(block);
   const Columns columns = pack_columns(block);
-  auto row_states = empty_states(rows.term.size());
-  auto column_states = empty_states(columns.term.size() / kLanes);
+  auto row_states = empty_states<kLanes>(rows.term.size());
+  auto column_states = empty_states<kLanes>(columns.term.size() / kLanes);
   scan(rows, columns, row_states, column_states);
-  const auto row_begin = static_cast<uint32_t>(block.row_begin);
-  const auto column_begin = static_cast<uint32_t>(block.column_begin);
-  for (size_t i = 0; i < block.row_count(); ++i) {
-    for (uint32_t lane = 0; lane < kLanes; ++lane) {
-      offer_packed(by_row[row_begin + i], row_states[i].best[lane], row_states[i].second[lane],
-                   column_begin + lane, kLanes);
-    }
-  }
-  for (size_t j = 0; j < block.column_count(); ++j) {
-    const LaneState& state = column_states[j / kLanes];
-    offer_packed(by_column[column_begin + j], state.best[j % kLanes], state.second[j % kLanes],
-                 row_begin, 1);
-  }
+  offer_states(block, row_states, column_states, by_row, by_column);
 }
 
 }  // namespace ck
