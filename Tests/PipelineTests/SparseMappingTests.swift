@@ -6,20 +6,6 @@ import TestSupport
 import Testing
 
 @Suite struct SparseMappingTests {
-  private func map(
-    _ scene: SyntheticScene, _ method: MappingMethod, graph: ViewGraph? = nil,
-    focalFactor: Double = 1, notes: StageNotes = StageNotes(), threads: Int = 1
-  ) throws -> Reconstruction {
-    var options = SparseMapping.Options()
-    options.method = method
-    var camera = scene.camera
-    camera.focalLength *= focalFactor
-    camera.distortion = .zero
-    return try SparseMapping(options).run(
-      graph ?? scene.viewGraph, features: scene.features, photos: scene.photos, cameras: [camera],
-      StageContext(control: KernelControl(threadCount: threads), notes: notes))
-  }
-
   /// The pairs of photos up to `reach` apart in the order of capture.
   private func graph(_ scene: SyntheticScene, reach: Int) -> ViewGraph {
     ViewGraph(
@@ -29,23 +15,15 @@ import Testing
 
   @Test(arguments: SyntheticScene.Layout.allCases, [0, 0.2, 0.4])
   func globalIsAsGoodAsIncremental(layout: SyntheticScene.Layout, outliers: Double) throws {
-    var options = SyntheticScene.Options()
-    options.layout = layout
-    options.photoCount = layout == .ring ? 16 : 10
-    options.pixelNoise = 0.3
-    options.outlierRatio = outliers
-    options.relativePoseNoise = 0.01
-    let scene = SyntheticScene(options)
+    let scene = SyntheticScene(.noisy(layout, outliers: outliers))
     let notes = StageNotes()
-    let global = try map(scene, .global, notes: notes)
-    #expect(notes.counts["globalPhotos"] == Double(options.photoCount))
-    #expect(global.registered.count == options.photoCount)
+    let global = try scene.mapped(.global, notes: notes)
+    #expect(notes.counts["globalPhotos"] == Double(scene.photos.count))
+    #expect(global.registered.count == scene.photos.count)
     #expect(global.unregistered.isEmpty)
     #expect(global.meanReprojectionError < 0.6)
-    let incremental = try map(scene, .incremental)
-    let errors = [global, incremental].map {
-      PoseComparison(estimated: $0.poses, true: scene.poses)
-    }
+    let incremental = try scene.mapped(.incremental)
+    let errors = [global, incremental].map(scene.comparison)
     #expect(errors[0].maximumCenterError < 1.2 * errors[1].maximumCenterError + 0.002)
     // Rotations and the principal point make up for each other, so that they are known less well.
     #expect(errors.allSatisfy { $0.maximumRotationError < 0.015 })
@@ -68,12 +46,11 @@ import Testing
         Quaternion(angle: 1, axis: [0.3, 1, 0.2]) * pose.rotation
     }
     let notes = StageNotes()
-    let result = try map(scene, .automatic, graph: graph, focalFactor: 0.9, notes: notes)
+    let result = try scene.mapped(.automatic, graph: graph, focalFactor: 0.9, notes: notes)
     #expect(notes.counts["globalPhotos"] == 24)
     #expect(result.registered.count == 24)
     #expect(abs(result.cameras[0].focalLength.x / 1400 - 1) < 0.01)
-    let poses = PoseComparison(estimated: result.poses, true: scene.poses)
-    #expect(poses.maximumCenterError < 0.03)
+    #expect(scene.comparison(result).maximumCenterError < 0.03)
   }
 
   @Test func pairsOfUnknownFocalLengthGetARotation() throws {
@@ -86,10 +63,9 @@ import Testing
       graph.pairs[index].secondFromFirst?.rotation = .identity
     }
     let notes = StageNotes()
-    let result = try map(scene, .global, graph: graph, notes: notes)
+    let result = try scene.mapped(.global, graph: graph, notes: notes)
     #expect(notes.counts["globalPhotos"] == 12)
-    let poses = PoseComparison(estimated: result.poses, true: scene.poses)
-    #expect(poses.maximumCenterError < 0.03)
+    #expect(scene.comparison(result).maximumCenterError < 0.03)
   }
 
   @Test func weakGraphIsMappedIncrementally() throws {
@@ -99,10 +75,10 @@ import Testing
     let scene = SyntheticScene(options)
     let notes = StageNotes()
     // Each photo hangs on its neighbours by one pair.
-    let result = try map(scene, .automatic, graph: graph(scene, reach: 1), notes: notes)
+    let result = try scene.mapped(.automatic, graph: graph(scene, reach: 1), notes: notes)
     #expect(notes.counts["globalPhotos"] == 0)
     #expect(result.registered.count == 12)
-    let expected = try map(scene, .incremental, graph: graph(scene, reach: 1))
+    let expected = try scene.mapped(.incremental, graph: graph(scene, reach: 1))
     #expect(result.poses == expected.poses)
   }
 
@@ -116,49 +92,68 @@ import Testing
         $0.pair.second.index != 11 || $0.pair.first.index == 10
       })
     let notes = StageNotes()
-    let result = try map(scene, .automatic, graph: graph, notes: notes)
+    let result = try scene.mapped(.automatic, graph: graph, notes: notes)
     #expect(notes.counts["globalPhotos"] == 11)
     #expect(result.registered.count == 12)
-    let poses = PoseComparison(estimated: result.poses, true: scene.poses)
-    #expect(poses.maximumCenterError < 0.03)
+    #expect(scene.comparison(result).maximumCenterError < 0.03)
   }
 
-  @Test func smallerComponentIsReported() throws {
+  @Test(arguments: MappingMethod.allCases)
+  func smallerComponentIsReported(method: MappingMethod) throws {
     var options = SyntheticScene.Options()
     options.photoCount = 16
     options.secondComponentStart = 10
-    let result = try map(SyntheticScene(options), .global)
+    let result = try SyntheticScene(options).mapped(method)
     #expect(result.registered.map(\.index) == Array(0..<10))
     #expect(result.unregistered.map(\.sampleID) == Array(10..<16))
+    #expect(result.unregistered.allSatisfy { $0.fault == .notRegistered })
     #expect(result.unregistered.allSatisfy { $0.reason.contains("separate group of 6 photos") })
   }
 
-  @Test func emptyGraphGivesNoPoses() throws {
+  @Test(arguments: MappingMethod.allCases)
+  func theNearestPhotoIsNamed(method: MappingMethod) throws {
     let scene = SyntheticScene()
-    let result = try map(scene, .global, graph: ViewGraph(photoCount: 12, pairs: []))
+    let graph = ViewGraph(
+      photoCount: 12, pairs: scene.pairs(without: 4),
+      rejected: [
+        RejectedPair(pair: PhotoPair(ID(3), ID(4)), matches: 9, needed: 20),
+        RejectedPair(pair: PhotoPair(ID(4), ID(5)), matches: 12, needed: 20),
+      ])
+    let result = try scene.mapped(method, graph: graph)
+    let reason = try #require(result.unregistered.first).reason
+    #expect(reason.contains("only 12 matches with photo005.jpg"))
+    #expect(reason.contains("20 are needed"))
+  }
+
+  @Test(arguments: MappingMethod.allCases)
+  func emptyGraphGivesNoPoses(method: MappingMethod) throws {
+    let graph = ViewGraph(photoCount: 12, pairs: [])
+    let result = try SyntheticScene().mapped(method, graph: graph)
     #expect(result.registered.isEmpty)
     #expect(result.unregistered.count == 12)
   }
 
-  @Test func resultIsTheSameAtAnyThreadCount() throws {
+  @Test(arguments: [MappingMethod.incremental, .global])
+  func resultIsTheSameAtAnyThreadCount(method: MappingMethod) throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.4
     options.outlierRatio = 0.2
     let scene = SyntheticScene(options)
-    let (one, two) = (try map(scene, .global), try map(scene, .global, threads: 2))
+    let (one, two) = (
+      try scene.mapped(method),
+      try scene.mapped(method, control: KernelControl(threadCount: 2))
+    )
     let isSame =
       one.poses == two.poses && one.points == two.points && one.cameras == two.cameras
     #expect(isSame)
   }
 
-  @Test(arguments: [0.15, 0.3]) func cancelStops(fraction: Double) {
-    let scene = SyntheticScene()
+  @Test(arguments: [(MappingMethod.incremental, 0.3), (.automatic, 0.15), (.automatic, 0.3)])
+  func cancelStops(method: MappingMethod, fraction: Double) {
     let flag = CancellationFlag()
     let control = KernelControl(flag: flag) { if $0 > fraction { flag.cancel() } }
     #expect(throws: CancellationError.self) {
-      try SparseMapping().run(
-        scene.viewGraph, features: scene.features, photos: scene.photos, cameras: [scene.camera],
-        StageContext(control: control))
+      try SyntheticScene().mapped(method, control: control)
     }
   }
 }

@@ -55,22 +55,9 @@ package struct IncrementalMapping: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The largest reconstruction that the view graph gives, in the frame of its first photo and the
-  /// unit of its first pair; `unregistered` says why photos are missing.
-  ///
-  /// `sizes` receives the number of photos of every separate part, the largest first.
-  package func run(
-    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
-    _ context: StageContext
-  ) throws -> Reconstruction {
-    let tracks = try TrackBuilding().run(graph, features: features, context.part(from: 0, to: 0.1))
-    return try run(
-      graph, features: features, photos: photos,
-      empty: SparseMap(cameras: cameras, photos: photos, tracks: tracks), from: nil,
-      context.part(from: 0.1, to: 1))
-  }
-
-  /// The same from tracks, and from a map to begin with where there is one.
+  /// The largest reconstruction that the view graph gives, grown from `empty`, which holds the tracks,
+  /// and from `start` where there is one, else in the frame of its first photo and the unit of its
+  /// first pair; `unregistered` says why photos are missing.
   func run(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], empty: SparseMap,
     from start: SparseMap?, _ context: StageContext
