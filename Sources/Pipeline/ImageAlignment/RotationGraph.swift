@@ -136,34 +136,3 @@ struct RotationGraph: Sendable {
     return rotations.map { $0 ?? .identity }
   }
 }
-
-/// Numbers joined into sets (union–find); the lowest of a set stands for it.
-struct DisjointSets: Sendable {
-  private var parents: [Int]
-
-  init(count: Int) { parents = Array(0..<count) }
-
-  mutating func root(_ number: Int) -> Int {
-    var number = number
-    while parents[number] != number {
-      parents[number] = parents[parents[number]]
-      number = parents[number]
-    }
-    return number
-  }
-
-  /// False when the two are in one set already.
-  @discardableResult
-  mutating func join(_ a: Int, _ b: Int) -> Bool {
-    let (a, b) = (root(a), root(b))
-    parents[max(a, b)] = min(a, b)
-    return a != b
-  }
-
-  /// The sets, each ascending, in the order of their lowest numbers.
-  mutating func groups() -> [[Int]] {
-    var groups = [[Int]](repeating: [], count: parents.count)
-    for number in parents.indices { groups[root(number)].append(number) }
-    return groups.filter { !$0.isEmpty }
-  }
-}

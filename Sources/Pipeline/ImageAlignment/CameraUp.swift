@@ -1,0 +1,30 @@
+import SceneModel
+
+/// The up direction that the cameras' attitude suggests.
+struct CameraUp: Sendable {
+  var direction: SIMD3<Double>
+
+  init(_ reconstruction: Reconstruction) {
+    let rotations = reconstruction.poses.compactMap { $0?.rotation.conjugate }
+    let mean =
+      rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, -1, 0] } / Double(rotations.count)
+    let back =
+      rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, 0, -1] } / Double(rotations.count)
+    // Cameras that look straight down have their tops all around: then their backs point up.
+    guard mean.length > 0.3 || mean.length > back.length else {
+      direction = back.length > 0.1 ? back.normalized : [0, 1, 0]
+      return
+    }
+    direction = mean.normalized
+    // Held level, a camera's x axis is horizontal whatever it looks at: more exact than the mean of
+    // tilted tops, where the axes spread enough.
+    var scatter = [SIMD3<Double>](repeating: .zero, count: 3)
+    for rotation in rotations {
+      let x = rotation * SIMD3(1, 0, 0)
+      for axis in 0..<3 { scatter[axis] += x[axis] * x / Double(rotations.count) }
+    }
+    let (values, vectors) = Matrix3(rows: scatter[0], scatter[1], scatter[2]).symmetricEigen
+    let normal = vectors[0].dot(mean) < 0 ? -vectors[0] : vectors[0]
+    if values[0] < 0.02, values[1] > 0.1, normal.dot(direction) > 0.6 { direction = normal }
+  }
+}

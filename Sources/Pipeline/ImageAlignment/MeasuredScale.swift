@@ -1,0 +1,124 @@
+import SceneModel
+
+/// The scale that measured distances give a reconstruction.
+struct MeasuredScale: Sendable {
+  /// Metres per unit of the reconstruction, by least squares over all distances that could be used.
+  var metersPerUnit: Double
+  /// Of each used distance: what the reconstruction makes of it, relative to what was measured, less 1.
+  var deviations: [Double]
+
+  /// Largest distance of a pick from its point, as a fraction of the photo's longer side.
+  static let largestPickError = 0.01
+
+  /// Nil without a usable distance. `problems` are sentences about distances that could not be used,
+  /// or that disagree.
+  static func measure(
+    _ distances: [KnownDistance], in reconstruction: Reconstruction
+  ) -> (scale: MeasuredScale?, problems: [String]) {
+    var problems: [String] = []
+    var used: [(length: Double, meters: Double)] = []
+    for distance in distances {
+      do throws(Unusable) {
+        let a = try place(of: distance.from, in: reconstruction, &problems)
+        let b = try place(of: distance.to, in: reconstruction, &problems)
+        guard (a - b).length > 0, distance.meters > 0 else {
+          throw Unusable(reason: "its ends are the same place")
+        }
+        used.append(((a - b).length, distance.meters))
+      } catch {
+        problems.append(
+          "The known distance of \(distance.meters) m can't be used: \(error.reason).")
+      }
+    }
+    // Errors of picks are the same in all distances: the scale that leaves least is Σlm / Σl².
+    let squares = used.reduce(0) { $0 + $1.length * $1.length }
+    guard squares > 0 else { return (nil, problems) }
+    let scale = used.reduce(0) { $0 + $1.length * $1.meters } / squares
+    let deviations = used.map { scale * $0.length / $0.meters - 1 }
+    if let worst = deviations.map({ abs($0) }).max(), worst > 0.02 {
+      problems.append(
+        "The known distances disagree by up to \(Int((100 * worst).rounded())) %; check them and "
+          + "what they were measured between.")
+    }
+    return (MeasuredScale(metersPerUnit: scale, deviations: deviations), problems)
+  }
+
+  private struct Unusable: Error {
+    var reason: String
+  }
+
+  private static func place(
+    of end: KnownDistance.End, in reconstruction: Reconstruction, _ problems: inout [String]
+  ) throws(Unusable) -> SIMD3<Double> {
+    switch end {
+    case .camera(let name): return try photo(name, reconstruction).pose.center
+    case .point(let picks): return try point(picks, reconstruction, &problems)
+    }
+  }
+
+  private static func photo(
+    _ name: String, _ reconstruction: Reconstruction
+  ) throws(Unusable) -> (camera: Camera, pose: RigidTransform) {
+    guard let photo = reconstruction.photos.first(where: { $0.name == name }) else {
+      throw Unusable(reason: "\(name) is not among the photos that are used")
+    }
+    guard let pose = reconstruction.poses[photo.id.index] else {
+      throw Unusable(reason: "\(name) could not be aligned")
+    }
+    return (reconstruction.camera(of: photo.id), pose)
+  }
+
+  private typealias View = (pick: KnownDistance.Pick, camera: Camera, pose: RigidTransform)
+
+  /// The point nearest to the rays of its picks.
+  private static func point(
+    _ picks: [KnownDistance.Pick], _ reconstruction: Reconstruction, _ problems: inout [String]
+  ) throws(Unusable) -> SIMD3<Double> {
+    var views: [View] = []
+    for pick in picks {
+      let (camera, pose) = try photo(pick.photo, reconstruction)
+      views.append((pick, camera, pose))
+    }
+    guard let point = intersection(views) else {
+      throw Unusable(
+        reason: "a point needs picks in two photos or more that were taken from different sides")
+    }
+    for view in views {
+      let inCamera = view.pose * point
+      guard inCamera.z > 0 else {
+        throw Unusable(reason: "the picks of a point don't show the same place")
+      }
+      let error = (view.camera.project(inCamera) - [view.pick.x, view.pick.y]).length
+      if error > largestPickError * Double(max(view.camera.width, view.camera.height)) {
+        problems.append(
+          "A pick in \(view.pick.photo) is \(Int(error.rounded())) pixels off the point that the "
+            + "others show; check that all show the same point.")
+      }
+    }
+    return point
+  }
+
+  /// The point with the least sum of squared distances from rays; nil where they are about parallel.
+  private static func intersection(_ views: [View]) -> SIMD3<Double>? {
+    var matrix = Matrix3(rows: .zero, .zero, .zero)
+    var right = SIMD3<Double>.zero
+    for view in views {
+      let ray = view.camera.unproject([view.pick.x, view.pick.y])
+      let direction = (view.pose.rotation.conjugate * SIMD3(ray.x, ray.y, 1)).normalized
+      // Σ (I − d dᵀ) (x − c) = 0
+      let rows = (0..<3).map { axis -> SIMD3<Double> in
+        var row = -direction[axis] * direction
+        row[axis] += 1
+        return row
+      }
+      matrix.row0 += rows[0]
+      matrix.row1 += rows[1]
+      matrix.row2 += rows[2]
+      let center = view.pose.center
+      right += [rows[0].dot(center), rows[1].dot(center), rows[2].dot(center)]
+    }
+    // For two rays at an angle α the smallest eigenvalue is 1 − cos α.
+    guard views.count >= 2, matrix.symmetricEigen.values[0] > 0.001 else { return nil }
+    return matrix.solution(of: right)
+  }
+}

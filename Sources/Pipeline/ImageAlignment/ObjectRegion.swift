@@ -1,0 +1,44 @@
+import SceneModel
+
+/// The part of the scene that most photos look at.
+struct ObjectRegion: Sendable {
+  /// The points that most photos look at.
+  var core: [SIMD3<Double>] = []
+  /// The points within one and a half camera distances of the centre.
+  var surroundings: [SIMD3<Double>] = []
+  /// The component-wise median of the core.
+  var center = SIMD3<Double>.zero
+  /// The median distance of the cameras from the centre.
+  var cameraDistance = 1.0
+
+  init(_ reconstruction: Reconstruction) {
+    let registered = reconstruction.registered
+    let points = reconstruction.points
+    let step = max(1, points.count / 4000)
+    let sample = stride(from: 0, to: points.count, by: step).map { points[$0].position }
+    let views = sample.map { point in
+      registered.count { photo in
+        guard let pose = reconstruction.poses[photo.index] else { return false }
+        let camera = reconstruction.camera(of: photo)
+        let inCamera = pose * point
+        guard inCamera.z > 0 else { return false }
+        let pixel = camera.project(inCamera)
+        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < Double(camera.width)
+          && pixel.y < Double(camera.height)
+      }
+    }
+    let most = views.sorted()[views.count * 9 / 10]
+    core = zip(sample, views).filter { 10 * $1 >= 8 * most }.map(\.0)
+    center = Self.median(core)
+    let distances = reconstruction.poses.compactMap { $0.map { ($0.center - center).length } }
+      .sorted()
+    if !distances.isEmpty { cameraDistance = distances[distances.count / 2] }
+    surroundings = sample.filter { ($0 - center).length < 1.5 * cameraDistance }
+  }
+
+  private static func median(_ points: [SIMD3<Double>]) -> SIMD3<Double> {
+    guard !points.isEmpty else { return .zero }
+    func middle(_ axis: Int) -> Double { points.map { $0[axis] }.sorted()[points.count / 2] }
+    return [middle(0), middle(1), middle(2)]
+  }
+}
