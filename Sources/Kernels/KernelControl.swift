@@ -1,3 +1,4 @@
+import Foundation
 import CKernels
 import Synchronization
 
@@ -55,7 +56,7 @@ package final class CancellationFlag: Sendable {
 }
 
 /// A kernel that did not end well, in its own words.
-package enum KernelError: Error, Equatable, CustomStringConvertible {
+package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
   case invalidArgument(String)
   /// The input is valid but does not determine a result.
   case degenerate(String)
@@ -67,6 +68,8 @@ package enum KernelError: Error, Equatable, CustomStringConvertible {
     case .degenerate(let message), .failed(let message): message
     }
   }
+
+  package var errorDescription: String? { description }
 }
 
 /// Calls a kernel and turns its status into an error.

@@ -67,11 +67,9 @@ import Testing
   }
 
   @Test func aPhotoThatSeesNoPointOfTheMapIsRegistered() throws {
-    let result = try IncrementalMapping().run(
-      Self.graph, features: Self.scene.features, photos: Self.scene.photos,
-      cameras: [Self.scene.camera], StageContext(control: KernelControl()))
+    let result = try Self.scene.mapped(.incremental, graph: Self.graph)
     #expect(result.registered.count == Self.scene.options.photoCount)
-    let poses = PoseComparison(estimated: result.poses, true: Self.scene.poses)
+    let poses = Self.scene.comparison(result)
     #expect(poses.maximumCenterError < 0.03)
     #expect(poses.maximumRotationError < 0.015)
   }

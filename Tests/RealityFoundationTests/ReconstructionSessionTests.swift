@@ -6,7 +6,7 @@ import Testing
 @testable import RealityFoundation
 
 /// Sessions with the real engine on rendered photos.
-@Suite(.serialized, .timeLimit(.minutes(5))) struct ReconstructionSessionTests {
+@Suite(.serialized, .timeLimit(.minutes(15))) struct ReconstructionSessionTests {
   typealias Session = PhotogrammetrySession
   typealias Output = Session.Output
 

@@ -136,6 +136,6 @@ const Kernels& avx2_kernels();
 const Kernels& avx512_kernels();
 
 /// Throws where the processor lacks the instructions.
-const Kernels& kernels(ck_sift_instructions instructions);
+const Kernels& kernels(ck_instructions instructions);
 
 }  // namespace ck::sift

@@ -10,9 +10,6 @@ extern "C" {
 /// Bytes of one descriptor.
 #define CK_DESCRIPTOR_LENGTH 128
 
-/// The instructions of SIFT.
-typedef ck_instructions ck_sift_instructions;
-
 /// How features are detected.
 typedef struct {
   /// Features kept at most; the output buffers hold as many.
