@@ -17,6 +17,7 @@ package struct ImageAlignment: Sendable {
     package var correspondences = CorrespondenceSearch.Options()
     package var standpoint = StandpointCheck.Options()
     package var mapping = SparseMapping.Options()
+    package var lookAlikes = LookAlikeCheck.Options()
     package var refinement = ObservationRefinement.Options()
     package var framing = WorldFraming.Options()
 
@@ -63,8 +64,11 @@ package struct ImageAlignment: Sendable {
         context.part(from: 0.7, to: 0.85))
     }
     try check(mapped, context.notes)
+    try timed("lookAlikeSeconds", context) {
+      try checkLookAlikes(mapped, graph, features, images, context.part(from: 0.85, to: 0.87))
+    }
     let refined = try timed("refinementSeconds", context) {
-      try refine(mapped, features, calibrated, images, context.part(from: 0.85, to: 0.98))
+      try refine(mapped, features, calibrated, images, context.part(from: 0.87, to: 0.98))
     }
     let reconstruction = WorldFraming(options.framing).run(refined, context.part(from: 0.98, to: 1))
     report(reconstruction, context.notes)
@@ -86,6 +90,31 @@ package struct ImageAlignment: Sendable {
       return mapped
     }
   }
+
+  /// Refuses a reconstruction that lays parts of the scene on each other because they look alike, and
+  /// warns where it may.
+  private func checkLookAlikes(
+    _ mapped: Reconstruction, _ graph: ViewGraph, _ features: [FeatureSet], _ images: ImageStore,
+    _ context: StageContext
+  ) throws {
+    let findings = try LookAlikeCheck(options.lookAlikes)
+      .run(mapped, graph, features: features, images: images, context)
+    switch findings.verdict {
+    case .sound: break
+    case .doubtful:
+      context.notes.warn(
+        "Parts of the scene may look alike and lie on each other in the model: "
+          + "\(findings.reason(mapped.photos)). Check the model; \(Self.lookAlikeAdvice)")
+    case .folded:
+      throw PipelineError.alignmentFailed(
+        reason: "parts of the scene look alike and can't be told apart: "
+          + "\(findings.reason(mapped.photos)); \(Self.lookAlikeAdvice)")
+    }
+  }
+
+  private static let lookAlikeAdvice =
+    "put things that differ around the object, step back so that photos show them, or leave out the "
+    + "photos of one of the parts."
 
   private func check(_ reconstruction: Reconstruction, _ notes: StageNotes) throws {
     let count = reconstruction.registered.count

@@ -153,7 +153,7 @@ extension RenderedScene {
 
   /// A mesh over the unit square, u to the right and v up, counter-clockwise from outside; closed in
   /// u when `isClosed`. Normals come from the positions' differences.
-  private static func grid(
+  static func grid(
     columns: Int, rows: Int, isClosed: Bool, _ position: (Double, Double) -> SIMD3<Double>
   ) -> Mesh {
     var mesh = Mesh()

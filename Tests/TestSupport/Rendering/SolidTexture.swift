@@ -4,6 +4,15 @@ import SceneModel
 ///
 /// Fixed to space, so that photos from all sides agree, and without seams.
 package struct SolidTexture: Sendable {
+  /// What makes parts of a scene look the same.
+  package enum Repetition: Sendable {
+    case none
+    /// A half turn about the y axis changes nothing.
+    case halfTurn
+    /// A step of this length along x changes nothing.
+    case period(Float)
+  }
+
   /// Linear RGB, 0…1, from the lowest noise value to the highest.
   package var palette: [SIMD3<Float>]
   /// Wavelength of the coarsest octave in world units; each further one is finer by 2.1.
@@ -14,10 +23,13 @@ package struct SolidTexture: Sendable {
   package var contrast: Float
   /// How much the fine octaves darken and lighten.
   private var shading: Float = 1.6
+  package var repetition: Repetition
 
   package init(
-    palette: [SIMD3<Float>], wavelength: Float, octaves: Int, seed: UInt32, contrast: Float = 2.2
+    palette: [SIMD3<Float>], wavelength: Float, octaves: Int, seed: UInt32, contrast: Float = 2.2,
+    repetition: Repetition = .none
   ) {
+    self.repetition = repetition
     self.palette = palette
     self.wavelength = wavelength
     self.octaves = octaves
@@ -38,7 +50,7 @@ package struct SolidTexture: Sendable {
   /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't show are left out.
   package func color(at point: SIMD3<Float>, footprint: Float) -> SIMD3<Float> {
     var (sum, fine, total, amplitude, length) = (Float(0), Float(0), Float(0), Float(1), wavelength)
-    var p = point
+    var p = repeated(point)
     for octave in 0..<octaves {
       let visible = min(max(length / max(footprint, 1e-12) - 1.5, 0), 1)
       if visible > 0 {
@@ -59,6 +71,14 @@ package struct SolidTexture: Sendable {
     // The fine octaves also darken and lighten, so that no patch is flat.
     let shade = min(max(1 + shading * fine / total * Float(octaves).squareRoot(), 0.35), 1.5)
     return palette(at: position) * shade
+  }
+
+  private func repeated(_ p: SIMD3<Float>) -> SIMD3<Float> {
+    switch repetition {
+    case .none: p
+    case .halfTurn: p.z < 0 ? SIMD3(-p.x, p.y, -p.z) : p
+    case .period(let length): SIMD3(p.x - length * (p.x / length).rounded(.down), p.y, p.z)
+    }
   }
 
   private func palette(at value: Float) -> SIMD3<Float> {

@@ -1,0 +1,275 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// A point of one photo that another one should show.
+struct ExpectedPoint: Sendable {
+  /// Where the first photo shows it.
+  var reference: TrackReference
+  /// Where the other one should, and how its surroundings are warped there.
+  var pixel: SIMD2<Double>
+  var warp: SIMD4<Double>
+}
+
+/// Points of one photo that another one should show, and what of it that one shows for certain.
+struct NearbyQuestion: Sendable {
+  var other: Int
+  var photo: Int
+  var points: [ExpectedPoint] = []
+  /// Pixels of points that features of both photos show.
+  var agreed: [SIMD2<Double>] = []
+}
+
+/// Which points a photo should show, from its pose and what it shows.
+struct NearbyView {
+  let photo: Int
+  let pose: RigidTransform
+  private let surroundings: DepthGrid
+  /// Tracks that features of the photo show, and where.
+  private let known: [Int32: SIMD2<Double>]
+
+  /// `seen` has the tracks that features of the photo show.
+  init(
+    _ photo: Int, at pose: RigidTransform, seen: [(track: Int32, pixel: SIMD2<Double>)],
+    _ map: SparseMap, _ options: LookAlikeCheck.Options
+  ) {
+    (self.photo, self.pose) = (photo, pose)
+    surroundings = DepthGrid(
+      map.photos.cameras[Int(map.photos.cameraOfPhoto[photo])],
+      seen.map { ($0.pixel, (pose * map.positions[Int($0.track)]).z) }, cells: options.cells)
+    known = Dictionary(seen.map { ($0.track, $0.pixel) }) { first, _ in first }
+  }
+
+  /// Of all points that the photo shows; nil without any.
+  var medianDepth: Double? { surroundings.medianDepth }
+
+  /// What the photo should show of another one.
+  func question(
+    about other: Int, _ map: SparseMap, _ options: LookAlikeCheck.Options,
+    reference: (_ observation: Int) -> TrackReference
+  ) -> NearbyQuestion {
+    var question = NearbyQuestion(other: other, photo: photo)
+    guard let theirs = map.photos.poses[other]?.center else { return question }
+    var photos = map.photos
+    photos.poses[photo] = pose
+    for index in map.tracks.observationsOfPhoto[other].map(Int.init) where map.isActive[index] {
+      if let pixel = known[map.tracks.trackOfObservation[index]] {
+        question.agreed.append(pixel)
+      } else if let point = expected(reference(index), from: theirs, photos, options) {
+        question.points.append(point)
+      }
+    }
+    let stride = max(1, (question.points.count + options.maximumPoints - 1) / options.maximumPoints)
+    question.points = Swift.stride(from: 0, to: question.points.count, by: stride).map {
+      question.points[$0]
+    }
+    return question
+  }
+
+  /// A point that is seen from `theirs`; nil where the photo may not show it, or very differently.
+  private func expected(
+    _ reference: TrackReference, from theirs: SIMD3<Double>, _ photos: PosedPhotos,
+    _ options: LookAlikeCheck.Options
+  ) -> ExpectedPoint? {
+    let camera = photos.cameras[Int(photos.cameraOfPhoto[photo])]
+    let (mine, their) = (pose.center - reference.point, theirs - reference.point)
+    let ratio = mine.length / their.length
+    let depth = (pose * reference.point).z
+    let (limit, most) = (options.maximumAngleDegrees * .pi / 180, options.maximumDistanceRatio)
+    guard depth > 0, ratio < most, 1 / ratio < most,
+      mine.dot(their) > cos(limit) * mine.length * their.length,
+      let (pixel, warp) = reference.warp(to: photo, in: photos)
+    else { return nil }
+    // The whole template and the steps of the search have to lie within the photo.
+    let margin = 10 * reference.step
+    guard pixel.x > margin, pixel.y > margin, pixel.x < Double(camera.width) - margin,
+      pixel.y < Double(camera.height) - margin,
+      let front = surroundings.front(at: pixel), depth < options.depthTolerance * front
+    else { return nil }
+    return ExpectedPoint(reference: reference, pixel: pixel, warp: warp)
+  }
+}
+
+/// Looks for points of photos in photos that stand close to them.
+struct NearbySearch: Sendable {
+  let map: SparseMap
+  private let features: [FeatureSet]
+  private let photos: [Photo]
+  private let images: ImageStore
+  private let options: LookAlikeCheck.Options
+  /// The mean viewing direction of each track.
+  private let normals: [SIMD3<Double>]
+
+  init(
+    _ map: SparseMap, features: [FeatureSet], photos: [Photo], images: ImageStore,
+    _ options: LookAlikeCheck.Options
+  ) {
+    (self.map, self.features, self.photos) = (map, features, photos)
+    (self.images, self.options) = (images, options)
+    normals = (0..<map.tracks.count).map { track in
+      map.activeObservations(of: track).reduce(SIMD3<Double>.zero) { sum, index in
+        guard let pose = map.photos.poses[Int(map.tracks.photos[index])] else { return sum }
+        return sum + (pose.center - map.positions[track]).normalized
+      }.normalized
+    }
+  }
+
+  private func reference(_ observation: Int) -> TrackReference {
+    let (photo, track) = (
+      Int(map.tracks.photos[observation]), Int(map.tracks.trackOfObservation[observation])
+    )
+    let side = Double(max(photos[photo].width, photos[photo].height))
+    let scales = features[photo].scales
+    let feature = Int(map.tracks.features[observation])
+    let scale = scales.indices.contains(feature) ? Double(scales[feature]) : 0
+    return TrackReference(
+      photo: photo, pixel: map.tracks.pixels[observation],
+      step: max(options.stepPerScale * scale, options.relativeStep * side, 1),
+      point: map.positions[track], normal: normals[track])
+  }
+
+  // MARK: Questions
+
+  /// What each photo should show of its neighbours, as the map has them.
+  func questions(_ control: KernelControl) throws -> [NearbyQuestion] {
+    try control.parallelMap(photos.count) { photo -> [NearbyQuestion] in
+      guard let pose = map.photos.poses[photo] else { return [] }
+      let seen = map.tracks.observationsOfPhoto[photo].map(Int.init).filter { map.isActive[$0] }
+        .map { (map.tracks.trackOfObservation[$0], map.tracks.pixels[$0]) }
+      let view = NearbyView(photo, at: pose, seen: seen, map, options)
+      guard let depth = view.medianDepth else { return [] }
+      return neighbours(of: photo, pose, within: options.relativeDistance * depth).map {
+        view.question(about: $0, map, options, reference: reference)
+      }
+    }.flatMap { $0 }
+  }
+
+  /// The nearest photos that look the same way.
+  private func neighbours(of photo: Int, _ pose: RigidTransform, within reach: Double) -> [Int] {
+    func axis(_ pose: RigidTransform) -> SIMD3<Double> {
+      pose.rotation.conjugate * SIMD3(0, 0, 1)
+    }
+    let (center, ahead) = (pose.center, axis(pose))
+    let leastCosine = cos(options.axisDegrees * .pi / 180)
+    let near = map.registered.compactMap { other -> (distance: Double, photo: Int)? in
+      guard other != photo, let theirs = map.photos.poses[other] else { return nil }
+      let distance = (theirs.center - center).length
+      return distance < reach && axis(theirs).dot(ahead) > leastCosine ? (distance, other) : nil
+    }
+    return near.sorted { ($0.distance, $0.photo) < ($1.distance, $1.photo) }
+      .prefix(options.neighbours).map(\.photo)
+  }
+
+  // MARK: Answers
+
+  /// The evidence of each question.
+  func answers(
+    _ questions: [NearbyQuestion], _ control: KernelControl
+  ) throws -> [LookAlikeCheck.Evidence] {
+    let points = questions.flatMap(\.points)
+    var ofReference = [[Int]](repeating: [], count: photos.count)
+    for (number, point) in points.enumerated() { ofReference[point.reference.photo].append(number) }
+    let read = try control.part(from: 0, to: 0.4).parallelMap(photos.count) {
+      [ofReference] photo in
+      guard !ofReference[photo].isEmpty else { return TemplateMatching.Templates(count: 0) }
+      let (image, factor) = try image(photo)
+      let places = ofReference[photo].map { points[$0].reference }.map {
+        TemplateMatching.Place(center: $0.pixel * factor, step: $0.step * factor.x)
+      }
+      return try TemplateMatching.templates(of: places, in: image)
+    }
+    var templates = TemplateMatching.Templates(count: points.count)
+    for (photo, part) in read.enumerated() { templates.insert(part, at: ofReference[photo]) }
+    var ofPhoto = [[Int]](repeating: [], count: photos.count)
+    var first = 0
+    for question in questions {
+      ofPhoto[question.photo] += first..<first + question.points.count
+      first += question.points.count
+    }
+    let found = try control.part(from: 0.4, to: 1).parallelMap(photos.count) {
+      [ofPhoto, templates] photo in
+      try correlations(ofPhoto[photo], points, templates, in: photo)
+    }
+    var best = points.map { _ -> Double? in nil }
+    for (numbers, values) in zip(ofPhoto, found) {
+      for (number, value) in zip(numbers, values) { best[number] = value }
+    }
+    first = 0
+    return questions.map { question in
+      defer { first += question.points.count }
+      return evidence(question, Array(best[first..<first + question.points.count]))
+    }
+  }
+
+  private func image(_ photo: Int) throws -> (image: RasterImage, factor: SIMD2<Double>) {
+    let image = try images.image(ID(photo), maximumPixels: options.workingPixels)
+    let full = SIMD2(Double(photos[photo].width), Double(photos[photo].height))
+    return (image, SIMD2(Double(image.width), Double(image.height)) / full)
+  }
+
+  /// The best correlation of some of the points in a photo, searched for from a few places around the
+  /// expected one; nil for points without a template.
+  private func correlations(
+    _ numbers: [Int], _ points: [ExpectedPoint], _ templates: TemplateMatching.Templates,
+    in photo: Int
+  ) throws -> [Double?] {
+    guard !numbers.isEmpty else { return [] }
+    let (image, factor) = try image(photo)
+    var best = numbers.map { templates.isValid[$0] ? -1.0 : nil }
+    var matching = TemplateMatching()
+    matching.maximumShift =
+      4 * (numbers.map { points[$0].reference.step }.max() ?? 1) * factor.x
+    for offsets in [Self.offsets.prefix(1), Self.offsets.dropFirst()] {
+      let open = best.indices.filter { best[$0].map { $0 < options.agreement } ?? false }
+      guard !open.isEmpty else { break }
+      let starts = open.flatMap { index in offsets.map { (index: index, offset: $0) } }
+      let searches = starts.map { start in
+        let point = points[numbers[start.index]]
+        return TemplateMatching.Search(
+          template: numbers[start.index], step: point.reference.step, warp: point.warp * factor.x,
+          expected: (point.pixel + start.offset * point.reference.step) * factor)
+      }
+      for (start, find) in zip(starts, try matching.finds(searches, of: templates, in: image)) {
+        best[start.index] = max(best[start.index] ?? -1, find?.zncc ?? -1)
+      }
+    }
+    return best
+  }
+
+  /// Starts of the search in samples of the template.
+  private static let offsets: [SIMD2<Double>] = [
+    [0, 0], [2, 0], [-2, 0], [0, 2], [0, -2], [2, 2], [-2, -2], [2, -2], [-2, 2],
+  ]
+
+  private func evidence(
+    _ question: NearbyQuestion, _ correlations: [Double?]
+  ) -> LookAlikeCheck.Evidence {
+    var evidence = LookAlikeCheck.Evidence(pair: PhotoPair(ID(question.other), ID(question.photo)))
+    var grid = AgreementGrid(photos[question.photo], cells: options.cells)
+    for (point, correlation) in zip(question.points, correlations) {
+      guard let correlation else { continue }
+      if correlation >= options.agreement {
+        evidence.agreeing += 1
+        grid.agree(point.pixel)
+      } else if correlation < options.contradiction {
+        evidence.contradicting += 1
+        grid.contradict(point.pixel)
+      }
+    }
+    question.agreed.forEach { grid.agree($0) }
+    evidence.contradictingCells = grid.contradictingCells(minimum: options.cellPoints)
+    return evidence
+  }
+}
+
+extension TrackReference {
+  init(
+    photo: Int, pixel: SIMD2<Double>, step: Double, point: SIMD3<Double>, normal: SIMD3<Double>
+  ) {
+    self.photo = photo
+    self.pixel = pixel
+    self.step = step
+    self.point = point
+    self.normal = normal
+  }
+}

@@ -1,0 +1,46 @@
+import SceneModel
+
+extension ViewGraph {
+  /// Pairs whose matches don't show the same points in a reconstruction, sorted.
+  ///
+  /// Where parts of a scene look alike, some pairs match the wrong parts and others the right ones, and
+  /// no reconstruction agrees with all of them.
+  ///
+  /// - Parameters:
+  ///   - tolerance: largest distance of a point from its match, relative to the photo's longer side.
+  ///   - minimumMatches: matches with a point that a pair needs to be judged.
+  ///   - maximumShare: of them agree at most in a pair that is returned.
+  func contradicted(
+    by reconstruction: Reconstruction, features: [FeatureSet], tolerance: Double = 0.01,
+    minimumMatches: Int = 30, maximumShare: Double = 0.2
+  ) -> [PhotoPair] {
+    var pointOf = features.map { [Int32](repeating: -1, count: $0.count) }
+    for (number, point) in reconstruction.points.enumerated() {
+      for observation in point.track where observation.feature >= 0 {
+        pointOf[observation.photo.index][Int(observation.feature)] = Int32(number)
+      }
+    }
+    /// Whether a point is seen at a feature; nil without a point.
+    func agrees(_ point: Int32, _ photo: ID<Photo>, _ feature: Int32) -> Bool? {
+      guard point >= 0, let pose = reconstruction.poses[photo.index] else { return nil }
+      let seen = pose * reconstruction.points[Int(point)].position
+      guard seen.z > 0 else { return false }
+      let camera = reconstruction.camera(of: photo)
+      let position = SIMD2<Double>(features[photo.index].positions[Int(feature)])
+      let limit = tolerance * Double(max(camera.width, camera.height))
+      return (camera.project(seen) - position).length <= limit
+    }
+    return pairs.filter { pair in
+      let (first, second) = (pair.pair.first, pair.pair.second)
+      guard reconstruction.poses[first.index] != nil, reconstruction.poses[second.index] != nil
+      else { return false }
+      let verdicts = pair.matches.compactMap { match in
+        agrees(pointOf[first.index][Int(match.first)], second, match.second)
+          ?? agrees(pointOf[second.index][Int(match.second)], first, match.first)
+      }
+      let good = verdicts.count { $0 }
+      return verdicts.count >= minimumMatches
+        && Double(good) < maximumShare * Double(verdicts.count)
+    }.map(\.pair)
+  }
+}
