@@ -85,7 +85,9 @@ class EpipolarBand {
       : first_(first),
         second_(second),
         matrix_(Eigen::Map<const Matrix>(options.matrix)),
-        limit_(options.maximum_error) {
+        limit_(options.maximum_error),
+        distance_(ck_instructions_supported(ck_instructions_avx2) ? squared_distance_avx2
+                                                                  : squared_distance) {
     std::vector<GridFeature> features;
     Eigen::AlignedBox2d box;
     for (size_t j = 0; j < second.count; ++j) {
@@ -117,8 +119,7 @@ class EpipolarBand {
     grid.visit_near(line, limit_ * std::sqrt(slope + steepest_), [&](const GridFeature& f) {
       const float error = a * f.x + b * f.y + c;
       if (error * error >= squared_limit * (own + f.slope)) return;
-      visit(f.index,
-            squared_distance(descriptor, second_.descriptors + f.index * kDescriptorLength));
+      visit(f.index, distance_(descriptor, second_.descriptors + f.index * kDescriptorLength));
     });
   }
 
@@ -127,6 +128,7 @@ class EpipolarBand {
   const ck_features& second_;
   Matrix matrix_;
   double limit_;
+  uint32_t (*distance_)(const uint8_t*, const uint8_t*);
   /// The second photo's features for lines along x and along y; none where no feature takes part.
   std::vector<FeatureGrid> grids_;
   /// The largest slope of the second photo's features.

@@ -71,6 +71,7 @@ NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* c
 inline size_t rounded_up(size_t count, size_t step) { return (count + step - 1) / step * step; }
 
 uint32_t squared_distance(const uint8_t* a, const uint8_t* b);
+uint32_t squared_distance_avx2(const uint8_t* a, const uint8_t* b);
 
 /// Squared length of a descriptor.
 uint32_t squared_norm(const uint8_t* descriptor);

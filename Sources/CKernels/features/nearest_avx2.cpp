@@ -113,6 +113,21 @@ CK_AVX2 void scan(const Panel& rows, const Panel& columns, std::vector<Lanes>& r
 
 }  // namespace
 
+CK_AVX2 uint32_t squared_distance_avx2(const uint8_t* a, const uint8_t* b) {
+  __m256i sum = _mm256_setzero_si256();
+#pragma clang loop unroll(full)
+  for (size_t k = 0; k < kDescriptorLength; k += 16) {
+    const auto widened = [k](const uint8_t* d) __attribute__((target("avx2"))) {
+      return _mm256_cvtepu8_epi16(_mm_loadu_si128(reinterpret_cast<const __m128i*>(d + k)));
+    };
+    const __m256i difference = _mm256_sub_epi16(widened(a), widened(b));
+    sum = _mm256_add_epi32(sum, _mm256_madd_epi16(difference, difference));
+  }
+  const __m128i four = _mm_add_epi32(_mm256_castsi256_si128(sum), _mm256_extracti128_si256(sum, 1));
+  const __m128i two = _mm_add_epi32(four, _mm_shuffle_epi32(four, 0x4e));
+  return static_cast<uint32_t>(_mm_cvtsi128_si32(_mm_add_epi32(two, _mm_shuffle_epi32(two, 0xb1))));
+}
+
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column) {
   const Panel rows =
       pack(block.rows + block.row_begin * kDescriptorLength, block.row_count(),
@@ -131,6 +146,9 @@ void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by
 #else
 
 namespace ck {
+uint32_t squared_distance_avx2(const uint8_t* a, const uint8_t* b) {
+  return squared_distance(a, b);
+}
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column) {
   nearest_portable(block, by_row, by_column);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <opencv2/imgproc.hpp>
 
 namespace ck {
 namespace {
@@ -24,22 +25,17 @@ inline Float4 cubic_weights(float t) {
                 ((-1.5f * t + 2) * t + 0.5f) * t, (0.5f * t - 0.5f) * t * t};
 }
 
-/// Rec. 601 luma in 1/256.
-inline uint8_t luma(const uint8_t* pixel, int channels) {
-  if (channels == 1) return pixel[0];
-  return static_cast<uint8_t>((77 * pixel[0] + 150 * pixel[1] + 29 * pixel[2] + 128) >> 8);
-}
-
 }  // namespace
 
 LumaPyramid::LumaPyramid(const uint8_t* pixels, int width, int height, int channels,
                          size_t stride) {
   Level base{width, height, std::vector<uint8_t>(static_cast<size_t>(width) * height)};
-  for (int y = 0; y < height; ++y) {
-    const uint8_t* row = pixels + static_cast<size_t>(y) * stride;
-    uint8_t* out = base.pixels.data() + static_cast<size_t>(y) * width;
-    for (int x = 0; x < width; ++x)
-      out[x] = luma(row + static_cast<size_t>(x) * channels, channels);
+  const cv::Mat photo(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels), stride);
+  cv::Mat luma(height, width, CV_8UC1, base.pixels.data());
+  if (channels == 1) {
+    photo.copyTo(luma);
+  } else {
+    cv::cvtColor(photo, luma, channels == 4 ? cv::COLOR_RGBA2GRAY : cv::COLOR_RGB2GRAY);
   }
   levels_.push_back(std::move(base));
   while (levels_.size() < kLevels && std::min(levels_.back().width, levels_.back().height) >= 32) {

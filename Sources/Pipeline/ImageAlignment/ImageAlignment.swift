@@ -97,8 +97,14 @@ package struct ImageAlignment: Sendable {
     _ mapped: Reconstruction, _ graph: ViewGraph, _ features: [FeatureSet], _ images: ImageStore,
     _ context: StageContext
   ) throws {
-    let findings = try LookAlikeCheck(options.lookAlikes)
-      .run(mapped, graph, features: features, images: images, context)
+    let findings: LookAlikeCheck.Findings
+    do {
+      findings = try LookAlikeCheck(options.lookAlikes)
+        .run(mapped, graph, features: features, images: images, context)
+    } catch let error as KernelError {
+      context.notes.warn("Look-alike parts of the scene were not looked for (\(error)).")
+      return
+    }
     switch findings.verdict {
     case .sound: break
     case .doubtful:

@@ -179,7 +179,7 @@ struct MapGrowth: Sendable {
       dropWeakPhotos(&map)
       if round > 1, 1000 * changes < map.isActive.count(where: { $0 }) { break }
     }
-    try adjustment.adjustGlobally(&map, isFinal: true, control(map))
+    try adjustment.adjustGlobally(&map, control(map))
     try strict.filter(all, in: &map, control(map))
     dropWeakPhotos(&map)
   }
