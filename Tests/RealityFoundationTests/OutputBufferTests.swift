@@ -2,7 +2,7 @@ import Testing
 
 @testable import RealityFoundation
 
-@Suite(.timeLimit(.minutes(1))) struct OutputBufferTests {
+@Suite(.timeLimit(.minutes(10))) struct OutputBufferTests {
   typealias Output = PhotogrammetrySession.Output
 
   private func id(_ output: Output?) -> Int? {

@@ -6,7 +6,7 @@ import Testing
 @testable import RealityFoundation
 
 /// The behaviour of a session, on an engine that does what the test tells it.
-@Suite(.timeLimit(.minutes(1))) struct SessionTests {
+@Suite(.timeLimit(.minutes(10))) struct SessionTests {
   typealias Session = PhotogrammetrySession
   typealias Output = Session.Output
 

@@ -1,8 +1,10 @@
+import Foundation
 import Kernels
 import SceneModel
 
 /// Gives weak pairs a second pass: once their geometry is known, features are matched among those near
-/// their epipolar line, where what looks alike elsewhere in the photo can't confuse them.
+/// their epipolar line, where what looks alike elsewhere in the photo can't confuse them. New matches
+/// have to change scale and orientation as the known ones do.
 package struct GuidedMatching {
   package struct Options: Hashable, Codable, Sendable {
     /// Pairs with as many matches don't need more.
@@ -61,7 +63,9 @@ package struct GuidedMatching {
     let new = try matching.matches(
       .init(features[first], points: points[first], except: pair.matches.map(\.first)),
       .init(features[second], points: points[second], except: pair.matches.map(\.second)),
-      matrix: secondFromFirst.essentialMatrix, KernelControl())
+      matrix: secondFromFirst.essentialMatrix, KernelControl()
+    )
+    .filter(LocalFrames(pair.matches, features[first], features[second]).agrees)
     guard !new.isEmpty else { return pair }
     let verdict = try verification.verify(
       pair.pair, pair.matches + new, points: (points[first], points[second]), cameras: cameras)
@@ -69,6 +73,47 @@ package struct GuidedMatching {
       return pair
     }
     return better
+  }
+}
+
+/// How the local frames of a pair's known matches, the scales and orientations of their features, change
+/// from the first photo to the second: chance matches change otherwise.
+private struct LocalFrames {
+  private let first: FeatureSet
+  private let second: FeatureSet
+  /// The median of the logarithm of the ratio of scales.
+  private var scale = 0.0
+  /// The mean turn, as a vector: the shorter, the less it says.
+  private var turn = SIMD2<Double>.zero
+
+  /// Largest change from the median as a factor, and from the mean turn in degrees.
+  private static let maximumFactor = 2.0
+  private static let maximumTurnDegrees = 45.0
+  /// Length of the mean turn below which turns differ too much to judge by.
+  private static let minimumAgreement = 0.5
+
+  init(_ known: [FeatureMatch], _ first: FeatureSet, _ second: FeatureSet) {
+    (self.first, self.second) = (first, second)
+    let ratios = known.map(logarithmOfScales).sorted()
+    scale = ratios.isEmpty ? 0 : ratios[ratios.count / 2]
+    turn = known.reduce(SIMD2<Double>.zero) { $0 + direction($1) } / Double(max(1, known.count))
+  }
+
+  private func logarithmOfScales(_ match: FeatureMatch) -> Double {
+    log(Double(second.scales[Int(match.second)] / first.scales[Int(match.first)]))
+  }
+
+  private func direction(_ match: FeatureMatch) -> SIMD2<Double> {
+    let angle = Double(
+      second.orientations[Int(match.second)] - first.orientations[Int(match.first)])
+    return [cos(angle), sin(angle)]
+  }
+
+  func agrees(_ match: FeatureMatch) -> Bool {
+    guard abs(logarithmOfScales(match) - scale) <= log(Self.maximumFactor) else { return false }
+    let length = (turn * turn).sum().squareRoot()
+    guard length >= Self.minimumAgreement else { return true }
+    return (direction(match) * turn).sum() >= cos(Self.maximumTurnDegrees * .pi / 180) * length
   }
 }
 
