@@ -1,5 +1,5 @@
-import Foundation
 import CKernels
+import Foundation
 import Synchronization
 
 /// Carries progress out of kernels and the wish to cancel into them.

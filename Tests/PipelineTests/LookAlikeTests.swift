@@ -8,25 +8,6 @@ import Testing
 
 /// Parts of a scene that look alike are never laid on each other without a word.
 @Suite(.serialized) struct LookAlikeTests {
-  private func align(
-    _ scene: RenderedScene
-  ) throws -> (poses: PoseComparison, notes: StageNotes, reconstruction: Reconstruction) {
-    var scene = scene
-    scene.samplesPerSide = 1
-    let folder = try TemporaryFolder()
-    let control = KernelControl(threadCount: 2)
-    try folder.write(try scene.photos(control), focalLength: scene.camera.focalLength.x)
-    let notes = StageNotes()
-    let context = StageContext(control: control, notes: notes)
-    let ingested = try PhotoIngestion().run(folder: folder.url, context)
-    let images = ImageStore(
-      photos: ingested.photos, byteBudget: 1 << 30, processingPixels: ingested.processingPixels)
-    let reconstruction = try ImageAlignment().run(
-      photos: ingested.photos, cameras: ingested.cameras, images: images, context)
-    let poses = PoseComparison(estimated: reconstruction.poses, true: scene.poses)
-    return (poses, notes, reconstruction)
-  }
-
   private func isTold(_ notes: StageNotes) -> Bool {
     notes.warnings.contains { $0.contains("look alike") && $0.contains("view_") }
   }
@@ -34,9 +15,10 @@ import Testing
   /// A failure that names photos, or a warning that does, or the right poses.
   private func expectNoSilentFold(_ scene: RenderedScene) throws {
     do {
-      let (poses, notes, _) = try align(scene)
+      let aligned = try AlignedScene(scene)
+      let poses = aligned.poses
       let isRight = poses.maximumCenterError < 0.02 && poses.maximumRotationError < 0.02
-      #expect(isRight || isTold(notes))
+      #expect(isRight || isTold(aligned.notes))
     } catch let error as PipelineError {
       let reason = error.errorDescription ?? ""
       #expect(reason.contains("look alike") && reason.contains("view_"))
@@ -56,9 +38,10 @@ import Testing
   @Test func likeBaysOfAFacadeAreTold() throws { try expectNoSilentFold(.facade()) }
 
   @Test func differentSidesAreSound() throws {
-    let (poses, notes, _) = try align(.twinBox(photoCount: 18, isRepeated: false))
-    #expect(poses.count == 18)
-    #expect(poses.maximumCenterError < 0.01)
+    let aligned = try AlignedScene(.twinBox(photoCount: 18, isRepeated: false))
+    let notes = aligned.notes
+    #expect(aligned.poses.count == 18)
+    #expect(aligned.poses.maximumCenterError < 0.01)
     #expect(!isTold(notes))
     #expect(notes.counts["lookAlikeConflicts"] == 0)
     #expect(notes.counts["contradictedPairs"] == 0)

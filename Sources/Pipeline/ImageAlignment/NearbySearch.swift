@@ -95,7 +95,7 @@ struct NearbySearch: Sendable {
   let map: SparseMap
   private let features: [FeatureSet]
   private let photos: [Photo]
-  private let images: ImageStore
+  private let reading: TemplateReading
   private let options: LookAlikeCheck.Options
   /// The mean viewing direction of each track.
   private let normals: [SIMD3<Double>]
@@ -105,7 +105,9 @@ struct NearbySearch: Sendable {
     _ options: LookAlikeCheck.Options
   ) {
     (self.map, self.features, self.photos) = (map, features, photos)
-    (self.images, self.options) = (images, options)
+    self.options = options
+    reading = TemplateReading(
+      photos: photos, images: images, workingPixels: options.workingPixels)
     normals = (0..<map.tracks.count).map { track in
       map.activeObservations(of: track).reduce(SIMD3<Double>.zero) { sum, index in
         guard let pose = map.photos.poses[Int(map.tracks.photos[index])] else { return sum }
@@ -167,19 +169,8 @@ struct NearbySearch: Sendable {
     _ questions: [NearbyQuestion], _ control: KernelControl
   ) throws -> [LookAlikeCheck.Evidence] {
     let points = questions.flatMap(\.points)
-    var ofReference = [[Int]](repeating: [], count: photos.count)
-    for (number, point) in points.enumerated() { ofReference[point.reference.photo].append(number) }
-    let read = try control.part(from: 0, to: 0.4).parallelMap(photos.count) {
-      [ofReference] photo in
-      guard !ofReference[photo].isEmpty else { return TemplateMatching.Templates(count: 0) }
-      let (image, factor) = try image(photo)
-      let places = ofReference[photo].map { points[$0].reference }.map {
-        TemplateMatching.Place(center: $0.pixel * factor, step: $0.step * factor.x)
-      }
-      return try TemplateMatching.templates(of: places, in: image)
-    }
-    var templates = TemplateMatching.Templates(count: points.count)
-    for (photo, part) in read.enumerated() { templates.insert(part, at: ofReference[photo]) }
+    let templates = try reading.templates(
+      of: points.map(\.reference), control.part(from: 0, to: 0.4))
     var ofPhoto = [[Int]](repeating: [], count: photos.count)
     var first = 0
     for question in questions {
@@ -187,7 +178,7 @@ struct NearbySearch: Sendable {
       first += question.points.count
     }
     let found = try control.part(from: 0.4, to: 1).parallelMap(photos.count) {
-      [ofPhoto, templates] photo in
+      [ofPhoto] photo in
       try correlations(ofPhoto[photo], points, templates, in: photo)
     }
     var best = points.map { _ -> Double? in nil }
@@ -201,12 +192,6 @@ struct NearbySearch: Sendable {
     }
   }
 
-  private func image(_ photo: Int) throws -> (image: RasterImage, factor: SIMD2<Double>) {
-    let image = try images.image(ID(photo), maximumPixels: options.workingPixels)
-    let full = SIMD2(Double(photos[photo].width), Double(photos[photo].height))
-    return (image, SIMD2(Double(image.width), Double(image.height)) / full)
-  }
-
   /// The best correlation of some of the points in a photo, searched for from a few places around the
   /// expected one; nil for points without a template.
   private func correlations(
@@ -214,7 +199,7 @@ struct NearbySearch: Sendable {
     in photo: Int
   ) throws -> [Double?] {
     guard !numbers.isEmpty else { return [] }
-    let (image, factor) = try image(photo)
+    let (image, factor) = try reading.image(photo)
     var best = numbers.map { templates.isValid[$0] ? -1.0 : nil }
     var matching = TemplateMatching()
     matching.maximumShift =
@@ -259,17 +244,5 @@ struct NearbySearch: Sendable {
     question.agreed.forEach { grid.agree($0) }
     evidence.contradictingCells = grid.contradictingCells(minimum: options.cellPoints)
     return evidence
-  }
-}
-
-extension TrackReference {
-  init(
-    photo: Int, pixel: SIMD2<Double>, step: Double, point: SIMD3<Double>, normal: SIMD3<Double>
-  ) {
-    self.photo = photo
-    self.pixel = pixel
-    self.step = step
-    self.point = point
-    self.normal = normal
   }
 }

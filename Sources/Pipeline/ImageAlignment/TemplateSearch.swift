@@ -6,10 +6,10 @@ import SceneModel
 struct TemplateSearch: Sendable {
   private let options: ObservationRefinement.Options
   private let photos: [Photo]
-  private let images: ImageStore
+  private let reading: TemplateReading
   /// The reference of each track; nil where there is none.
-  private var references: [TrackReference?]
-  private var templates: TemplateMatching.Templates
+  private let references: [TrackReference?]
+  private let templates: TemplateMatching.Templates
 
   /// A search that waits for its photo.
   private struct Candidate: Sendable {
@@ -25,7 +25,9 @@ struct TemplateSearch: Sendable {
     _ map: SparseMap, features: [FeatureSet], photos: [Photo], images: ImageStore,
     _ options: ObservationRefinement.Options, _ context: StageContext
   ) throws {
-    (self.options, self.photos, self.images) = (options, photos, images)
+    (self.options, self.photos) = (options, photos)
+    reading = TemplateReading(
+      photos: photos, images: images, workingPixels: options.workingPixels)
     references = (0..<map.tracks.count).map { track in
       guard map.isTriangulated[track] else { return nil }
       return TrackReference(track: track, of: map) { photo, feature in
@@ -36,30 +38,7 @@ struct TemplateSearch: Sendable {
           options.workingPixel(width: photos[photo].width, height: photos[photo].height))
       }
     }
-    templates = TemplateMatching.Templates(count: map.tracks.count)
-    try readTemplates(context)
-  }
-
-  private func image(_ photo: Int) throws -> (image: RasterImage, factor: SIMD2<Double>) {
-    let image = try images.image(ID(photo), maximumPixels: options.workingPixels)
-    let full = SIMD2(Double(photos[photo].width), Double(photos[photo].height))
-    return (image, SIMD2(Double(image.width), Double(image.height)) / full)
-  }
-
-  private mutating func readTemplates(_ context: StageContext) throws {
-    var tracksOfPhoto = [[Int]](repeating: [], count: photos.count)
-    for (track, reference) in references.enumerated() {
-      if let reference { tracksOfPhoto[reference.photo].append(track) }
-    }
-    let read = try context.control.parallelMap(photos.count) { [self, tracksOfPhoto] photo in
-      guard !tracksOfPhoto[photo].isEmpty else { return TemplateMatching.Templates(count: 0) }
-      let (image, factor) = try image(photo)
-      let places = tracksOfPhoto[photo].compactMap { references[$0] }.map {
-        TemplateMatching.Place(center: $0.pixel * factor, step: $0.step * factor.x)
-      }
-      return try TemplateMatching.templates(of: places, in: image)
-    }
-    for (photo, part) in read.enumerated() { templates.insert(part, at: tracksOfPhoto[photo]) }
+    templates = try reading.templates(of: references, context.control)
   }
 
   /// Moves the observations of the map to where their templates are found; those whose texture differs
@@ -161,7 +140,7 @@ struct TemplateSearch: Sendable {
     matching.maximumShift = shift
     return try context.control.parallelMap(candidates.count) { [self, matching] photo in
       guard !candidates[photo].isEmpty else { return [] }
-      let (image, factor) = try image(photo)
+      let (image, factor) = try reading.image(photo)
       let searches = candidates[photo].map { candidate in
         let reference = references[candidate.track]
         let source = photos[reference?.photo ?? photo]

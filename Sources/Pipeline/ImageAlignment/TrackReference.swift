@@ -13,29 +13,6 @@ struct TrackReference: Sendable {
   var point: SIMD3<Double>
   var normal: SIMD3<Double>
 
-  /// Picks the observation with the most central viewing direction.
-  init?(track: Int, of map: SparseMap, scale: (_ photo: Int, _ feature: Int32) -> Double) {
-    let active = map.activeObservations(of: track)
-    let directions = active.compactMap { index in
-      map.photos.poses[Int(map.tracks.photos[index])]
-        .map { ($0.center - map.positions[track]).normalized }
-    }
-    let mean = directions.reduce(.zero, +)
-    guard active.count >= 2, directions.count == active.count, mean.length > 1e-9 else {
-      return nil
-    }
-    var best = 0
-    for k in directions.indices where directions[k].dot(mean) > directions[best].dot(mean) {
-      best = k
-    }
-    let index = active[best]
-    photo = Int(map.tracks.photos[index])
-    pixel = map.tracks.pixels[index]
-    step = scale(photo, map.tracks.features[index])
-    point = map.positions[track]
-    normal = mean.normalized
-  }
-
   /// Where another photo sees the centre, and the derivative by rows of its pixel by the pixel in the
   /// reference, on the plane through the point; nil where one of them is seen from behind.
   func warp(to photo: Int, in photos: PosedPhotos) -> (pixel: SIMD2<Double>, warp: SIMD4<Double>)? {
@@ -58,5 +35,30 @@ struct TrackReference: Sendable {
     else { return nil }
     let (byX, byY) = ((right - left) / (2 * reach), (below - above) / (2 * reach))
     return (middle, [byX.x, byY.x, byX.y, byY.y])
+  }
+}
+
+extension TrackReference {
+  /// Picks the observation with the most central viewing direction.
+  init?(track: Int, of map: SparseMap, scale: (_ photo: Int, _ feature: Int32) -> Double) {
+    let active = map.activeObservations(of: track)
+    let directions = active.compactMap { index in
+      map.photos.poses[Int(map.tracks.photos[index])]
+        .map { ($0.center - map.positions[track]).normalized }
+    }
+    let mean = directions.reduce(.zero, +)
+    guard active.count >= 2, directions.count == active.count, mean.length > 1e-9 else {
+      return nil
+    }
+    var best = 0
+    for k in directions.indices where directions[k].dot(mean) > directions[best].dot(mean) {
+      best = k
+    }
+    let index = active[best]
+    let photo = Int(map.tracks.photos[index])
+    self.init(
+      photo: photo, pixel: map.tracks.pixels[index],
+      step: scale(photo, map.tracks.features[index]), point: map.positions[track],
+      normal: mean.normalized)
   }
 }

@@ -16,7 +16,8 @@
       discussion: """
         Writes sparse/cameras.txt, images.txt and points3D.txt, the text format of COLMAP that other \
         programs for neural rendering, stereo and surveying read, and report.json, into the folder \
-        <output>; where alignment fails, report.json alone, which says why. The same alignment is what 'reconstruct' begins with.
+        <output>; where alignment fails, report.json alone, which says why. The same alignment is \
+        what 'reconstruct' begins with.
 
         EXAMPLES
           photogrammetry-cli align photos/ work/

@@ -1,0 +1,44 @@
+import Kernels
+import Pipeline
+import SceneModel
+import TestSupport
+
+/// What alignment makes of a folder of rendered photos.
+struct AlignedScene {
+  let reconstruction: Reconstruction
+  /// Of the rendered photos that have a pose.
+  let poses: PoseComparison
+  let notes: StageNotes
+
+  var warnings: [String] { notes.warnings }
+
+  /// Renders, writes, reads and aligns the photos of a scene, with photos of other things among them.
+  init(_ scene: RenderedScene, strangers: Int = 0, hasMetadata: Bool = true) throws {
+    var scene = scene
+    scene.samplesPerSide = 1
+    let folder = try TemporaryFolder()
+    let control = KernelControl(threadCount: 2)
+    try folder.write(
+      try scene.photos(control), focalLength: hasMetadata ? scene.camera.focalLength.x : nil)
+    let (width, height) = (scene.camera.width, scene.camera.height)
+    for index in 0..<strangers {
+      let stranger = TexturePattern.image(
+        width: width, height: height, seed: UInt32(7919 * index + 5))
+      try folder.write(
+        [stranger], focalLength: scene.camera.focalLength.x, first: index, prefix: "x_")
+    }
+    notes = StageNotes()
+    let context = StageContext(control: control, notes: notes)
+    let ingested = try PhotoIngestion().run(folder: folder.url, context)
+    let images = ImageStore(
+      photos: ingested.photos, byteBudget: 1 << 30, processingPixels: ingested.processingPixels)
+    let reconstruction = try ImageAlignment().run(
+      photos: ingested.photos, cameras: ingested.cameras, images: images, context)
+    let estimated = scene.poses.indices.map { index in
+      ingested.photos.first { $0.name == RenderedScene.name(index) }
+        .flatMap { reconstruction.poses[$0.id.index] }
+    }
+    self.reconstruction = reconstruction
+    poses = PoseComparison(estimated: estimated, true: scene.poses)
+  }
+}
