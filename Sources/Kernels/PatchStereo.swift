@@ -30,16 +30,13 @@ package struct Patch: Hashable, Sendable {
 /// The patches of one view, and which of them were accepted.
 package final class PatchMap: @unchecked Sendable {
   package let view: PatchView
-  /// Positions, among all maps, of the views that may confirm patches of this one.
-  package let neighbors: [Int32]
   // Written by one call at a time; `PatchStereo` says in which order calls go.
   let patches: UnsafeMutablePointer<ck_patch>
   let states: UnsafeMutablePointer<UInt8>
   var count: Int { view.width * view.height }
 
-  package init(view: PatchView, neighbors: [Int]) {
+  package init(view: PatchView) {
     self.view = view
-    self.neighbors = neighbors.map(Int32.init)
     let count = view.width * view.height
     patches = .allocate(capacity: count)
     patches.initialize(
@@ -51,6 +48,13 @@ package final class PatchMap: @unchecked Sendable {
   deinit {
     patches.deallocate()
     states.deallocate()
+  }
+
+  /// The C map, valid as long as this object lives.
+  var raw: ck_patch_map {
+    ck_patch_map(
+      photo: Int32(view.photo.index), view: view.raw, rgb: view.rgb, patches: patches,
+      states: states)
   }
 
   /// The patch at column `x`, row `y`.
@@ -150,53 +154,38 @@ package enum PatchStereo {
     withExtendedLifetime(sources) {}
   }
 
-  /// Marks the patches of `maps[index]` that enough other views confirm and none contradicts.
+  /// Marks the patches of `map` that enough of its neighbours confirm and no more contradict.
   package static func filter(
-    _ maps: [PatchMap], index: Int, options: FilterOptions, control: KernelControl
+    _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, control: KernelControl
   ) throws {
-    var rawOptions = options.raw
-    try withRawMaps(maps) { raw in
+    var (rawOptions, rawMap) = (options.raw, map.raw)
+    let rawNeighbors = neighbors.map(\.raw)
+    try withExtendedLifetime(neighbors) {
       try withKernel(control) {
-        ck_patches_filter(maps[index].states, raw, raw.count, index, &rawOptions, $0)
+        ck_patches_filter(
+          map.states, &rawMap, rawNeighbors, rawNeighbors.count, &rawOptions, $0)
       }
     }
   }
 
-  /// Fuses the accepted patches of `maps[index]` with those of other views that agree with them.
+  /// Fuses the accepted patches of `map` with those of its neighbours that agree with them.
   ///
-  /// Call once all maps are filtered, for all maps in ascending order: patches of later maps that
-  /// become part of a point are not fused again.
+  /// Call once the map and all its neighbours are filtered. A piece of surface that several views show
+  /// becomes a point of the view that shows it finest, so that maps are fused in any order.
   package static func fuse(
-    _ maps: [PatchMap], index: Int, options: FilterOptions, control: KernelControl
+    _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, control: KernelControl
   ) throws -> PointCloud {
-    var rawOptions = options.raw
-    var fused = [ck_fused_patch](repeating: ck_fused_patch(), count: maps[index].count)
+    var (rawOptions, rawMap) = (options.raw, map.raw)
+    let rawNeighbors = neighbors.map(\.raw)
+    var fused = [ck_fused_patch](repeating: ck_fused_patch(), count: map.acceptedCount)
     var count = 0
-    let states = maps.map { Optional($0.states) }
-    try withRawMaps(maps) { raw in
+    try withExtendedLifetime(neighbors) {
       try withKernel(control) {
-        ck_patches_fuse(&fused, &count, raw, states, raw.count, index, &rawOptions, $0)
+        ck_patches_fuse(
+          &fused, &count, &rawMap, rawNeighbors, rawNeighbors.count, &rawOptions, $0)
       }
     }
-    return PointCloud(fused.prefix(count), photos: maps.map(\.view.photo))
-  }
-
-  private static func withRawMaps(
-    _ maps: [PatchMap], _ body: ([ck_patch_map]) throws -> Void
-  ) rethrows {
-    // One block for all neighbour lists, so that their addresses stay valid in `body`.
-    let neighbors = maps.flatMap(\.neighbors)
-    try neighbors.withUnsafeBufferPointer { buffer in
-      var offset = 0
-      let raw = maps.map { map in
-        defer { offset += map.neighbors.count }
-        return ck_patch_map(
-          view: map.view.raw, rgb: map.view.rgb, patches: map.patches,
-          neighbors: buffer.baseAddress.map { $0 + offset },
-          neighbor_count: map.neighbors.count)
-      }
-      try withExtendedLifetime(maps) { try body(raw) }
-    }
+    return PointCloud(fused.prefix(count))
   }
 }
 

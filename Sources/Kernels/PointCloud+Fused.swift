@@ -5,8 +5,8 @@ import SceneModel
 func cosine(degrees: Float) -> Float { cos(degrees * .pi / 180) }
 
 extension PointCloud {
-  /// The cloud of fused patches; `photos` are the photo ids of the maps that patches refer to.
-  init(_ fused: ArraySlice<ck_fused_patch>, photos: [ID<Photo>]) {
+  /// The cloud of fused patches.
+  init(_ fused: ArraySlice<ck_fused_patch>) {
     self.init()
     positions.reserveCapacity(fused.count)
     for patch in fused {
@@ -16,9 +16,7 @@ extension PointCloud {
       consistency.append(patch.consistency)
       footprints.append(patch.footprint)
       withUnsafeBytes(of: patch.photos) { bytes in
-        for index in bytes.bindMemory(to: UInt16.self).prefix(Int(patch.photo_count)) {
-          photoIndices.append(UInt16(photos[Int(index)].index))
-        }
+        photoIndices += bytes.bindMemory(to: UInt16.self).prefix(Int(patch.photo_count))
       }
       photoOffsets.append(UInt32(photoIndices.count))
     }

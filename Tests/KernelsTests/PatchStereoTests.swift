@@ -15,7 +15,7 @@ import Testing
   ) throws -> [PatchMap] {
     let views = scene.views.map { PatchView($0) }
     return try views.indices.map { index in
-      let map = PatchMap(view: views[index], neighbors: views.indices.filter { $0 != index })
+      let map = PatchMap(view: views[index])
       let seeds = scene.reconstruction.points.compactMap { point -> PatchSeed? in
         guard point.track.contains(where: { $0.photo.index == index }) else { return nil }
         let seen = views[index].cameraFromWorld * point.position
@@ -126,10 +126,7 @@ import Testing
         }
       }
     }
-    for index in maps.indices {
-      try PatchStereo.filter(
-        maps, index: index, options: PatchStereo.FilterOptions(), control: KernelControl())
-    }
+    try Self.filter(maps)
     let left = region.1.flatMap { y in region.0.map { ($0, y) } }
       .filter { maps[2].isAccepted($0.0, $0.1) }
     #expect(left.isEmpty)
@@ -152,7 +149,7 @@ import Testing
 
   @Test func aViewWithoutSeedsIsDegenerate() throws {
     let views = Self.scene.views.map { PatchView($0) }
-    let map = PatchMap(view: views[0], neighbors: [1])
+    let map = PatchMap(view: views[0])
     #expect(throws: KernelError.self) {
       try PatchStereo.reconstruct(
         map, sources: [views[1]], seeds: [], options: PatchStereo.Options(),
@@ -166,15 +163,27 @@ import Testing
     }
   }
 
+  static func others(_ maps: [PatchMap], _ index: Int) -> [PatchMap] {
+    maps.indices.filter { $0 != index }.map { maps[$0] }
+  }
+
+  static func filter(_ maps: [PatchMap], control: KernelControl = KernelControl()) throws {
+    for index in maps.indices {
+      try PatchStereo.filter(
+        maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
+        control: control)
+    }
+  }
+
   static func fused(
     _ maps: [PatchMap], control: KernelControl = KernelControl()
   ) throws -> PointCloud {
-    let options = PatchStereo.FilterOptions()
-    for index in maps.indices {
-      try PatchStereo.filter(maps, index: index, options: options, control: control)
-    }
+    try filter(maps, control: control)
     return try maps.indices.reduce(into: PointCloud()) {
-      $0.append(try PatchStereo.fuse(maps, index: $1, options: options, control: control))
+      $0.append(
+        try PatchStereo.fuse(
+          maps[$1], neighbors: others(maps, $1), options: PatchStereo.FilterOptions(),
+          control: control))
     }
   }
 }

@@ -64,15 +64,16 @@ ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* referen
                                  const ck_patch_seed* seeds, size_t seed_count,
                                  const ck_patch_options* options, const ck_control* control);
 
-/// The patches of one view together with the views that may confirm them.
+/// The patches of one view.
 typedef struct {
+  /// Tells views apart, at most 65535.
+  int32_t photo;
   ck_patch_view view;
   /// RGB of the view.
   const uint8_t* rgb;
   const ck_patch* patches;
-  /// Indices of other maps, the best first.
-  const int32_t* neighbors;
-  size_t neighbor_count;
+  /// Which patches passed the filter; may be null where only patches are asked for.
+  const uint8_t* states;
 } ck_patch_map;
 
 /// Which patches are kept and how they are joined.
@@ -106,17 +107,16 @@ typedef enum {
   ck_patch_rejected = 0,
   /// Passed the filter.
   ck_patch_accepted = 1,
-  /// Passed the filter and is part of a point of another view.
-  ck_patch_fused = 2,
 } ck_patch_state;
 
-/// Marks the patches of map `index` that enough other views confirm and none contradicts as
+/// Marks the patches of `reference` that enough of its neighbours confirm and no more contradict as
 /// accepted, all others as rejected.
 ///
-/// `states` holds `width × height` bytes of that view.
-ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* maps, size_t map_count,
-                            size_t index, const ck_patch_filter_options* options,
-                            const ck_control* control);
+/// `states` holds `width × height` bytes; `neighbors` are the views that may confirm, the best
+/// first. Runs on one thread: call it for several views at once.
+ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* reference,
+                            const ck_patch_map* neighbors, size_t neighbor_count,
+                            const ck_patch_filter_options* options, const ck_control* control);
 
 /// A fused patch.
 typedef struct {
@@ -128,17 +128,18 @@ typedef struct {
   float consistency;
   /// Side of a pixel of the reference at the patch, in world units.
   float footprint;
-  /// Maps that agree, ascending.
+  /// Photos that agree, ascending.
   uint16_t photos[16];
 } ck_fused_patch;
 
-/// Fuses the accepted patches of map `index` with those of other views that agree with them.
+/// Fuses the accepted patches of `reference` with those of its neighbours that agree with them.
 ///
-/// `states` are the states of all maps, as the filter left them before the first call. Call for all
-/// maps in ascending order: patches of later maps that become part of a point are marked as fused
-/// and give no point of their own. `fused` has room for as many patches as the view has pixels.
-ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* maps,
-                          uint8_t* const* states, size_t map_count, size_t index,
+/// A piece of surface that several views show becomes a point of the view that shows it finest, of
+/// the lowest photo among equals: each view tells which points are its own, so that views are fused
+/// in any order, or at once. `fused` has room for as many patches as the view has accepted. Runs on
+/// one thread.
+ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* reference,
+                          const ck_patch_map* neighbors, size_t neighbor_count,
                           const ck_patch_filter_options* options, const ck_control* control);
 
 #ifdef __cplusplus

@@ -11,16 +11,15 @@ namespace {
 ///
 /// Where texture is weak the correlation says little, and one more view must agree instead. Where
 /// there are few other views, all but one need not agree.
-int required_views(const Map& map, const ck_patch& patch, const ck_patch_filter_options& options) {
-  const int neighbors = static_cast<int>(map.raw->neighbor_count);
+int required_views(int neighbors, const ck_patch& patch, const ck_patch_filter_options& options) {
   const int regular = std::min(options.minimum_agreeing, std::max(1, neighbors - 1));
   return patch.cost < options.photometric_threshold ? regular : regular + 1;
 }
 
 /// Keeps patches that enough other views confirm and that no more views see through.
-void filter_by_visibility(uint8_t* states, const std::vector<Map>& maps, size_t index,
+void filter_by_visibility(uint8_t* states, const Map& reference, const std::vector<Map>& neighbors,
                           const ck_patch_filter_options& options, const ck_control* control) {
-  const Map& reference = maps[index];
+  const int count = static_cast<int>(neighbors.size());
   for (int y = 0; y < reference.height; ++y) {
     step(control, static_cast<double>(y) / reference.height);
     for (int x = 0; x < reference.width; ++x) {
@@ -31,14 +30,13 @@ void filter_by_visibility(uint8_t* states, const std::vector<Map>& maps, size_t 
       const Vector3 world = point_of(reference, *patch, x, y);
       const Vector3 normal = reference.normal(*patch, x, y);
       int agreeing = 0, contradicting = 0;
-      for (size_t n = 0; n < reference.raw->neighbor_count; ++n) {
-        const Map& other = maps[reference.raw->neighbors[n]];
+      for (const Map& other : neighbors) {
         const auto kind = confirm(reference, other, x, y, world, normal, options).kind;
         agreeing += kind == Confirmation::kAgrees;
         contradicting += kind == Confirmation::kSeesThrough;
       }
       const bool passes =
-          agreeing >= required_views(reference, *patch, options) && contradicting <= agreeing / 2;
+          agreeing >= required_views(count, *patch, options) && contradicting <= agreeing / 2;
       if (passes) state = ck_patch_accepted;
     }
   }
@@ -97,17 +95,19 @@ void remove_islands(uint8_t* states, const Map& map, int minimum) {
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* maps, size_t map_count,
-                            size_t index, const ck_patch_filter_options* options,
-                            const ck_control* control) {
+ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* reference,
+                            const ck_patch_map* neighbors, size_t neighbor_count,
+                            const ck_patch_filter_options* options, const ck_control* control) {
   return ck::guarded([&] {
     using namespace ck::patches;
-    ck::require(states && maps && options && index < map_count, "missing argument");
-    const std::vector<Map> all(maps, maps + map_count);
-    filter_by_visibility(states, all, index, *options, control);
+    ck::require(states && reference && options && (neighbors || neighbor_count == 0),
+                "missing argument");
+    const Map map(*reference);
+    const std::vector<Map> others(neighbors, neighbors + neighbor_count);
+    filter_by_visibility(states, map, others, *options, control);
     for (int pass = 0; pass < options->fringe_passes; ++pass) {
-      remove_fringe(states, all[index], options->fringe_contrast);
+      remove_fringe(states, map, options->fringe_contrast);
     }
-    remove_islands(states, all[index], options->minimum_island);
+    remove_islands(states, map, options->minimum_island);
   });
 }

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
+#include <utility>
 #include <vector>
 
-#include "core/parallel.h"
+#include "core/guard.h"
 #include "patches/map.h"
 
 namespace ck::patches {
@@ -26,8 +28,8 @@ struct Group {
   }
 
   /// Notes a view that sees the surface.
-  void see(size_t index) {
-    if (photos.size() < kMaxPhotos) photos.push_back(static_cast<uint16_t>(index));
+  void see(const Map& map) {
+    if (photos.size() < kMaxPhotos) photos.push_back(static_cast<uint16_t>(map.raw->photo));
   }
 
   /// Takes a view's own patch in.
@@ -76,84 +78,78 @@ ck_fused_patch fuse(Group& group, const Map& reference) {
   return result;
 }
 
-/// Fuses the accepted patches of one view, row by row.
+/// Orders views of one piece of surface: the finest first, the lowest photo among about equals.
+///
+/// A property of the patch alone, so that any two views order theirs alike.
+std::pair<int, int> rank(const Map& map, const ck_patch& patch, int x, int y) {
+  const Vector3 ray = map.ray(x + 0.5f, y + 0.5f);
+  const Vector3 away = map.rotation * map.normal(patch, x, y);
+  const float cosine = std::max(0.1f, -away.dot(ray) / ray.norm());
+  const float side = 1 / (patch.inverse_depth * map.fx * std::sqrt(cosine));
+  constexpr float kStepsAnOctave = 4;
+  return {static_cast<int>(std::floor(std::log2(side) * kStepsAnOctave)), map.raw->photo};
+}
+
+/// Fuses the accepted patches of one view.
 class Fusion {
  public:
-  Fusion(const std::vector<Map>& maps, uint8_t* const* states, size_t index,
+  Fusion(const Map& reference, const std::vector<Map>& neighbors,
          const ck_patch_filter_options& options)
-      : maps_(maps), states_(states), index_(index), options_(options) {}
+      : reference_(reference), neighbors_(neighbors), options_(options) {}
 
-  std::vector<ck_fused_patch> row(int y) const {
-    const Map& reference = maps_[index_];
-    std::vector<ck_fused_patch> fused;
+  ck_fused_patch* run(ck_fused_patch* fused, const ck_control* control) const {
     Group group;
-    for (int x = 0; x < reference.width; ++x) {
-      if (load(index_, x, y) != ck_patch_accepted) continue;
-      collect(group, x, y);
-      fused.push_back(fuse(group, reference));
+    for (int y = 0; y < reference_.height; ++y) {
+      step(control, static_cast<double>(y) / reference_.height);
+      for (int x = 0; x < reference_.width; ++x) {
+        if (reference_.is_accepted(x, y) && collect(group, x, y))
+          *fused++ = fuse(group, reference_);
+      }
     }
     return fused;
   }
 
  private:
-  uint8_t load(size_t map, int x, int y) const {
-    return __atomic_load_n(&states_[map][cell(map, x, y)], __ATOMIC_RELAXED);
-  }
-
-  size_t cell(size_t map, int x, int y) const {
-    return static_cast<size_t>(y) * maps_[map].width + x;
-  }
-
-  /// Collects the accepted patches that agree with one and marks those of later views as fused.
-  ///
-  /// Rows run at once: marks are only ever set, and never in this view, so order doesn't matter.
-  void collect(Group& group, int x, int y) const {
-    const Map& reference = maps_[index_];
-    const ck_patch& patch = reference.raw->patches[cell(index_, x, y)];
-    const Vector3 world = point_of(reference, patch, x, y);
-    const Vector3 normal = reference.normal(patch, x, y);
+  /// Collects the accepted patches that agree with one; false where the point is another view's.
+  bool collect(Group& group, int x, int y) const {
+    const ck_patch& patch = reference_.at(x, y);
+    const Vector3 world = point_of(reference_, patch, x, y);
+    const Vector3 normal = reference_.normal(patch, x, y);
+    const auto own = rank(reference_, patch, x, y);
     group.clear();
-    group.see(index_);
-    group.add(reference, x, y, world);
-    for (size_t n = 0; n < reference.raw->neighbor_count; ++n) {
-      const auto other = static_cast<size_t>(reference.raw->neighbors[n]);
-      const auto found = confirm(reference, maps_[other], x, y, world, normal, options_);
+    group.see(reference_);
+    group.add(reference_, x, y, world);
+    for (const Map& other : neighbors_) {
+      const auto found = confirm(reference_, other, x, y, world, normal, options_);
       if (found.kind != Confirmation::kAgrees) continue;
       group.see(other);
-      if (!load(other, found.x, found.y) || found.distance > options_.fusion_threshold) continue;
-      group.add(maps_[other], found.x, found.y, found.point);
-      if (other > index_) {
-        __atomic_store_n(&states_[other][cell(other, found.x, found.y)],
-                         static_cast<uint8_t>(ck_patch_fused), __ATOMIC_RELAXED);
+      if (!other.is_accepted(found.x, found.y) || found.distance > options_.fusion_threshold) {
+        continue;
       }
+      if (rank(other, other.at(found.x, found.y), found.x, found.y) < own) return false;
+      group.add(other, found.x, found.y, found.point);
     }
+    return true;
   }
 
-  const std::vector<Map>& maps_;
-  uint8_t* const* states_;
-  size_t index_;
+  const Map& reference_;
+  const std::vector<Map>& neighbors_;
   const ck_patch_filter_options& options_;
 };
 
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* maps,
-                          uint8_t* const* states, size_t map_count, size_t index,
+ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* reference,
+                          const ck_patch_map* neighbors, size_t neighbor_count,
                           const ck_patch_filter_options* options, const ck_control* control) {
   return ck::guarded([&] {
     using namespace ck::patches;
-    ck::require(fused && fused_count && maps && states && options && index < map_count,
+    ck::require(fused && fused_count && reference && reference->states && options &&
+                    (neighbors || neighbor_count == 0),
                 "missing argument");
-    const std::vector<Map> all(maps, maps + map_count);
-    const Fusion fusion(all, states, index, *options);
-    std::vector<std::vector<ck_fused_patch>> rows(static_cast<size_t>(all[index].height));
-    ck::parallel_for(control, rows.size(),
-                     [&](size_t y) { rows[y] = fusion.row(static_cast<int>(y)); });
-    *fused_count = 0;
-    for (const auto& row : rows) {
-      fused = std::copy(row.begin(), row.end(), fused);
-      *fused_count += row.size();
-    }
+    const Map map(*reference);
+    const std::vector<Map> others(neighbors, neighbors + neighbor_count);
+    *fused_count = static_cast<size_t>(Fusion(map, others, *options).run(fused, control) - fused);
   });
 }

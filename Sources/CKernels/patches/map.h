@@ -15,8 +15,16 @@ struct Map {
 
   /// The patch of the cell, or null where it has none or one of this cost or a higher.
   const ck_patch* patch(int x, int y, float threshold) const {
-    const ck_patch& p = raw->patches[static_cast<size_t>(y) * width + x];
+    const ck_patch& p = at(x, y);
     return p.inverse_depth > 0 && p.cost < threshold ? &p : nullptr;
+  }
+
+  const ck_patch& at(int x, int y) const {
+    return raw->patches[static_cast<size_t>(y) * width + x];
+  }
+
+  bool is_accepted(int x, int y) const {
+    return raw->states && raw->states[static_cast<size_t>(y) * width + x] != ck_patch_rejected;
   }
 
   /// The viewing ray of a pixel at depth 1, in the camera's frame.

@@ -30,64 +30,75 @@ package struct PointCloudGeneration {
     _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
   ) throws -> PointCloud {
     let sources = SourceSelection().run(reconstruction)
-    let maps = try prepare(reconstruction, sources, images, context.part(from: 0, to: 0.05))
-    try makePatches(maps, of: reconstruction, context.part(from: 0.05, to: 0.8))
-    try filter(maps, context.part(from: 0.8, to: 0.9))
-    let cloud = try fuse(maps, context.part(from: 0.9, to: 1))
+    let nodes = try prepare(reconstruction, sources, images, context.part(from: 0, to: 0.05))
+    try makePatches(nodes, of: reconstruction, context.part(from: 0.05, to: 0.8))
+    try filter(nodes, context.part(from: 0.8, to: 0.9))
+    let cloud = try fuse(nodes, context.part(from: 0.9, to: 1))
     guard cloud.count > 0 else {
       throw PipelineError.noSurface(
         reason: "no patch of surface looks alike in three photos or more.")
     }
     context.notes.count("points", Double(cloud.count))
-    context.notes.count("views", Double(maps.count))
+    context.notes.count("views", Double(nodes.count))
     return cloud
+  }
+
+  /// A view's map and those of its sources, the best first.
+  private struct Node: Sendable {
+    var map: PatchMap
+    var neighbors: [PatchMap]
   }
 
   /// Loads every view that has sources, free of distortion and at the stage's resolution.
   private func prepare(
     _ reconstruction: Reconstruction, _ sources: [[ID<Photo>]], _ images: ImageStore,
     _ context: StageContext
-  ) throws -> [PatchMap] {
+  ) throws -> [Node] {
     let photos = reconstruction.registered.filter { !sources[$0.index].isEmpty }
     guard !photos.isEmpty else {
       throw PipelineError.noSurface(reason: "no two photos share enough points.")
     }
     let position = Dictionary(uniqueKeysWithValues: photos.enumerated().map { ($1, $0) })
-    return try context.control.parallelMap(photos.count) { [options] index in
-      let view = try images.pinholeView(
-        photos[index], of: reconstruction, maximumPixels: options.maximumPixelsPerView)
-      return PatchMap(
-        view: PatchView(view), neighbors: sources[photos[index].index].compactMap { position[$0] })
+    let maps = try context.control.parallelMap(photos.count) { [options] index in
+      PatchMap(
+        view: PatchView(
+          try images.pinholeView(
+            photos[index], of: reconstruction, maximumPixels: options.maximumPixelsPerView)))
+    }
+    return maps.enumerated().map { index, map in
+      let neighbors = sources[photos[index].index].compactMap { position[$0] }.map { maps[$0] }
+      return Node(map: map, neighbors: neighbors)
     }
   }
 
   /// Seeds, optimises and expands, view by view.
   private func makePatches(
-    _ maps: [PatchMap], of reconstruction: Reconstruction, _ context: StageContext
+    _ nodes: [Node], of reconstruction: Reconstruction, _ context: StageContext
   ) throws {
     let seeds = seeds(of: reconstruction)
-    _ = try context.control.parallelMap(maps.count) { [options] index in
-      let map = maps[index]
-      let start = Double(index) / Double(maps.count)
+    _ = try context.control.parallelMap(nodes.count) { [options] index in
+      let map = nodes[index].map
+      let start = Double(index) / Double(nodes.count)
       do {
         try PatchStereo.reconstruct(
-          map, sources: map.neighbors.map { maps[Int($0)].view },
+          map, sources: nodes[index].neighbors.map(\.view),
           seeds: seeds[map.view.photo.index].compactMap { map.view.seed(at: $0) },
           options: options.patches,
-          control: context.control.part(from: start, to: start + 1 / Double(maps.count)))
+          control: context.control.part(from: start, to: start + 1 / Double(nodes.count)))
       } catch KernelError.degenerate {
         // A view that shows none of its sparse points gives no patches; others may do without it.
       }
     }
   }
 
-  private func filter(_ maps: [PatchMap], _ context: StageContext) throws {
-    _ = try context.control.parallelMap(maps.count) { [options] index in
+  private func filter(_ nodes: [Node], _ context: StageContext) throws {
+    _ = try context.control.parallelMap(nodes.count) { [options] index in
       try PatchStereo.filter(
-        maps, index: index, options: options.filter, control: context.control)
+        nodes[index].map, neighbors: nodes[index].neighbors, options: options.filter,
+        control: context.control)
     }
-    let pixels = maps.reduce(0) { $0 + $1.view.width * $1.view.height }
-    let accepted = maps.reduce(0) { $0 + $1.acceptedCount }
+    let pixels = nodes.reduce(0) { $0 + $1.map.view.width * $1.map.view.height }
+    let accepted = nodes.reduce(0) { $0 + $1.map.acceptedCount }
     let ratio = Double(accepted) / Double(max(1, pixels))
     context.notes.count("acceptedPixelRatio", ratio)
     if ratio < options.sparseRatio {
@@ -99,14 +110,13 @@ package struct PointCloudGeneration {
     context.notes.count("viewMegapixels", Double(pixels) / 1e6)
   }
 
-  private func fuse(_ maps: [PatchMap], _ context: StageContext) throws -> PointCloud {
-    try maps.indices.reduce(into: PointCloud()) { cloud, index in
-      try context.step(index, of: maps.count)
-      let (start, end) = (Double(index), Double(index + 1))
-      let part = context.part(from: start / Double(maps.count), to: end / Double(maps.count))
-      cloud.append(
-        try PatchStereo.fuse(maps, index: index, options: options.filter, control: part.control))
+  private func fuse(_ nodes: [Node], _ context: StageContext) throws -> PointCloud {
+    let parts = try context.control.parallelMap(nodes.count) { [options] index in
+      try PatchStereo.fuse(
+        nodes[index].map, neighbors: nodes[index].neighbors, options: options.filter,
+        control: context.control)
     }
+    return parts.reduce(into: PointCloud()) { $0.append($1) }
   }
 
   /// The sparse points that each photo observes, by photo id.
