@@ -5,6 +5,8 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
   case unreadableFolder(path: String, reason: String)
   case noPhotos(folder: String, refused: Int)
   case tooFewPhotos(found: Int, needed: Int)
+  case tooFewCameras(found: Int, needed: Int, photos: Int, cameras: Int)
+  case camerasDontFit(reason: String)
   case alignmentFailed(reason: String)
   case noSurface(reason: String)
 
@@ -18,6 +20,11 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
         : "\(folder) holds no usable photo; \(refused) files were refused."
     case .tooFewPhotos(let found, let needed):
       "Only \(found) usable photos; a reconstruction needs at least \(needed)."
+    case .tooFewCameras(let count, let needed, let photos, let cameras):
+      "Only \(count) of the \(photos) photos can use one of the \(cameras) cameras that were given; "
+        + "\(needed) are needed."
+    case .camerasDontFit(let reason):
+      "The cameras don't fit the photos: \(reason)"
     case .alignmentFailed(let reason):
       "The photos could not be aligned: \(reason)"
     case .noSurface(let reason):
@@ -33,6 +40,12 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
       "Name a folder with JPEG or PNG photos of one object, taken all around it."
     case .tooFewPhotos:
       "Take 20 or more photos all around the object, each overlapping its neighbours by 70 %."
+    case .tooFewCameras:
+      "Cameras are given to photos by file name, and must be for the whole photo in its upright "
+        + "position; name the folder with the photos that they were made for."
+    case .camerasDontFit:
+      "Check that they are the cameras of these photos, with poses from the world to the camera (x "
+        + "right, y down, z forward), angles and units alike, and focal lengths in pixels."
     case .alignmentFailed:
       "Take sharp photos of a textured object that overlap by 70 % or more, "
         + "or try high feature sensitivity."

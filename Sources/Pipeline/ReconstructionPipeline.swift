@@ -13,6 +13,7 @@ package final class ReconstructionPipeline {
   package private(set) var report: RunReport
 
   private let folder: URL
+  private let knownCameras: KnownCameras?
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
   private var finestViewPixels = 0
@@ -23,12 +24,14 @@ package final class ReconstructionPipeline {
   private var cloud: (viewPixels: Int, value: PointCloud)?
   private var surface: (viewPixels: Int, value: Mesh)?
 
+  /// With `knownCameras` photos aren't aligned: these cameras, poses and points are used, unmoved.
   package init(
-    folder: URL, configuration: PipelineConfiguration,
+    folder: URL, configuration: PipelineConfiguration, knownCameras: KnownCameras? = nil,
     flag: CancellationFlag = CancellationFlag(),
     onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
   ) {
     self.folder = folder
+    self.knownCameras = knownCameras
     self.configuration = configuration
     self.flag = flag
     self.onEvent = onEvent
@@ -63,9 +66,16 @@ package final class ReconstructionPipeline {
     return result
   }
 
-  /// Finds cameras, poses and sparse points in the frame that everything else shares.
+  /// Finds cameras, poses and sparse points in the frame that everything else shares, or takes those
+  /// that are known.
   package func align() throws -> Reconstruction {
     if let reconstruction { return reconstruction }
+    let result = try knownCameras.map(adopt) ?? findCameras()
+    reconstruction = result
+    return result
+  }
+
+  private func findCameras() throws -> Reconstruction {
     let (ingested, images) = try input()
     let result = try run(.imageAlignment) { context in
       var options = ImageAlignment.Options()
@@ -78,7 +88,22 @@ package final class ReconstructionPipeline {
     }
     describe(result)
     try checkpoint?.write(result)
-    reconstruction = result
+    return result
+  }
+
+  /// Gives the photos the known cameras, and finds sparse points where none came with them. No
+  /// checkpoint is written: the cameras may have been read from there.
+  private func adopt(_ known: KnownCameras) throws -> Reconstruction {
+    let (ingested, images) = try input()
+    let (result, missing) = try run(.imageAlignment) { context in
+      let assigned = try CameraAssignment()
+        .run(known, to: ingested, context.part(from: 0, to: 0.01))
+      let result = try KnownPoints().run(
+        assigned.reconstruction, images: images, context.part(from: 0.01, to: 1))
+      return (result, assigned.missing)
+    }
+    report.photos += missing.map { .init(name: $0, status: .missing, reason: nil) }
+    describe(result)
     return result
   }
 
@@ -89,8 +114,10 @@ package final class ReconstructionPipeline {
     let (_, images) = try input()
     let reconstruction = try align()
     let result = try run(.pointCloudGeneration) { context in
-      try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
-        .run(reconstruction, images: images, context)
+      let cloud = try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
+        .run(reconstruction, images: images, context.part(from: 0, to: 0.98))
+      try CloudMetrics().run(cloud, reconstruction, context.part(from: 0.98, to: 1))
+      return cloud
     }
     try checkpoint?.write(result)
     cloud = (finestViewPixels, result)

@@ -13,7 +13,12 @@ package struct RunReport: Codable, Sendable {
   }
 
   package struct PhotoEntry: Codable, Sendable {
-    package enum Status: String, Codable, Sendable { case registered, refused, notRegistered }
+    package enum Status: String, Codable, Sendable {
+      case registered, refused, notRegistered
+      /// A camera was given for a photo that isn't there.
+      case missing
+    }
+
     package var name: String
     package var status: Status
     package var reason: String?

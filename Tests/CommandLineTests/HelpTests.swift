@@ -7,11 +7,11 @@ import Testing
 
 @Suite struct HelpTests {
   /// Compares with the files in Snapshots; write them anew with RECORD_SNAPSHOTS=1.
-  @Test(arguments: ["photogrammetry-cli", "reconstruct", "align", "inspect", "evaluate"])
+  @Test(arguments: ["photogrammetry-cli", "reconstruct", "align", "densify", "inspect", "evaluate"])
   func helpIsAsItWas(_ name: String) throws {
     let commands: [String: any ParsableCommand.Type] = [
-      "reconstruct": Reconstruct.self, "align": Align.self, "inspect": Inspect.self,
-      "evaluate": Evaluate.self,
+      "reconstruct": Reconstruct.self, "align": Align.self, "densify": Densify.self,
+      "inspect": Inspect.self, "evaluate": Evaluate.self,
     ]
     let help =
       commands[name].map { PhotogrammetryCLI.helpMessage(for: $0, columns: 80) }

@@ -75,6 +75,7 @@ import Testing
     ("SIMPLE_RADIAL", "100 50 40 0.1", [100, 100, 50, 40, 0.1, 0, 0, 0]),
     ("RADIAL", "100 50 40 0.1 0.2", [100, 100, 50, 40, 0.1, 0.2, 0, 0]),
     ("OPENCV", "100 101 50 40 1 2 3 4", [100, 101, 50, 40, 1, 2, 3, 4]),
+    ("FULL_OPENCV", "100 101 50 40 1 2 3 4 0 0 0 0", [100, 101, 50, 40, 1, 2, 3, 4]),
   ])
   func cameraModels(_ model: String, _ parameters: String, _ expected: [Double]) throws {
     try Sample.withFolder { folder in
@@ -87,15 +88,44 @@ import Testing
   }
 
   @Test(arguments: [
-    ("1 FISHEYE 10 10 1 2 3 4\n", "", ""), ("1 PINHOLE 10\n", "", ""),
+    ("1 LENS 10 10 1 2 3 4\n", "", ""), ("1 PINHOLE 10\n", "", ""),
     ("1 PINHOLE 10 10 1 2 x 4\n", "", ""), ("", "1 1 0 0 0 0 0 1 a.jpg\n", ""),
     ("", "1 1 0 0 0 0 0 0 1 a.jpg\n1 2\n", ""), ("", "", "1 2 3\n"),
     ("", "", "1 0 0 0 1 2 3 0.5 1\n"), ("", "", "1 0 nan 0 1 2 3 0.5 1 0\n"),
+    ("1 PINHOLE 10 10 0 5 5 5\n", "", ""), ("1 FOV 10 10 5 5\n", "", ""),
   ])
   func damagedFilesAreErrors(_ cameras: String, _ images: String, _ points: String) throws {
     try Sample.withFolder { folder in
       try write(folder, cameras: cameras, images: images, points: points)
       #expect(throws: FormatError.self) { try COLMAPText.read(folder) }
+    }
+  }
+
+  @Test(arguments: [
+    ("FULL_OPENCV", "100 101 50 40 1 2 3 4 0.1 0 0 0"), ("OPENCV_FISHEYE", "9 9 5 5 1 2 3 4"),
+    ("FOV", "100 101 50 40 0.9"),
+  ])
+  func modelsBeyondOursAreNamed(_ model: String, _ parameters: String) throws {
+    try Sample.withFolder { folder in
+      try write(folder, cameras: "7 \(model) 100 80 \(parameters)\n", images: "", points: "")
+      let path = folder.appendingPathComponent("cameras.txt").path
+      #expect(throws: UnsupportedCameraModel(path: path, model: model)) {
+        try COLMAPText.read(folder)
+      }
+    }
+  }
+
+  @Test func camerasAloneMayHaveNoEmptyLinesAndNoPoints() throws {
+    try Sample.withFolder { folder in
+      try write(
+        folder, cameras: "1 PINHOLE 10 10 5 5 5 5\n",
+        images: "1 1 0 0 0 0 0 0 1 a 1.jpg\n2 1 0 0 0 1 0 0 1 b.jpg\n\n3 1 0 0 0 2 0 0 1 c.jpg\n",
+        points: "")
+      try FileManager.default.removeItem(at: folder.appendingPathComponent("points3D.txt"))
+      let read = try COLMAPText.read(folder)
+      #expect(read.photos.map(\.name) == ["a 1.jpg", "b.jpg", "c.jpg"])
+      #expect(read.poses.map { $0?.translation.x } == [0, 1, 2])
+      #expect(read.points.isEmpty)
     }
   }
 

@@ -6,11 +6,16 @@ package struct NamedCamera: Hashable, Sendable {
   package var name: String
   package var camera: Camera
   package var cameraFromWorld: RigidTransform
+  /// Whether the camera's width and height are those of the photo, and not a guess.
+  package var isSizeKnown: Bool
 
-  package init(name: String, camera: Camera, cameraFromWorld: RigidTransform) {
+  package init(
+    name: String, camera: Camera, cameraFromWorld: RigidTransform, isSizeKnown: Bool = true
+  ) {
     self.name = name
     self.camera = camera
     self.cameraFromWorld = cameraFromWorld
+    self.isSizeKnown = isSizeKnown
   }
 }
 
@@ -29,7 +34,8 @@ extension NamedCamera {
   /// Reads a list of `{"name", "K", "R", "t"}`: calibration matrix, rotation and translation of
   /// `x_camera = R x_world + t`. Photos marked as held out are left out.
   ///
-  /// The file does not tell image sizes: they are taken to be twice the principal point.
+  /// Where an entry doesn't tell `"width"` and `"height"`, these are taken to be twice the principal
+  /// point.
   package static func cameras(json data: Data) throws -> [NamedCamera] {
     struct Entry: Decodable {
       var name: String
@@ -37,9 +43,18 @@ extension NamedCamera {
       var R: [[Double]]
       var t: [Double]
       var holdout: Bool?
+      var width: Int?
+      var height: Int?
     }
     func isMatrix(_ rows: [[Double]]) -> Bool {
       rows.count == 3 && rows.allSatisfy { $0.count == 3 && $0.allSatisfy(\.isFinite) }
+    }
+    func isRotation(_ rows: [[Double]]) -> Bool {
+      let r = rows.map { SIMD3($0[0], $0[1], $0[2]) }
+      let isOrthonormal = (0..<3).allSatisfy { i in
+        (0..<3).allSatisfy { abs(r[i].dot(r[$0]) - (i == $0 ? 1 : 0)) < 1e-3 }
+      }
+      return isOrthonormal && r[0].cross(r[1]).dot(r[2]) > 0
     }
     let entries: [Entry]
     do {
@@ -54,16 +69,25 @@ extension NamedCamera {
       else {
         throw EvaluationError.invalidReference("the matrices of \(entry.name) are not 3 × 3")
       }
+      guard isRotation(entry.R) else {
+        throw EvaluationError.invalidReference("R of \(entry.name) is no rotation")
+      }
+      guard entry.K[0][0] > 0, entry.K[1][1] > 0, abs(entry.K[0][1]) < 1e-3 * entry.K[0][0] else {
+        throw EvaluationError.invalidReference(
+          "K of \(entry.name) has skew or a focal length that is not positive")
+      }
       let (k, r) = (entry.K, entry.R.map { SIMD3($0[0], $0[1], $0[2]) })
       return NamedCamera(
         name: entry.name,
         camera: Camera(
-          width: Int((2 * k[0][2]).rounded()), height: Int((2 * k[1][2]).rounded()),
+          width: entry.width ?? Int((2 * k[0][2]).rounded()),
+          height: entry.height ?? Int((2 * k[1][2]).rounded()),
           focalLength: [k[0][0], k[1][1]], principalPoint: [k[0][2], k[1][2]],
           calibration: .refined),
         cameraFromWorld: RigidTransform(
           rotation: Quaternion(Matrix3(rows: r[0], r[1], r[2])),
-          translation: [entry.t[0], entry.t[1], entry.t[2]]))
+          translation: [entry.t[0], entry.t[1], entry.t[2]]),
+        isSizeKnown: (entry.width ?? 0) > 0 && (entry.height ?? 0) > 0)
     }
   }
 }

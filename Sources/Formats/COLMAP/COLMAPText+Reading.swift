@@ -5,7 +5,9 @@ extension COLMAPText {
   /// Reads the model in `folder`; throws `FormatError`.
   ///
   /// Photos are numbered in the order of their ids in the file; their URLs are names below `images`.
-  /// Camera models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV.
+  /// Camera models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, and FULL_OPENCV where its
+  /// further parameters are 0; others throw `UnsupportedCameraModel`. Poses may follow each other
+  /// without the empty lines of keypoints, and points3D.txt may be missing.
   package static func read(
     _ folder: URL, images: URL = URL(fileURLWithPath: "/")
   ) throws -> Reconstruction {
@@ -14,11 +16,30 @@ extension COLMAPText {
     var isPose = true
     try reading.parse(folder, "images.txt", keepsEmptyLines: true) { reading, line in
       if isPose, line.isEmpty { return }
+      isPose = isPose || Reading.isPose(line)
       if isPose { try reading.addImage(line) } else { try reading.addKeypoints(line) }
       isPose.toggle()
     }
-    try reading.parse(folder, "points3D.txt") { try $0.addPoint($1) }
+    let points = "points3D.txt"
+    if FileManager.default.fileExists(atPath: folder.appendingPathComponent(points).path) {
+      try reading.parse(folder, points) { try $0.addPoint($1) }
+    }
     return reading.reconstruction()
+  }
+}
+
+/// A camera whose lens distortion ours can't express.
+package struct UnsupportedCameraModel: LocalizedError, Equatable, Sendable {
+  package var path: String
+  package var model: String
+
+  package var errorDescription: String? {
+    "\(path) has a camera of the model \(model), whose lens distortion can't be used here."
+  }
+
+  package var recoverySuggestion: String? {
+    "Free the photos from distortion with 'colmap image_undistorter', convert the model that it "
+      + "writes with 'colmap model_converter --output_type TXT', and name its folders."
   }
 }
 
@@ -60,6 +81,8 @@ private struct Reading {
       if content.first == "#" || (content.isEmpty && !keepsEmptyLines) { continue }
       do {
         try line(&self, content)
+      } catch let error as UnsupportedCameraModel {
+        throw UnsupportedCameraModel(path: url.path, model: error.model)
       } catch let fault as Fault {
         throw FormatError.malformed(
           path: url.path, reason: "line \(number + 1): \(fault.reason)")
@@ -73,19 +96,51 @@ private struct Reading {
       let height = Int(words[3]), width > 0, height > 0
     else { throw Fault(reason: "no camera with id, model, width and height") }
     let p = try numbers(words.dropFirst(4))
-    var camera = Camera(width: width, height: height, focalLength: .zero, calibration: .refined)
-    switch (words[1], p.count) {
+    guard var camera = Self.camera(words[1], p) else {
+      guard Self.parameterCounts[String(words[1])] == p.count else {
+        throw Fault(reason: "camera model \(words[1]) with \(p.count) parameters")
+      }
+      throw UnsupportedCameraModel(path: "", model: String(words[1]))
+    }
+    guard camera.focalLength.x > 0, camera.focalLength.y > 0 else {
+      throw Fault(reason: "the focal length is not positive")
+    }
+    (camera.width, camera.height) = (width, height)
+    cameras.append((id, camera))
+  }
+
+  /// The camera of a model's parameters, without its size; nil where ours can't express it.
+  private static func camera(_ model: Substring, _ p: [Double]) -> Camera? {
+    var camera = Camera(width: 0, height: 0, focalLength: .zero, calibration: .refined)
+    switch (model, p.count) {
     case ("SIMPLE_PINHOLE", 3), ("SIMPLE_RADIAL", 4), ("RADIAL", 5):
       camera.focalLength = [p[0], p[0]]
       camera.principalPoint = [p[1], p[2]]
       camera.distortion = [p.count > 3 ? p[3] : 0, p.count > 4 ? p[4] : 0, 0, 0]
-    case ("PINHOLE", 4), ("OPENCV", 8):
+    case ("PINHOLE", 4), ("OPENCV", 8), ("FULL_OPENCV", 12):
+      guard p.dropFirst(8).allSatisfy({ $0 == 0 }) else { return nil }
       camera.focalLength = [p[0], p[1]]
       camera.principalPoint = [p[2], p[3]]
-      if p.count == 8 { camera.distortion = [p[4], p[5], p[6], p[7]] }
-    default: throw Fault(reason: "camera model \(words[1]) with \(p.count) parameters")
+      if p.count >= 8 { camera.distortion = [p[4], p[5], p[6], p[7]] }
+    default: return nil
     }
-    cameras.append((id, camera))
+    return camera
+  }
+
+  /// COLMAP's models that ours can't express, with the numbers of their parameters.
+  private static let parameterCounts = [
+    "OPENCV_FISHEYE": 8, "FULL_OPENCV": 12, "FOV": 5, "SIMPLE_RADIAL_FISHEYE": 4,
+    "RADIAL_FISHEYE": 5, "THIN_PRISM_FISHEYE": 12, "RAD_TAN_THIN_PRISM_FISHEYE": 16,
+    "SIMPLE_DIVISION": 4, "DIVISION": 5, "SIMPLE_FISHEYE": 3, "FISHEYE": 4, "EQUIRECTANGULAR": 2,
+  ]
+
+  /// Whether a line where keypoints are expected is the next photo's pose: people who write files
+  /// with cameras only leave out the empty lines.
+  static func isPose(_ line: Substring) -> Bool {
+    let words = line.split(separator: " ", maxSplits: 9)
+    guard words.count == 10 else { return false }
+    let end = words[9].suffix(from: words[9].lastIndex(of: " ") ?? words[9].startIndex)
+    return Double(end.drop { $0 == " " }) == nil && words[0..<9].allSatisfy { Double($0) != nil }
   }
 
   mutating func addImage(_ line: Substring) throws {

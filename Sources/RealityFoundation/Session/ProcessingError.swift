@@ -69,7 +69,8 @@ extension ProcessingError.Code {
   fileprivate init(_ error: PipelineError) {
     switch error {
     case .unreadableFolder, .noPhotos: self = .invalidInput
-    case .tooFewPhotos: self = .tooFewPhotos
+    case .tooFewPhotos, .tooFewCameras: self = .tooFewPhotos
+    case .camerasDontFit: self = .alignmentFailed
     case .alignmentFailed: self = .alignmentFailed
     case .noSurface: self = .noSurface
     }

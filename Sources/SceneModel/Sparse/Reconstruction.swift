@@ -35,7 +35,14 @@ package struct ScenePoint: Hashable, Codable, Sendable {
 
 /// Where the scale and the up direction of the world come from.
 package struct WorldFrame: Hashable, Codable, Sendable {
-  package enum Scale: String, Hashable, Codable, Sendable { case gps, knownDistance, arbitrary }
+  package enum Scale: String, Hashable, Codable, Sendable {
+    case gps, knownDistance, arbitrary
+    /// The cameras were given, and their unit is said to be the metre.
+    case given
+
+    /// Whether lengths are metres.
+    package var isMetric: Bool { self != .arbitrary }
+  }
   package enum Up: String, Hashable, Codable, Sendable { case gps, supportPlane, cameras, unknown }
 
   package var scale: Scale

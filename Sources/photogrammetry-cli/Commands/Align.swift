@@ -1,12 +1,8 @@
 #if canImport(Pipeline)
   import ArgumentParser
-  import Formats
   import Foundation
   import Kernels
-  import Logging
   import Pipeline
-  import SceneModel
-  import Synchronization
 
   /// Finds cameras, poses and sparse points, and nothing else.
   struct Align: ParsableCommand {
@@ -56,12 +52,18 @@
       let configuration = try configuration(photos: folder, target)
       let flag = CancellationFlag()
       let interrupts = InterruptHandler { flag.cancel() }
-      let listener = AlignmentListener(RunReporter(logging.style(json: false)))
+      let listener = PipelineListener(
+        RunReporter(logging.style(json: false)),
+        stages: [
+          // Reading and checking takes a twentieth of the time.
+          .init(.preProcessing, as: .preProcessing, share: 0.05),
+          .init(.imageAlignment, as: .imageAlignment, share: 0.95),
+        ])
       let pipeline = ReconstructionPipeline(
         folder: folder, configuration: configuration, flag: flag, onEvent: listener.take)
       let outcome = Result { try pipeline.align() }
       listener.finish()
-      try writeReport(of: pipeline)
+      try engine.runArguments.writeReport(of: pipeline)
       if case .failure(let error) = outcome {
         guard interrupts.wasInterrupted else { throw error }
         throw CommandFailure(
@@ -75,14 +77,6 @@
   extension MappingMethod: ExpressibleByArgument {}
 
   extension Align {
-    /// Writes the report into the folder for the results, and where it was asked for besides.
-    private func writeReport(of pipeline: ReconstructionPipeline) throws {
-      try pipeline.writeReport()
-      if let report = engine.report {
-        try AtomicFile.write(try pipeline.report.encoded(), to: URL(fileURLWithPath: report))
-      }
-    }
-
     /// What the pipeline is told.
     private func configuration(photos: URL, _ target: URL) throws -> PipelineConfiguration {
       var configuration = PipelineConfiguration()
@@ -94,32 +88,5 @@
       if let threads = engine.threads { configuration.threadCount = threads }
       return configuration
     }
-  }
-
-  /// Shows the progress of an alignment and logs what happens on the way; any thread may call it.
-  private final class AlignmentListener: Sendable {
-    private let reporter: Mutex<RunReporter>
-    private let logger = Logger(label: "photogrammetry-cli")
-
-    init(_ reporter: RunReporter) { self.reporter = Mutex(reporter) }
-
-    func take(_ event: PipelineEvent) {
-      switch event {
-      case .progress(let stage, let fraction):
-        // Reading and checking takes a twentieth of the time.
-        let done = stage == .preProcessing ? 0.05 * fraction : 0.05 + 0.95 * fraction
-        let shown: RunStage = stage == .preProcessing ? .preProcessing : .imageAlignment
-        reporter.withLock { reporter in
-          let elapsed = reporter.elapsed
-          let remaining = done > 0.1 ? elapsed / done * (1 - done) : nil
-          reporter.update(RunProgress(fraction: done, stage: shown, remaining: remaining))
-        }
-      case .refused(let photo): logger.warning("\(photo.reason)")
-      case .warning(let sentence): logger.warning("\(sentence)")
-      default: break
-      }
-    }
-
-    func finish() { reporter.withLock { $0.finish() } }
   }
 #endif

@@ -13,6 +13,8 @@ struct RunProgress: Equatable {
 enum RunStage: String, CaseIterable, Codable {
   case preProcessing, imageAlignment, pointCloudGeneration, meshGeneration, textureMapping
   case optimization
+  /// Finding points with cameras that are known.
+  case triangulation
 
   /// For people.
   var title: String {
@@ -23,6 +25,7 @@ enum RunStage: String, CaseIterable, Codable {
     case .meshGeneration: "generating mesh"
     case .textureMapping: "mapping texture"
     case .optimization: "writing model"
+    case .triangulation: "triangulating points"
     }
   }
 }

@@ -3,8 +3,44 @@ import Foundation
 import RealityKit
 
 #if canImport(Pipeline)
+  import Formats
   import Pipeline
   import RealityFoundation
+
+  /// How any run of our engine works and what it leaves behind.
+  struct RunArguments: ParsableArguments {
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Write what was done, stage by stage and photo by photo, as JSON.", valueName: "file.json"))
+    var report: String?
+
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Threads to work with; the result is the same for any number. (default: all processors)",
+        valueName: "count"))
+    var threads: Int?
+
+    func validate() throws {
+      if let threads, threads < 1 || threads > 1024 {
+        throw ValidationError("--threads must be from 1 to 1024.")
+      }
+    }
+
+    /// Checks what can be checked before the work begins.
+    func checkOutputs() throws {
+      if let report { try ModelOutput.checkWritable(URL(fileURLWithPath: report)) }
+    }
+
+    /// Writes the report into the checkpoint directory, and where it was asked for besides.
+    func writeReport(of pipeline: ReconstructionPipeline) throws {
+      try pipeline.writeReport()
+      if let report {
+        try AtomicFile.write(try pipeline.report.encoded(), to: URL(fileURLWithPath: report))
+      }
+    }
+  }
 
   /// What only our engine can do.
   struct EngineArguments: ParsableArguments {
@@ -26,18 +62,7 @@ import RealityKit
 
       """
 
-    @Option(
-      name: .long,
-      help: ArgumentHelp(
-        "Write what was done, stage by stage and photo by photo, as JSON.", valueName: "file.json"))
-    var report: String?
-
-    @Option(
-      name: .long,
-      help: ArgumentHelp(
-        "Threads to work with; the result is the same for any number. (default: all processors)",
-        valueName: "count"))
-    var threads: Int?
+    @OptionGroup var runArguments: RunArguments
 
     @Option(
       name: .long,
@@ -53,16 +78,10 @@ import RealityKit
         valueName: "file.json"))
     var measurements: String?
 
-    func validate() throws {
-      if let threads, threads < 1 || threads > 1024 {
-        throw ValidationError("--threads must be from 1 to 1024.")
-      }
-    }
+    var report: String? { runArguments.report }
+    var threads: Int? { runArguments.threads }
 
-    /// Checks what can be checked before the work begins.
-    func checkOutputs() throws {
-      if let report { try ModelOutput.checkWritable(URL(fileURLWithPath: report)) }
-    }
+    func checkOutputs() throws { try runArguments.checkOutputs() }
 
     /// The distances that the scale comes from; throws where a file or a photo isn't there.
     func knownDistances(photos folder: URL) throws -> [KnownDistance] {

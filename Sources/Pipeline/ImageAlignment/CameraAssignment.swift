@@ -1,0 +1,166 @@
+import Foundation
+import SceneModel
+
+/// Gives the photos of a run the cameras and poses that were found elsewhere, by file name.
+package struct CameraAssignment: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Fewer photos with a camera are an error.
+    package var minimumPhotos = 3
+    /// Names in one sentence.
+    package var namesInSentence = 5
+
+    package init() {}
+  }
+
+  package struct Result: Sendable {
+    /// The photos of the run with the poses that were given, bit for bit unless a camera had to be
+    /// turned, and the points that two of the photos or more see.
+    package var reconstruction: Reconstruction
+    /// The names of cameras without a file.
+    package var missing: [String]
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// Throws `PipelineError.tooFewCameras` where too few photos have one.
+  package func run(
+    _ known: KnownCameras, to ingested: IngestedPhotos, _ context: StageContext
+  ) throws -> Result {
+    let files = Set(ingested.files.map(\.lastPathComponent))
+    let names = PhotoNames(known.reconstruction.photos.map(\.name))
+    var assigned = Assigned(photos: ingested.photos, worldFrame: known.reconstruction.worldFrame)
+    for photo in ingested.photos {
+      if let place = names.place(of: photo.name) {
+        assigned.take(place, of: known, for: photo)
+      } else {
+        assigned.refuse(photo, because: "no camera of that name was given")
+      }
+    }
+    assigned.takePoints(of: known)
+    let missing = known.reconstruction.photos.map(\.name)
+      .filter { !files.contains($0) && !files.contains(PhotoNames.last($0)) }
+    let result = Result(reconstruction: assigned.reconstruction, missing: missing)
+    report(result, assigned, context.notes)
+    let count = result.reconstruction.registered.count
+    guard count >= options.minimumPhotos else {
+      result.reconstruction.unregistered.forEach { context.notes.warn($0.reason) }
+      throw PipelineError.tooFewCameras(
+        found: count, needed: options.minimumPhotos, photos: ingested.photos.count,
+        cameras: known.reconstruction.photos.count)
+    }
+    return result
+  }
+
+  private func report(_ result: Result, _ assigned: Assigned, _ notes: StageNotes) {
+    notes.count("registered", Double(result.reconstruction.registered.count))
+    notes.count("camerasWithoutPhoto", Double(result.missing.count))
+    if !result.missing.isEmpty {
+      notes.warn(
+        "\(result.missing.count) cameras have no photo in the folder: \(list(result.missing)).")
+    }
+    if !assigned.scaled.isEmpty {
+      notes.tell(
+        "Cameras are for another size of these photos and were scaled: \(list(assigned.scaled)).")
+    }
+    if !assigned.turned.isEmpty {
+      notes.tell(
+        "Cameras are for photos as they are stored and were turned upright: "
+          + "\(list(assigned.turned)).")
+    }
+  }
+
+  private func list(_ names: [String]) -> String {
+    let shown = names.prefix(options.namesInSentence).joined(separator: ", ")
+    let rest = names.count - options.namesInSentence
+    return rest > 0 ? "\(shown) and \(rest) more" : shown
+  }
+}
+
+/// Finds cameras by the name of a file: the whole name, or what follows the last slash where no two
+/// have it in common.
+private struct PhotoNames {
+  private var places: [String: Int] = [:]
+  private var lastPlaces: [String: Int?] = [:]
+
+  init(_ names: [String]) {
+    for (place, name) in names.enumerated() {
+      if places[name] == nil { places[name] = place }
+      let last = Self.last(name)
+      lastPlaces.updateValue(lastPlaces[last] == nil ? place : nil, forKey: last)
+    }
+  }
+
+  static func last(_ name: String) -> String {
+    String(name[(name.lastIndex(of: "/").map(name.index(after:)) ?? name.startIndex)...])
+  }
+
+  func place(of name: String) -> Int? { places[name] ?? lastPlaces[name] ?? nil }
+}
+
+/// The photos that have a camera so far.
+private struct Assigned {
+  private(set) var reconstruction: Reconstruction
+  private(set) var scaled: [String] = []
+  private(set) var turned: [String] = []
+  private var cameras: [Camera: ID<Camera>] = [:]
+  /// The photo of each place among the known ones, and how its camera went over.
+  private var fits: [Int: (photo: ID<Photo>, fit: CameraFit)] = [:]
+
+  init(photos: [Photo], worldFrame: WorldFrame) {
+    reconstruction = Reconstruction(
+      cameras: [], photos: photos, poses: photos.map { _ in nil }, points: [],
+      worldFrame: worldFrame)
+  }
+
+  mutating func take(_ place: Int, of known: KnownCameras, for photo: Photo) {
+    let own = known.reconstruction.photos[place]
+    let camera = known.reconstruction.camera(of: own.id)
+    guard let pose = known.reconstruction.poses[place] else {
+      return refuse(photo, because: "its camera has no pose")
+    }
+    let isSizeKnown = !known.sizeless.contains(own.id)
+    guard let fit = CameraFit(camera, to: photo, isSizeKnown: isSizeKnown) else {
+      let center = camera.principalPoint
+      let size =
+        isSizeKnown
+        ? "is for \(camera.width) × \(camera.height) pixels"
+        : "has its principal point at (\(Int(center.x)), \(Int(center.y)))"
+      return refuse(
+        photo,
+        because: "its camera \(size), but the photo has \(photo.width) × \(photo.height) pixels, "
+          + "upright")
+    }
+    if fit.isScaled { scaled.append(photo.name) }
+    if fit.quarterTurns > 0 { turned.append(photo.name) }
+    let id = cameras[fit.camera] ?? ID(reconstruction.cameras.count)
+    if cameras[fit.camera] == nil {
+      cameras[fit.camera] = id
+      reconstruction.cameras.append(fit.camera)
+    }
+    reconstruction.photos[photo.id.index].camera = id
+    reconstruction.poses[photo.id.index] = fit.pose(pose)
+    fits[place] = (photo.id, fit)
+  }
+
+  mutating func refuse(_ photo: Photo, because end: String) {
+    reconstruction.unregistered.append(
+      RefusedPhoto(sampleID: photo.sampleID, name: photo.name, fault: .notRegistered, end: end))
+    // A photo without a pose needs some camera, which nothing looks at.
+    reconstruction.photos[photo.id.index].camera = ID(0)
+  }
+
+  /// Takes over the points that two photos or more see.
+  mutating func takePoints(of known: KnownCameras) {
+    reconstruction.points = known.reconstruction.points.compactMap { point in
+      var point = point
+      point.track = point.track.compactMap { observation in
+        guard let (photo, fit) = fits[observation.photo.index] else { return nil }
+        return Observation(
+          photo: photo, feature: observation.feature, pixel: fit.pixel(observation.pixel))
+      }.sorted { $0.photo < $1.photo }
+      return point.track.count >= 2 ? point : nil
+    }
+  }
+}

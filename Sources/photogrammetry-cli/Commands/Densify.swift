@@ -1,0 +1,140 @@
+#if canImport(Pipeline)
+  import ArgumentParser
+  import Foundation
+  import Kernels
+  import Pipeline
+
+  /// Makes a dense cloud from photos whose cameras are known.
+  struct Densify: ParsableCommand {
+    static let configuration = CommandConfiguration(
+      commandName: "densify",
+      abstract: "Make a dense cloud of points from photos whose cameras are known.",
+      discussion: """
+        Writes dense/points.ply, coloured points with normals in the frame of the cameras, unmoved, \
+        and report.json into the folder <output>. Needs no GPU.
+
+        EXAMPLES
+          colmap mapper --database_path db --image_path photos --output_path sparse
+          colmap model_converter --input_path sparse/0 --output_path sparse/0 \\
+              --output_type TXT
+          photogrammetry-cli densify photos/ sparse/0/ work/
+              COLMAP's cameras; the photos needn't be undistorted.
+          photogrammetry-cli align photos/ work/
+          photogrammetry-cli densify photos/ work/ work/ -d full
+              Our own cameras.
+          photogrammetry-cli densify photos/ rig/ work/ --metric
+              Cameras of a survey or a rig, in metres.
+
+        CAMERAS
+          The folder holds, in itself or in sparse/ or sparse/0/, either
+          cameras.txt, images.txt and points3D.txt
+              The text format of COLMAP, with cameras of the models
+              SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL and OPENCV. For
+              others, free the photos from distortion with 'colmap
+              image_undistorter'. points3D.txt may be missing or empty: then
+              points are triangulated, and no pose changes.
+          or cameras.json (in itself)
+              [{"name": "IMG_1.jpg", "K": [[f, 0, cx], [0, f, cy], [0, 0, 1]],
+                "R": [[…], […], […]], "t": […], "width": 4000, "height": 3000}]
+              where x_camera = R x_world + t, with x right, y down, z forward;
+              width and height may be left out.
+          Cameras are given to photos by file name. One that is for another
+          size of the same shape is scaled. Pixels count from the corner of the
+          top left one, in the photo turned upright by its EXIF orientation, as
+          'align' writes them. Where the size tells that a camera is for the
+          photo as it is stored, as COLMAP's are, it is turned; a photo that is
+          stored upside down doesn't tell and must be turned first.
+
+        DETAIL LEVELS (at most so many pixels of a photo are used)
+          preview 0.25, reduced 0.5, medium 1, full 2, raw 4 megapixels
+
+        Exit codes: 0 the cloud was written, 1 the photos give none with these cameras, 2 the \
+        command line can't be carried out, 130 interrupted.
+        """)
+
+    @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
+    var inputFolder: String
+
+    @Argument(
+      help: ArgumentHelp("The folder with the cameras; see above.", valueName: "cameras-folder"))
+    var camerasFolder: String
+
+    @Argument(help: ArgumentHelp("The folder for the results.", valueName: "output"))
+    var output: String
+
+    @Option(name: .shortAndLong, help: "How dense the cloud is; see the table above.")
+    var detail = DetailArgument.medium
+
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Pixels of a view at most, in the place of the level's.", visibility: .hidden))
+    var viewPixels: Int?
+
+    @Flag(
+      name: .long,
+      help: "The cameras' unit is the metre; the report then has points per cubic metre.")
+    var metric = false
+
+    @OptionGroup var arguments: RunArguments
+
+    @OptionGroup var logging: LoggingOptions
+
+    func validate() throws {
+      if let viewPixels, viewPixels < 10_000 {
+        throw ValidationError("--view-pixels must be 10000 or more.")
+      }
+    }
+
+    mutating func run() throws {
+      logging.bootstrap()
+      let folder = try PhotoFolderArgument(inputFolder).url
+      let cameras = try KnownCamerasArgument(camerasFolder, isMetric: metric).cameras
+      let target = URL(fileURLWithPath: output, isDirectory: true)
+      try ModelOutput.checkWritable(target)
+      try arguments.checkOutputs()
+      var configuration = PipelineConfiguration()
+      configuration.checkpointDirectory = target
+      if let threads = arguments.threads { configuration.threadCount = threads }
+      let flag = CancellationFlag()
+      let interrupts = InterruptHandler { flag.cancel() }
+      let listener = PipelineListener(
+        RunReporter(logging.style(json: false)), stages: Self.stages(cameras), tellsDetails: true)
+      let pipeline = ReconstructionPipeline(
+        folder: folder, configuration: configuration, knownCameras: cameras, flag: flag,
+        onEvent: listener.take)
+      let outcome = Result { try pipeline.densify(for: try specification()) }
+      listener.finish()
+      try arguments.writeReport(of: pipeline)
+      if case .failure(let error) = outcome {
+        guard interrupts.wasInterrupted else { throw error }
+        throw CommandFailure(
+          sentence: "Interrupted; no points were written.",
+          exitCode: CommandFailure.interruptedCode)
+      }
+      Terminal.shared.result(target.appendingPathComponent("dense/points.ply").relativePath)
+    }
+  }
+
+  extension Densify {
+    private func specification() throws -> DetailSpecification {
+      guard let level = DetailLevel(rawValue: detail.rawValue) else {
+        throw CommandFailure.usage("There is no detail level '\(detail.rawValue)'.")
+      }
+      var specification = DetailSpecification(level)
+      if let viewPixels { specification.viewPixels = viewPixels }
+      return specification
+    }
+
+    /// The stages with their usual shares of the time.
+    private static func stages(_ cameras: KnownCameras) -> [PipelineListener.Stage] {
+      // Points that came with the cameras need not be found.
+      let search = cameras.reconstruction.points.isEmpty ? 0.3 : 0.01
+      return [
+        .init(.preProcessing, as: .preProcessing, share: 0.04),
+        .init(.imageAlignment, as: .triangulation, share: search),
+        .init(.pointCloudGeneration, as: .pointCloudGeneration, share: 0.96 - search),
+      ]
+    }
+  }
+#endif

@@ -1,0 +1,54 @@
+import Kernels
+import Pipeline
+import SceneModel
+import Testing
+
+@Suite struct CloudMetricsTests {
+  /// A block of 20 × 10 × 5 points, 0.1 apart, and one stray.
+  private let cloud: PointCloud = {
+    var cloud = PointCloud()
+    for index in 0..<1000 {
+      let (x, y, z) = (index % 20, index / 20 % 10, index / 200)
+      cloud.positions.append(SIMD3(Float(x), Float(y), Float(z)) * 0.1)
+    }
+    cloud.positions.append([500, 500, 500])
+    cloud.footprints = cloud.positions.map { _ in 0.1 }
+    return cloud
+  }()
+
+  private func reconstruction(
+    _ positions: [SIMD3<Double>], _ scale: WorldFrame.Scale
+  ) -> Reconstruction {
+    Reconstruction(
+      cameras: [], photos: [], poses: [], points: positions.map { ScenePoint(position: $0) },
+      worldFrame: WorldFrame(scale: scale))
+  }
+
+  @Test func figuresOfABlock() throws {
+    // On a point, within three footprints of one, and beyond.
+    let sparse: [SIMD3<Double>] = [[0.5, 0.5, 0.2], [0.5, -0.29, 0.2], [0.5, -0.31, 0.2]]
+    let notes = StageNotes()
+    let values = try CloudMetrics().run(
+      cloud, reconstruction(sparse, .gps), StageContext(notes: notes))
+    #expect(values.points == 1001 && values.sparsePoints == 3)
+    #expect(values.sparseCoverage == 2.0 / 3)
+    #expect(values.pointsPerSparsePoint == 1001.0 / 3)
+    let density = try #require(values.pointsPerCubicMeter)
+    #expect(abs(density - 1000 / (1.9 * 0.9 * 0.4)) < 0.1)
+    #expect(notes.counts["sparseCoverage"] == values.sparseCoverage)
+    #expect(notes.counts["pointsPerCubicMeter"] == density)
+    #expect(notes.details.count == 1)
+  }
+
+  @Test func densityNeedsAUnitAndAVolume() throws {
+    let arbitrary = try CloudMetrics().run(
+      cloud, reconstruction([[0, 0, 0]], .arbitrary), StageContext())
+    #expect(arbitrary.pointsPerCubicMeter == nil)
+    var flat = cloud
+    for index in flat.positions.indices { flat.positions[index].z = 2 }
+    let values = try CloudMetrics().run(flat, reconstruction([], .given), StageContext())
+    #expect(values.pointsPerCubicMeter == nil)
+    #expect(values.sparseCoverage == 0)
+    _ = try CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageContext())
+  }
+}
