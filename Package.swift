@@ -104,7 +104,9 @@ var cliDependencies: [Target.Dependency] = [
       swiftSettings: strict),
     .testTarget(
       name: "CommandLineTests",
-      dependencies: ["photogrammetry-cli", "Pipeline", "Kernels", "SceneModel", "TestSupport"],
+      dependencies: [
+        "photogrammetry-cli", "Evaluation", "Pipeline", "Kernels", "SceneModel", "TestSupport",
+      ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]
   cliDependencies += ["RealityKit", "Pipeline"]

@@ -9,6 +9,8 @@ package struct EvaluationReport: Codable, Hashable, Sendable {
   package var triangles: Int?
   package var mesh: SurfaceScores?
   package var cloud: SurfaceScores?
+  /// Of the cloud's means in voxels.
+  package var averagedCloud: SurfaceScores?
 
   package init() {}
 }

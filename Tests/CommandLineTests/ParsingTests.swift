@@ -1,3 +1,4 @@
+import Evaluation
 import Foundation
 import TestSupport
 import Testing
@@ -98,9 +99,17 @@ import Testing
     #expect(try PhotogrammetryCLI.parseAsRoot(["inspect", "photos"]) is Inspect)
     let evaluate = try #require(
       try PhotogrammetryCLI.parseAsRoot([
-        "evaluate", "ck", "--reference", "gt", "--threshold", "0.1", "0.2",
+        "evaluate", "ck", "--reference", "gt", "--threshold", "0.1", "0.2", "--floor", "z=-0.5",
       ]) as? Evaluate)
     #expect(evaluate.threshold == [0.1, 0.2])
+    #expect(evaluate.floor == Floor(axis: 2, height: -0.5))
+    for option in [
+      ["--floor", "0.1"], ["--floor", "w=1"], ["--floor", "z=nan"], ["--voxel", "inf"],
+    ] {
+      #expect(throws: (any Error).self) {
+        try Evaluate.parse(["ck", "--reference", "gt"] + option)
+      }
+    }
     #expect(throws: (any Error).self) {
       try Evaluate.parse(["ck", "--reference", "gt", "--threshold", "-1"])
     }

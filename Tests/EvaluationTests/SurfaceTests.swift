@@ -33,6 +33,15 @@ import Testing
     return options
   }
 
+  static func compare(
+    _ result: Mesh, _ alignment: SimilarityTransform = .identity, with reference: Mesh,
+    cameras: [NamedCamera] = [], options: SurfaceComparison.Options = options
+  ) throws -> SurfaceScores {
+    let comparison = SurfaceComparison(options)
+    return try comparison.run(
+      result, alignment, reference: comparison.reference(reference, cameras: cameras))
+  }
+
   @Test func treeAgreesWithTryingAll() {
     var random = SplitMix64(seed: 3)
     func point(_ range: ClosedRange<Float>) -> SIMD3<Float> {
@@ -89,8 +98,7 @@ import Testing
   }
 
   @Test func parallelSquares() throws {
-    let scores = try SurfaceComparison(Self.options).run(
-      Self.square(side: 1, z: 0.2), .identity, reference: Self.square(side: 1))
+    let scores = try Self.compare(Self.square(side: 1, z: 0.2), with: Self.square(side: 1))
     #expect(abs(scores.chamfer - 0.2) < 1e-5)
     #expect(scores.thresholds.map(\.fScore) == [0, 1])
   }
@@ -99,8 +107,7 @@ import Testing
     let alignment = SimilarityTransform(scale: 0.5, rotation: .identity, translation: .zero)
     var half = Self.square(side: 2)
     half.positions = half.positions.map { [$0.x, $0.y / 2, $0.z] }
-    let scores = try SurfaceComparison(Self.options).run(
-      half, alignment, reference: Self.square(side: 1))
+    let scores = try Self.compare(half, alignment, with: Self.square(side: 1))
     #expect(scores.thresholds[0].precision == 1)
     #expect(abs(scores.thresholds[0].recall - 0.6) < 0.01)
     #expect(abs(scores.completeness - 0.125) < 0.01)
@@ -110,8 +117,7 @@ import Testing
     var options = Self.options
     options.margin = 0.01
     let table = Self.square(side: 10, cells: 100)
-    let scores = try SurfaceComparison(options).run(
-      table, .identity, reference: Self.square(side: 1))
+    let scores = try Self.compare(table, with: Self.square(side: 1), options: options)
     #expect(scores.thresholds[0].precision == 1)
     #expect(scores.resultSamples < 100)
   }
@@ -131,12 +137,11 @@ import Testing
       cameraFromWorld: down)
     var options = Self.options
     options.minimumViews = 1
-    let seen = try SurfaceComparison(options).run(
-      Self.square(side: 1), .identity, reference: reference, cameras: [camera])
+    let seen = try Self.compare(
+      Self.square(side: 1), with: reference, cameras: [camera], options: options)
     #expect(seen.thresholds[0].recall == 1)
     #expect(abs(seen.referenceSamples - 2000) < 20)
-    let all = try SurfaceComparison(options).run(
-      Self.square(side: 1), .identity, reference: reference)
+    let all = try Self.compare(Self.square(side: 1), with: reference, options: options)
     #expect(abs(all.thresholds[0].recall - 0.5) < 0.01)
   }
 
@@ -145,28 +150,79 @@ import Testing
     options.resultSamples = 20_000
     let result = Self.square(side: 1, z: 0.05)
     let reference = Self.square(side: 1)
-    let one = try SurfaceComparison(options).run(result, .identity, reference: reference)
+    let one = try Self.compare(result, with: reference, options: options)
     options.threadCount = 3
-    #expect(try SurfaceComparison(options).run(result, .identity, reference: reference) == one)
+    #expect(try Self.compare(result, with: reference, options: options) == one)
   }
 
   @Test func cloudsAreTakenAsTheyAre() throws {
     let cloud = PointCloud(positions: [[0.5, 0.5, 0.05], [0.25, 0.25, 0.2]])
-    let scores = try SurfaceComparison(Self.options).run(
-      cloud, .identity, reference: Self.square(side: 1))
+    let comparison = SurfaceComparison(Self.options)
+    let scores = try comparison.run(
+      cloud, .identity, reference: comparison.reference(Self.square(side: 1)))
     #expect(scores.resultSamples == 2)
     #expect(scores.thresholds[0].precision == 0.5)
     #expect(scores.thresholds[0].recall < 0.1)
   }
 
+  /// A thousand points on the square and one above it: as they are, one in a thousand is wrong.
+  @Test func averagingCountsPlacesInsteadOfPoints() throws {
+    let square = Self.square(side: 1)
+    var cloud = PointCloud(positions: SurfaceSampling().run(square, count: 1000))
+    cloud.positions = cloud.positions.map { [$0.x / 10, $0.y / 10, 0] } + [[0.5, 0.5, 0.4]]
+    let comparison = SurfaceComparison(Self.options)
+    let reference = try comparison.reference(square)
+    let raw = try comparison.run(cloud, .identity, reference: reference)
+    #expect(abs(raw.thresholds[0].precision - 0.999) < 1e-4)
+    let averaged = try comparison.run(cloud, .identity, reference: reference, voxel: 0.3)
+    #expect(averaged.resultSamples == 2)
+    #expect(averaged.thresholds[0].precision == 0.5)
+  }
+
+  @Test func averagesAreMeans() {
+    let points: [SIMD3<Float>] = [[0, 0, 0], [5, 5, 5], [0.5, 0.25, 0.75], [5.5, 5, 5]]
+    let means = VoxelAveraging(side: 1).run(points)
+    #expect(means == [[0.25, 0.125, 0.375], [5.25, 5, 5]])
+    #expect(VoxelAveraging(side: 1).run([]).isEmpty)
+    #expect(VoxelAveraging(side: 1e-30).run([[0, 0, 0], [1, 1, 1]]).count == 2)
+  }
+
+  /// A wall of height 1 on the plane z = 0, of which the lower half is left out on both sides.
+  @Test func whatIsBelowTheFloorDoesNotCount() throws {
+    func wall(_ heights: ClosedRange<Float>, y: Float) -> Mesh {
+      var mesh = Self.square(side: 1)
+      let (low, span) = (heights.lowerBound, heights.upperBound - heights.lowerBound)
+      mesh.positions = mesh.positions.map { [$0.x, y, low + span * $0.y] }
+      return mesh
+    }
+    var options = Self.options
+    var result = wall(0.5...1, y: 0)
+    let wrong = wall(0...0.499, y: 0.4)
+    let first = UInt32(result.positions.count)
+    result.positions += wrong.positions
+    result.triangles += wrong.triangles.map {
+      Triangle($0.a + first, $0.b + first, $0.c + first)
+    }
+    let all = try Self.compare(result, with: wall(0...1, y: 0), options: options)
+    #expect(all.thresholds[0].precision < 0.6)
+    #expect(all.thresholds[0].recall < 0.7)
+    options.floor = Floor(axis: 2, height: 0.5)
+    let above = try Self.compare(result, with: wall(0...1, y: 0), options: options)
+    #expect(above.thresholds[0].precision == 1)
+    #expect(above.thresholds[0].recall == 1)
+  }
+
   @Test func nothingToCompareIsAnError() {
     #expect(throws: EvaluationError.emptySurface) {
-      try SurfaceComparison(Self.options).run(
-        Mesh(), .identity, reference: Self.square(side: 1))
+      try Self.compare(Mesh(), with: Self.square(side: 1))
     }
     #expect(throws: EvaluationError.emptySurface) {
-      try SurfaceComparison(Self.options).run(
-        Self.square(side: 1), .identity, reference: Mesh())
+      try Self.compare(Self.square(side: 1), with: Mesh())
+    }
+    #expect(throws: EvaluationError.emptySurface) {
+      let comparison = SurfaceComparison(Self.options)
+      return try comparison.run(
+        PointCloud(), .identity, reference: comparison.reference(Self.square(side: 1)))
     }
   }
 }

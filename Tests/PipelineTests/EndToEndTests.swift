@@ -30,8 +30,10 @@ import Testing
     #expect(errors.centerRMSE < 0.001)
 
     let reference = try PLY.readMesh(truth.appendingPathComponent("mesh.ply"))
-    let scores = try SurfaceComparison().run(
-      try pipeline.surface(for: preview), alignment, reference: reference, cameras: cameras)
+    let comparison = SurfaceComparison()
+    let scores = try comparison.run(
+      try pipeline.surface(for: preview), alignment,
+      reference: comparison.reference(reference, cameras: cameras))
     let atTwoMillimeters = try #require(scores.thresholds.first { $0.threshold == 0.002 })
     #expect(atTwoMillimeters.fScore > 0.8)
 

@@ -41,6 +41,9 @@ package struct SurfaceComparison: Sendable {
     /// Parts of the result farther than this outside the reference's box are ignored, in units of
     /// the reference: the table that an object stands on is no fault.
     package var margin = 0.01
+    /// Parts of the result and of the reference below this are ignored: what a surface that stands
+    /// on something looks like where it touches can't be seen.
+    package var floor: Floor?
     /// Parts of the reference that fewer cameras see are ignored.
     package var minimumViews = 3
     /// Threads; results do not depend on it.
@@ -53,25 +56,39 @@ package struct SurfaceComparison: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Scores `result` after `alignment` against `reference`. Cameras of the reference, when given,
-  /// limit it to what they see.
+  /// What to compare results with. Cameras of the reference, when given, limit it to what they see.
+  package func reference(
+    _ mesh: Mesh, cameras: [NamedCamera] = []
+  ) throws -> SurfaceReference {
+    try SurfaceReference(mesh, cameras, options)
+  }
+
+  /// Scores `result` after `alignment` against `reference`.
   package func run(
-    _ result: Mesh, _ alignment: SimilarityTransform, reference: Mesh, cameras: [NamedCamera] = []
+    _ result: Mesh, _ alignment: SimilarityTransform, reference: SurfaceReference
   ) throws -> SurfaceScores {
     var aligned = result
     aligned.positions = transformed(result.positions, alignment)
     let tree = BoundingTree(aligned.triangles.map { FlatTriangle($0, of: aligned) })
     let samples = SurfaceSampling().run(aligned, count: options.resultSamples)
-    return try scores(samples, tree, reference, cameras)
+    guard !samples.isEmpty else { throw EvaluationError.emptySurface }
+    return try scores(samples, tree, reference)
   }
 
-  /// Scores the points of a cloud as they are.
+  /// Scores the points of a cloud as they are, or their means in voxels with this side. A cloud
+  /// that repeats what is easy to see looks better than it is until it is averaged.
   package func run(
-    _ result: PointCloud, _ alignment: SimilarityTransform, reference: Mesh,
-    cameras: [NamedCamera] = []
+    _ result: PointCloud, _ alignment: SimilarityTransform, reference: SurfaceReference,
+    voxel: Double? = nil
   ) throws -> SurfaceScores {
-    let points = transformed(result.positions, alignment)
-    return try scores(points, BoundingTree(points), reference, cameras)
+    guard result.count > 0 else { throw EvaluationError.emptySurface }
+    // What is farther away changes no distance.
+    let reach = SIMD3<Float>(repeating: Float(max(options.margin, options.maximumDistance)))
+    var points = transformed(result.positions, alignment).filter {
+      reference.bounds.contains($0, margin: reach)
+    }
+    if let voxel { points = VoxelAveraging(side: voxel).run(points) }
+    return try scores(points, BoundingTree(points), reference)
   }
 
   private func transformed(
@@ -81,28 +98,14 @@ package struct SurfaceComparison: Sendable {
   }
 
   private func scores<Item>(
-    _ samples: [SIMD3<Float>], _ resultTree: BoundingTree<Item>, _ reference: Mesh,
-    _ cameras: [NamedCamera]
+    _ samples: [SIMD3<Float>], _ resultTree: BoundingTree<Item>, _ reference: SurfaceReference
   ) throws -> SurfaceScores {
-    guard !samples.isEmpty, let bounds = reference.bounds, !reference.triangles.isEmpty else {
-      throw EvaluationError.emptySurface
-    }
     let margin = SIMD3<Float>(repeating: Float(options.margin))
-    let (low, high) = (bounds.min - margin, bounds.max + margin)
     let inside = samples.filter {
-      pointwiseMin(pointwiseMax($0, low), high) == $0
+      reference.bounds.contains($0, margin: margin) && options.floor?.isBelow($0) != true
     }
-    let referenceTree = BoundingTree(reference.triangles.map { FlatTriangle($0, of: reference) })
-    var truth = SurfaceSampling().run(reference, count: options.referenceSamples)
-    if !cameras.isEmpty {
-      truth = Visibility(
-        cameras: cameras, tree: referenceTree, minimumViews: options.minimumViews,
-        threadCount: options.threadCount
-      ).visible(truth)
-    }
-    guard !truth.isEmpty else { throw EvaluationError.emptySurface }
-    let toReference = distances(inside, referenceTree)
-    let toResult = distances(truth, resultTree)
+    let toReference = distances(inside, reference.tree)
+    let toResult = distances(reference.samples, resultTree)
     func mean(_ values: [Float]) -> Double {
       values.isEmpty
         ? options.maximumDistance
@@ -110,7 +113,7 @@ package struct SurfaceComparison: Sendable {
     }
     let (accuracy, completeness) = (mean(toReference), mean(toResult))
     return SurfaceScores(
-      resultSamples: inside.count, referenceSamples: truth.count,
+      resultSamples: inside.count, referenceSamples: reference.samples.count,
       thresholds: options.thresholds.map { Self.scores(toReference, toResult, $0) },
       accuracy: accuracy, completeness: completeness, chamfer: (accuracy + completeness) / 2,
       maximumDistance: options.maximumDistance)

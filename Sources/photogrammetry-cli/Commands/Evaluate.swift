@@ -16,8 +16,11 @@ struct Evaluate: ParsableCommand {
       itself or in gt/, or a folder with COLMAP's text files. Photos are matched by name. A result \
       with poses is moved to the reference's frame first; a PLY file is taken as it is.
 
+      With cameras, only what three of them see is asked for. A cloud is scored as it is and \
+      after averaging, since one that repeats what is easy to see looks better than it is.
+
       EXAMPLE
-        photogrammetry-cli evaluate work/ --reference boot/
+        photogrammetry-cli evaluate work/ --reference boot/ --floor z=0.004
 
       Lengths are in units of the reference.
       """)
@@ -38,6 +41,17 @@ struct Evaluate: ParsableCommand {
   @Option(name: .long, help: ArgumentHelp("Samples on the result's surface.", valueName: "count"))
   var samples = 1_000_000
 
+  @Option(
+    name: .long,
+    help: ArgumentHelp("Side of the voxels of averaging; 0 for none.", valueName: "length"))
+  var voxel = 0.0005
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "Leave out what is below: a table, and what touches it.", valueName: "axis=height"))
+  var floor: Floor?
+
   @Flag(name: .long, help: "Print one JSON object instead of a table.")
   var json = false
 
@@ -50,6 +64,9 @@ struct Evaluate: ParsableCommand {
     if !(1...100_000_000).contains(samples) {
       throw ValidationError("--samples must be from 1 to 100000000.")
     }
+    if !(voxel >= 0) || !voxel.isFinite {
+      throw ValidationError("--voxel is a length, or 0 for none.")
+    }
   }
 
   mutating func run() throws {
@@ -59,6 +76,7 @@ struct Evaluate: ParsableCommand {
     var options = SurfaceComparison.Options()
     if !threshold.isEmpty { options.thresholds = threshold.sorted() }
     options.resultSamples = samples
+    options.floor = floor
     options.threadCount = ProcessInfo.processInfo.activeProcessorCount
     let report = try compare(result, reference, SurfaceComparison(options))
     let text = try json ? Self.encoded(report) : report.table
@@ -78,15 +96,18 @@ struct Evaluate: ParsableCommand {
         (report.poses, report.alignment, alignment) = (errors, found, found)
       }
     }
-    if let truth = reference.mesh {
+    if let mesh = reference.mesh, result.mesh != nil || result.cloud != nil {
+      let truth = try comparison.reference(mesh, cameras: reference.cameras)
       if let mesh = result.mesh {
         report.triangles = mesh.triangles.count
-        report.mesh = try comparison.run(
-          mesh, alignment, reference: truth, cameras: reference.cameras)
+        report.mesh = try comparison.run(mesh, alignment, reference: truth)
       }
       if let cloud = result.cloud {
-        report.cloud = try comparison.run(
-          cloud, alignment, reference: truth, cameras: reference.cameras)
+        report.cloud = try comparison.run(cloud, alignment, reference: truth)
+        if voxel > 0 {
+          report.averagedCloud = try comparison.run(
+            cloud, alignment, reference: truth, voxel: voxel)
+        }
       }
     }
     guard report.poses != nil || report.mesh != nil || report.cloud != nil else {
@@ -101,5 +122,16 @@ struct Evaluate: ParsableCommand {
     let encoder = JSONEncoder()
     encoder.outputFormatting = [.prettyPrinted, .sortedKeys]
     return String(decoding: try encoder.encode(report), as: UTF8.self)
+  }
+}
+
+extension Floor: ExpressibleByArgument {
+  /// `z=0.004`
+  public init?(argument: String) {
+    let parts = argument.split(separator: "=", maxSplits: 1, omittingEmptySubsequences: false)
+    guard parts.count == 2, let axis = ["x", "y", "z"].firstIndex(of: parts[0].lowercased()),
+      let height = Double(parts[1]), height.isFinite
+    else { return nil }
+    self.init(axis: axis, height: height)
   }
 }

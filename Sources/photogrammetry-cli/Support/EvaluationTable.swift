@@ -28,7 +28,8 @@ extension EvaluationReport {
     }
     if let triangles { rows.append(("triangles", "\(triangles)")) }
     if let mesh { rows += Self.rows("mesh", mesh) }
-    if let cloud { rows += Self.rows("cloud", cloud) }
+    if let cloud { rows += Self.cloudRows("cloud", cloud) }
+    if let averagedCloud { rows += Self.cloudRows("averaged", averagedCloud) }
     let width = rows.map(\.0.count).max() ?? 0
     return rows.map { name, value in
       name.padding(toLength: width + 2, withPad: " ", startingAt: 0) + value
@@ -44,6 +45,10 @@ extension EvaluationReport {
         ("\(name) F-score \(place)", decimals(at.fScore, 4)),
       ]
     } + [("\(name) chamfer", length(scores.chamfer))]
+  }
+
+  private static func cloudRows(_ name: String, _ scores: SurfaceScores) -> [(String, String)] {
+    [("\(name) points", "\(scores.resultSamples)")] + rows(name, scores)
   }
 
   private static func length(_ value: Double) -> String { decimals(value, 6) }

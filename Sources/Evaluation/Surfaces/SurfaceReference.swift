@@ -1,0 +1,51 @@
+import SceneModel
+
+/// A height below which nothing is compared.
+package struct Floor: Codable, Hashable, Sendable {
+  /// 0, 1 or 2: the axis that points up.
+  package var axis: Int
+  /// In units of the reference.
+  package var height: Double
+
+  package init(axis: Int, height: Double) {
+    self.axis = axis
+    self.height = height
+  }
+
+  func isBelow(_ point: SIMD3<Float>) -> Bool { Double(point[axis]) <= height }
+}
+
+/// A true surface, made ready to compare results with.
+package struct SurfaceReference: Sendable {
+  let bounds: Bounds
+  let tree: BoundingTree<FlatTriangle>
+  /// Points of the surface that can be asked for: enough cameras see them, above the floor.
+  let samples: [SIMD3<Float>]
+
+  init(_ mesh: Mesh, _ cameras: [NamedCamera], _ options: SurfaceComparison.Options) throws {
+    guard let bounds = mesh.bounds, !mesh.triangles.isEmpty else {
+      throw EvaluationError.emptySurface
+    }
+    self.bounds = Bounds(min: bounds.min, max: bounds.max)
+    tree = BoundingTree(mesh.triangles.map { FlatTriangle($0, of: mesh) })
+    var points = SurfaceSampling().run(mesh, count: options.referenceSamples)
+    if let floor = options.floor { points.removeAll { floor.isBelow($0) } }
+    if !cameras.isEmpty {
+      points = Visibility(
+        cameras: cameras, tree: tree, minimumViews: options.minimumViews,
+        threadCount: options.threadCount
+      ).visible(points)
+    }
+    guard !points.isEmpty else { throw EvaluationError.emptySurface }
+    samples = points
+  }
+
+  struct Bounds: Sendable {
+    let min: SIMD3<Float>
+    let max: SIMD3<Float>
+
+    func contains(_ point: SIMD3<Float>, margin: SIMD3<Float>) -> Bool {
+      pointwiseMin(pointwiseMax(point, min - margin), max + margin) == point
+    }
+  }
+}
