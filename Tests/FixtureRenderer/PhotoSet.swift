@@ -7,20 +7,36 @@ import TestSupport
 /// Photos of a rendered scene with its cameras and surface as files.
 struct PhotoSet {
   var scene: RenderedScene
-  var exif: ExifFields?
+  /// Writes the camera and its focal length into the photos.
+  var hasMetadata = true
   var quality: Float
+  /// Writes cameras and surface in a frame with z up instead of y.
+  var isZUp = false
 
   /// Writes `images/*.jpg`, `gt/cameras.json` and `gt/mesh.ply`.
   func write(to folder: URL, _ control: KernelControl) throws {
-    for (index, image) in try scene.photos(control).enumerated() {
-      var bytes = try ImageCodec.encodeJPEG(image, quality: quality)
-      if let exif { bytes = ExifWriter.jpeg(bytes, with: exif) }
+    for index in scene.poses.indices {
+      var bytes = try ImageCodec.encodeJPEG(scene.photo(index, control), quality: quality)
+      if hasMetadata { bytes = ExifWriter.jpeg(bytes, with: exif) }
       try writeFile(bytes, folder.appendingPathComponent("images/\(RenderedScene.name(index))"))
     }
     try writeFile(Array(camerasJSON.utf8), folder.appendingPathComponent("gt/cameras.json"))
     var mesh = scene.object
     mesh.normals = []
+    if isZUp { mesh.positions = mesh.positions.map { SIMD3($0.x, -$0.z, $0.y) } }
     try writeFile(PLY.encode(mesh), folder.appendingPathComponent("gt/mesh.ply"))
+  }
+
+  /// As of a full-frame sensor, 36 mm wide.
+  private var exif: ExifFields {
+    let camera = scene.camera
+    let tenths = UInt32((camera.focalLength.x / Double(camera.width) * 360).rounded())
+    var exif = ExifFields()
+    exif.make = "Rendered"
+    exif.model = "Pinhole"
+    exif.focalLength = (tenths, 10)
+    exif.focalLengthIn35mmFilm = Int((Double(tenths) / 10).rounded())
+    return exif
   }
 
   /// A list of name, K, R and t: `x_camera = R x_world + t`, x right, y down, z forward, pixel
@@ -33,7 +49,7 @@ struct PhotoSet {
     ]
     let entries = scene.poses.enumerated().map { index, pose in
       let m = pose.rotation.matrix
-      let r = [m.row0, m.row1, m.row2].map { [$0.x, $0.y, $0.z] }
+      let r = [m.row0, m.row1, m.row2].map { isZUp ? [$0.x, -$0.z, $0.y] : [$0.x, $0.y, $0.z] }
       let t = [pose.translation.x, pose.translation.y, pose.translation.z]
       return "{\"name\": \"\(RenderedScene.name(index))\", \"K\": \(k), \"R\": \(r), \"t\": \(t)}"
     }

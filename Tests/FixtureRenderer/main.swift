@@ -1,38 +1,41 @@
 import Foundation
-import Formats
 import Kernels
-import SceneModel
 import TestSupport
 
 // Writes the photo sets in Fixtures/ anew: `swift run -c release render-fixtures Fixtures`.
-// The same program gives the same bytes. `render-fixtures <folder> faint` writes a set of low texture
-// instead, to compare sensitivities on.
+// The same program gives the same bytes. Instead, for benchmarks:
+//
+//   render-fixtures <folder> faint             a set of low texture, to compare sensitivities on
+//   render-fixtures <folder> dense [name …]    sets to judge the dense stage on, by name or all
+//   render-fixtures <folder> ring [count]      a set of many photos, 160 if not said
+//
+// The sets for the dense stage have their surface and cameras in a frame with z up; the table, at
+// z = 0, is not part of the surface.
 
 let folder = URL(
   fileURLWithPath: CommandLine.arguments.dropFirst().first ?? "Fixtures", isDirectory: true)
+let words = Array(CommandLine.arguments.dropFirst(2))
 let control = KernelControl(threadCount: 2)
 
-var exif = ExifFields()
-exif.make = "Rendered"
-exif.model = "Pinhole"
-
-let statue = RenderedScene.statue()
-// On a full-frame sensor, 36 mm wide.
-let tenths = UInt32((statue.camera.focalLength.x / Double(statue.camera.width) * 360).rounded())
-exif.focalLength = (tenths, 10)
-exif.focalLengthIn35mmFilm = Int((Double(tenths) / 10).rounded())
-if CommandLine.arguments.dropFirst(2).first == "faint" {
-  try PhotoSet(scene: .faintStatue(), exif: exif, quality: 0.92)
-    .write(to: folder.appendingPathComponent("faint", isDirectory: true), control)
-  exit(0)
+switch words.first {
+case "faint":
+  try write(PhotoSet(scene: .faintStatue(), quality: 0.92), "faint")
+case "dense":
+  for scene in DenseScene.allCases where words.count == 1 || words.contains(scene.rawValue) {
+    try write(PhotoSet(scene: scene.scene(), quality: 0.92, isZUp: true), scene.rawValue)
+  }
+case "ring":
+  let count = words.dropFirst().first.flatMap { Int($0) } ?? 160
+  let scene = DenseScene.rich.scene(
+    width: 816, poses: DenseScene.sweep(count: count), fineness: 0.5)
+  try write(PhotoSet(scene: scene, quality: 0.92, isZUp: true), "ring")
+default:
+  try write(PhotoSet(scene: .statue(), quality: 0.82), "orbit")
+  try write(PhotoSet(scene: .relief(), hasMetadata: false, quality: 0.85), "relief")
+  try BadPhotos(scene: .statue(photoCount: 2, upperCount: 0, width: 480, height: 360))
+    .write(to: folder.appendingPathComponent("bad", isDirectory: true), control)
 }
 
-let statueSet = PhotoSet(scene: statue, exif: exif, quality: 0.82)
-try statueSet.write(to: folder.appendingPathComponent("orbit", isDirectory: true), control)
-
-let relief = RenderedScene.relief()
-try PhotoSet(scene: relief, exif: nil, quality: 0.85)
-  .write(to: folder.appendingPathComponent("relief", isDirectory: true), control)
-
-try BadPhotos(scene: .statue(photoCount: 2, upperCount: 0, width: 480, height: 360))
-  .write(to: folder.appendingPathComponent("bad", isDirectory: true), control)
+func write(_ set: PhotoSet, _ name: String) throws {
+  try set.write(to: folder.appendingPathComponent(name, isDirectory: true), control)
+}

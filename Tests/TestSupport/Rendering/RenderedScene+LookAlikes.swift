@@ -19,7 +19,7 @@ extension RenderedScene {
     let places: [SIMD3<Double>] = [[0.19, 0.045, 0.1], [-0.04, 0.04, 0.2], [-0.2, 0.05, -0.08]]
     return RenderedScene(
       object: Surface(
-        mesh: box(center: [0, 0.11, 0], halfSize: [0.12, 0.11, 0.08]),
+        mesh: Mesh.box(center: [0, 0.11, 0], halfSize: [0.12, 0.11, 0.08]),
         texture: SolidTexture(
           palette: [[0.06, 0.04, 0.03], [0.55, 0.2, 0.1], [0.3, 0.4, 0.45], [0.85, 0.8, 0.7]],
           wavelength: 0.05, octaves: 6, seed: 3,
@@ -51,10 +51,10 @@ extension RenderedScene {
     let (bay, bays) = (1.5, 6)
     let length = bay * Double(bays)
     var wall = Mesh()
-    wall.append(box(center: [0, 1.2, -0.1], halfSize: [length / 2, 1.2, 0.1]))
+    wall.append(.box(center: [0, 1.2, -0.1], halfSize: [length / 2, 1.2, 0.1]))
     for index in 0..<bays {
       let x = (Double(index) + 0.5) * bay - length / 2
-      wall.append(box(center: [x, 1.2, 0.1], halfSize: [0.18, 1.2, 0.1]))
+      wall.append(.box(center: [x, 1.2, 0.1], halfSize: [0.18, 1.2, 0.1]))
     }
     let poses = (0..<photoCount).map { index in
       let x = (Double(index) / Double(max(1, photoCount - 1)) - 0.5) * (length - 2)
@@ -84,39 +84,10 @@ extension RenderedScene {
       poses: poses)
   }
 
-  private static func box(center: SIMD3<Double>, halfSize h: SIMD3<Double>) -> Mesh {
-    var mesh = Mesh()
-    for axis in 0..<3 {
-      for sign in [-1.0, 1.0] {
-        var (normal, u) = (SIMD3<Double>.zero, SIMD3<Double>.zero)
-        normal[axis] = sign
-        u[(axis + 1) % 3] = 1
-        let v = normal.cross(u)
-        let first = UInt32(mesh.positions.count)
-        for (a, b) in [(-1.0, -1.0), (1, -1), (1, 1), (-1, 1)] {
-          mesh.positions.append(SIMD3<Float>(center + (normal + a * u + b * v) * h))
-          mesh.normals.append(SIMD3<Float>(normal))
-        }
-        mesh.triangles.append(Triangle(first, first + 1, first + 2))
-        mesh.triangles.append(Triangle(first, first + 2, first + 3))
-      }
-    }
-    return mesh
-  }
-
   private static func ball(center: SIMD3<Double>, radius: Double) -> Mesh {
     grid(columns: 24, rows: 13, isClosed: true) { u, v in
       let (angle, h) = (2 * .pi * u, .pi * (v - 0.5))
       return center + radius * SIMD3(cos(h) * sin(angle), sin(h), cos(h) * cos(angle))
     }
-  }
-}
-
-extension Mesh {
-  fileprivate mutating func append(_ other: Mesh) {
-    let first = UInt32(positions.count)
-    positions += other.positions
-    normals += other.normals
-    triangles += other.triangles.map { Triangle($0.a + first, $0.b + first, $0.c + first) }
   }
 }

@@ -93,7 +93,7 @@ extension RenderedScene {
   }
 
   /// A closed surface around the y axis that stands on y = 0, its bottom left open.
-  private static func statueMesh(columns: Int, rows: Int) -> Mesh {
+  static func statueMesh(columns: Int, rows: Int) -> Mesh {
     func radius(_ angle: Double, _ h: Double) -> Double {
       func bump(_ at: Double, _ height: Double, _ width: Double, _ tallness: Double) -> Double {
         let turn = atan2(sin(angle - at), cos(angle - at)) / width

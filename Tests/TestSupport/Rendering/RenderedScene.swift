@@ -28,6 +28,9 @@ package struct RenderedScene: Sendable {
   package var noise = 1.2
   /// Rays a pixel and direction: 2 casts four rays.
   package var samplesPerSide = 2
+  /// A lens and exposures of their own for each photo, and rays spent where there are edges; nil
+  /// casts the same rays everywhere and shows the light as it is.
+  package var photography: Photography?
 
   let surfaces: [Surface]
   private let caster: RayCaster
@@ -63,6 +66,7 @@ package struct RenderedScene: Sendable {
   package func photo(
     _ index: Int, _ control: KernelControl = KernelControl()
   ) throws -> RasterImage {
+    if let photography { return try photo(index, taken: photography, control) }
     let rows = try control.parallelMap(camera.height) { row in renderRow(row, index) }
     return RasterImage(
       width: camera.width, height: camera.height, channels: 3, pixels: rows.flatMap { $0 })
@@ -123,7 +127,7 @@ package struct RenderedScene: Sendable {
   }
 
   /// The direction has depth 1 in the camera frame, so that a hit's distance is its depth.
-  private func ray(
+  func ray(
     through pixel: SIMD2<Double>, of index: Int
   ) -> (origin: SIMD3<Float>, direction: SIMD3<Float>) {
     let ray = camera.unproject(pixel)
@@ -153,14 +157,28 @@ package struct RenderedScene: Sendable {
     return pixels
   }
 
-  /// Linear RGB that comes along a ray.
+  /// What is seen along a ray.
+  struct Sight {
+    /// Linear RGB.
+    var radiance: SIMD3<Float>
+    /// Infinite where there is nothing.
+    var depth = Float.infinity
+    var normal = SIMD3<Float>.zero
+    var surface = -1
+    var isLit = false
+  }
+
   private func radiance(
     _ ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)
   ) -> SIMD3<Float> {
+    sight(along: ray).radiance
+  }
+
+  func sight(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> Sight {
     guard let hit = caster.hit(from: ray.origin, along: ray.direction) else {
       // A plain backdrop without detail, a little lighter towards the top.
       let height = 0.5 + 0.5 * ray.direction.normalized.y
-      return SIMD3(0.10, 0.11, 0.12) + SIMD3(0.12, 0.13, 0.15) * height
+      return Sight(radiance: SIMD3(0.10, 0.11, 0.12) + SIMD3(0.12, 0.13, 0.15) * height)
     }
     let part = parts[hit.triangle]
     let surface = surfaces[part.surface]
@@ -174,11 +192,13 @@ package struct RenderedScene: Sendable {
     let albedo = surface.texture.color(at: point, footprint: footprint)
     let sun = max(0, normal.dot(light))
     let isLit = sun > 0 && !caster.isBlocked(from: point + normal * 1e-3, along: light)
-    return albedo * (0.36 + 0.14 * normal.y + (isLit ? 0.62 * sun : 0))
+    return Sight(
+      radiance: albedo * (0.36 + 0.14 * normal.y + (isLit ? 0.62 * sun : 0)),
+      depth: hit.distance, normal: normal, surface: part.surface, isLit: isLit)
   }
 
   /// sRGB transfer function.
-  private static func encode(_ linear: Double) -> Double {
+  static func encode(_ linear: Double) -> Double {
     let value = min(max(linear, 0), 1)
     return value <= 0.003_130_8 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055
   }

@@ -23,6 +23,8 @@ package struct SolidTexture: Sendable {
   package var contrast: Float
   /// How much the fine octaves darken and lighten.
   private var shading: Float = 1.6
+  /// Wavelength of the regions in which hardly any texture is left; 0 leaves none out.
+  package var plainWavelength: Float = 0
   package var repetition: Repetition
 
   package init(
@@ -70,7 +72,17 @@ package struct SolidTexture: Sendable {
     let position = 0.5 + 0.5 * spread / (0.5 + abs(spread))
     // The fine octaves also darken and lighten, so that no patch is flat.
     let shade = min(max(1 + shading * fine / total * Float(octaves).squareRoot(), 0.35), 1.5)
-    return palette(at: position) * shade
+    let textured = palette(at: position) * shade
+    guard plainWavelength > 0 else { return textured }
+    let mean = palette.reduce(SIMD3<Float>.zero, +) / Float(max(1, palette.count))
+    return mean + (textured - mean) * strength(at: point)
+  }
+
+  /// How much of the texture is left, from a sixth to all of it.
+  private func strength(at point: SIMD3<Float>) -> Float {
+    let value = Self.noise(point / plainWavelength, seed &+ 0x5bd1)
+    let t = min(max((value - 0.2) / 0.25, 0), 1)
+    return 0.17 + 0.83 * t * t * (3 - 2 * t)
   }
 
   private func repeated(_ p: SIMD3<Float>) -> SIMD3<Float> {
