@@ -112,10 +112,11 @@ package enum PatchStereo {
     package var weakTextureThreshold: Float = 0.6
     /// Other views that must agree; all but one where there are fewer, but always one.
     package var minimumAgreeingViews = 2
-    /// Pixels between a patch and its confirmation.
-    package var reprojectionThreshold: Float = 1
-    /// Relative difference of depth.
-    package var depthThreshold: Float = 0.003
+    /// Pixels of disparity between a patch and its confirmation, in the coarser view: what that means
+    /// for depth follows from the parallax.
+    package var reprojectionThreshold: Float = 0.6
+    /// Relative difference of depth, where the parallax is small.
+    package var depthThreshold: Float = 0.01
     /// Largest angle between normals in degrees.
     package var normalThresholdDegrees: Float = 60
     /// Relative distance behind a patch at which another view sees through it.
@@ -128,6 +129,8 @@ package enum PatchStereo {
     package var minimumIsland = 30
     /// Pixels within which confirmations are fused.
     package var fusionThreshold: Float = 0.6
+    /// Of the inner loops; results differ by rounding only.
+    package var instructions = Instructions.automatic
 
     package init() {}
   }
@@ -209,6 +212,6 @@ extension PatchStereo.FilterOptions {
       normal_cosine: cosine(degrees: normalThresholdDegrees),
       contradiction_threshold: contradictionThreshold, fringe_passes: Int32(fringePasses),
       fringe_contrast: fringeContrast, minimum_island: Int32(minimumIsland),
-      fusion_threshold: fusionThreshold)
+      fusion_threshold: fusionThreshold, instructions: instructions.raw)
   }
 }

@@ -72,7 +72,7 @@ typedef struct {
   /// RGB of the view.
   const uint8_t* rgb;
   const ck_patch* patches;
-  /// Which patches passed the filter; may be null where only patches are asked for.
+  /// What the filter said of each patch; may be null where only patches are asked for.
   const uint8_t* states;
 } ck_patch_map;
 
@@ -84,7 +84,7 @@ typedef struct {
   float weak_texture_threshold;
   /// Other views that must agree; all but one where there are fewer, but always one.
   int32_t minimum_agreeing;
-  /// Pixels between a patch and its confirmation.
+  /// Pixels of disparity between a patch and its confirmation, in the coarser view.
   float reprojection_threshold;
   /// Relative difference of depth.
   float depth_threshold;
@@ -100,20 +100,16 @@ typedef struct {
   int32_t minimum_island;
   /// Pixels within which confirmations are fused.
   float fusion_threshold;
+  /// Of the inner loops. Results differ by rounding only.
+  ck_instructions instructions;
 } ck_patch_filter_options;
 
-/// What has become of the patch of a pixel.
-typedef enum {
-  ck_patch_rejected = 0,
-  /// Passed the filter.
-  ck_patch_accepted = 1,
-} ck_patch_state;
-
-/// Marks the patches of `reference` that enough of its neighbours confirm and no more contradict as
-/// accepted, all others as rejected.
+/// Marks the patches of `reference` that enough of its neighbours confirm and no more contradict.
 ///
-/// `states` holds `width × height` bytes; `neighbors` are the views that may confirm, the best
-/// first. Runs on one thread: call it for several views at once.
+/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint, so
+/// that views tell which of them shows a piece of surface finest. `states` holds `width × height`
+/// bytes; `neighbors` are the views that may confirm, the best first. Runs on one thread: call it
+/// for several views at once.
 ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* reference,
                             const ck_patch_map* neighbors, size_t neighbor_count,
                             const ck_patch_filter_options* options, const ck_control* control);

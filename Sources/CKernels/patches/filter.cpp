@@ -1,8 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/guard.h"
-#include "patches/map.h"
+#include "patches/ask.h"
 
 namespace ck::patches {
 namespace {
@@ -16,59 +17,140 @@ int required_views(int neighbors, const ck_patch& patch, const ck_patch_filter_o
   return patch.cost < options.photometric_threshold ? regular : regular + 1;
 }
 
+/// The logarithm of a patch's side in steps of a quarter octave, from 1 on.
+///
+/// A property of the patch alone, so that any two views order theirs alike.
+uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int y) {
+  const auto fx = static_cast<float>(view.fx), fy = static_cast<float>(view.fy);
+  const float dx = x + 0.5f - static_cast<float>(view.cx),
+              dy = y + 0.5f - static_cast<float>(view.cy);
+  const float nx = p.gradient_x * fx, ny = p.gradient_y * fy;
+  const float nz = p.inverse_depth - p.gradient_x * dx - p.gradient_y * dy;
+  const float normal = nx * nx + ny * ny + nz * nz;
+  const float ray = dx * dx / (fx * fx) + dy * dy / (fy * fy) + 1;
+  const float cosine = std::max(0.1f, p.inverse_depth / std::sqrt(normal * ray));
+  // The side is 1 / (w · fx · sqrt(cosine)); four steps an octave, 1 in the middle.
+  const float steps = -4 * std::log2(p.inverse_depth * fx) - 2 * std::log2(cosine);
+  return static_cast<uint8_t>(std::clamp(std::floor(steps) + 128, 1.0f, 255.0f));
+}
+
 /// Keeps patches that enough other views confirm and that no more views see through.
-void filter_by_visibility(uint8_t* states, const Map& reference, const std::vector<Map>& neighbors,
-                          const ck_patch_filter_options& options, const ck_control* control) {
-  const int count = static_cast<int>(neighbors.size());
-  for (int y = 0; y < reference.height; ++y) {
-    step(control, static_cast<double>(y) / reference.height);
-    for (int x = 0; x < reference.width; ++x) {
-      uint8_t& state = states[static_cast<size_t>(y) * reference.width + x];
-      state = ck_patch_rejected;
-      const ck_patch* patch = reference.patch(x, y, options.weak_texture_threshold);
-      if (!patch) continue;
-      const Vector3 world = point_of(reference, *patch, x, y);
-      const Vector3 normal = reference.normal(*patch, x, y);
-      int agreeing = 0, contradicting = 0;
-      for (const Map& other : neighbors) {
-        const auto kind = confirm(reference, other, x, y, world, normal, options).kind;
-        agreeing += kind == Confirmation::kAgrees;
-        contradicting += kind == Confirmation::kSeesThrough;
+class VisibilityFilter {
+ public:
+  VisibilityFilter(const ck_patch_map& reference, const ck_patch_map* neighbors, size_t count,
+                   const ck_patch_filter_options& options)
+      : reference_(reference),
+        options_(options),
+        agreement_(reference.view, options),
+        ask_(ask_function(options.instructions)),
+        row_(reference.view.width),
+        replies_(reference.view.width),
+        agreeing_(row_.w.size()),
+        contradicting_(row_.w.size()) {
+    for (size_t i = 0; i < count; ++i) passages_.emplace_back(reference.view, neighbors[i]);
+  }
+
+  void run(uint8_t* states, const ck_control* control) {
+    const int width = reference_.view.width, height = reference_.view.height;
+    for (int y = 0; y < height; ++y) {
+      step(control, static_cast<double>(y) / height);
+      row_.read(reference_.patches, y, options_.weak_texture_threshold);
+      ask_neighbors();
+      const size_t start = static_cast<size_t>(y) * width;
+      for (int x = 0; x < width; ++x) {
+        const ck_patch& patch = reference_.patches[start + x];
+        states[start + x] = passes(patch, x) ? footprint_class(reference_.view, patch, x, y) : 0;
       }
-      const bool passes =
-          agreeing >= required_views(count, *patch, options) && contradicting <= agreeing / 2;
-      if (passes) state = ck_patch_accepted;
     }
   }
-}
+
+ private:
+  void ask_neighbors() {
+    std::fill(agreeing_.begin(), agreeing_.end(), 0);
+    std::fill(contradicting_.begin(), contradicting_.end(), 0);
+    for (const Passage& passage : passages_) {
+      ask_(passage, agreement_, row_, replies_);
+      for (size_t x = 0; x < agreeing_.size(); ++x) {
+        agreeing_[x] += replies_.kind[x] & kAgrees;
+        contradicting_[x] += replies_.kind[x] / kSeesThrough;
+      }
+    }
+  }
+
+  bool passes(const ck_patch& patch, int x) const {
+    return row_.w[x] > 0 && contradicting_[x] <= agreeing_[x] / 2 &&
+           agreeing_[x] >= required_views(static_cast<int>(passages_.size()), patch, options_);
+  }
+
+  const ck_patch_map& reference_;
+  const ck_patch_filter_options& options_;
+  const Agreement agreement_;
+  const Ask ask_;
+  std::vector<Passage> passages_;
+  Row row_;
+  Replies replies_;
+  std::vector<uint8_t> agreeing_, contradicting_;
+};
 
 /// Removes patches at the border of the accepted ones that look like the rejected pixels around
 /// them: a plain background beside an outline borrows the outline's depth.
-void remove_fringe(uint8_t* states, const Map& map, float contrast) {
-  constexpr int kRadius = 3;
-  const int w = map.width, h = map.height;
-  const uint8_t* luma = map.raw->view.luma;
-  const std::vector<uint8_t> before(states, states + static_cast<size_t>(w) * h);
-  for (int y = kRadius; y < h - kRadius; ++y) {
-    for (int x = kRadius; x < w - kRadius; ++x) {
-      const size_t cell = static_cast<size_t>(y) * w + x;
-      if (!before[cell]) continue;
-      float accepted = 0, rejected = 0;
-      for (int dy = -kRadius; dy <= kRadius; ++dy) {
-        for (int dx = -kRadius; dx <= kRadius; ++dx) {
-          const size_t other = cell + static_cast<ptrdiff_t>(dy) * w + dx;
-          const float difference = (luma[other] - luma[cell]) / contrast;
-          (before[other] ? accepted : rejected) += 1 / (1 + difference * difference);
-        }
-      }
-      if (rejected > accepted) states[cell] = ck_patch_rejected;
+class Fringe {
+ public:
+  explicit Fringe(float contrast) {
+    for (int difference = 0; difference < 256; ++difference) {
+      const float ratio = static_cast<float>(difference) / contrast;
+      likeness_[difference] = static_cast<int32_t>(std::lround(65536 / (1 + ratio * ratio)));
     }
   }
-}
+
+  void remove(uint8_t* states, const ck_patch_view& view) const {
+    const int w = view.width, h = view.height;
+    const std::vector<uint8_t> before(states, states + static_cast<size_t>(w) * h);
+    std::vector<int32_t> rejected(static_cast<size_t>(w));
+    for (int y = kRadius; y < h - kRadius; ++y) {
+      count_rejected(rejected, &before[static_cast<size_t>(y) * w], w);
+      for (int x = kRadius; x < w - kRadius; ++x) {
+        const size_t cell = static_cast<size_t>(y) * w + x;
+        if (!before[cell]) continue;
+        int around = 0;
+        for (int dx = -kRadius; dx <= kRadius; ++dx) around += rejected[x + dx];
+        if (around > 0 && is_fringe(before, view, cell)) states[cell] = 0;
+      }
+    }
+  }
+
+ private:
+  static constexpr int kRadius = 3;
+
+  /// How many pixels of the columns around a row are rejected.
+  static void count_rejected(std::vector<int32_t>& result, const uint8_t* row, int width) {
+    std::fill(result.begin(), result.end(), 0);
+    for (int dy = -kRadius; dy <= kRadius; ++dy) {
+      const uint8_t* states = row + static_cast<ptrdiff_t>(dy) * width;
+      for (int x = 0; x < width; ++x) result[x] += states[x] == 0;
+    }
+  }
+
+  /// The pixel looks more like the rejected pixels around it than like the accepted ones.
+  bool is_fringe(const std::vector<uint8_t>& states, const ck_patch_view& view, size_t cell) const {
+    const int luma = view.luma[cell];
+    int32_t balance = 0;
+    for (int dy = -kRadius; dy <= kRadius; ++dy) {
+      const size_t row = cell + static_cast<ptrdiff_t>(dy) * view.width;
+      for (int dx = -kRadius; dx <= kRadius; ++dx) {
+        const int32_t likeness = likeness_[std::abs(view.luma[row + dx] - luma)];
+        balance += states[row + dx] ? likeness : -likeness;
+      }
+    }
+    return balance < 0;
+  }
+
+  int32_t likeness_[256];
+};
 
 /// Removes connected patches that are few; neighbours connect where their depths do.
-void remove_islands(uint8_t* states, const Map& map, int minimum) {
-  const int w = map.width, h = map.height;
+void remove_islands(uint8_t* states, const ck_patch_map& map, int minimum) {
+  const int w = map.view.width, h = map.view.height;
   std::vector<uint8_t> visited(static_cast<size_t>(w) * h, 0);
   std::vector<int> island;
   for (int start = 0; start < w * h; ++start) {
@@ -77,12 +159,12 @@ void remove_islands(uint8_t* states, const Map& map, int minimum) {
     visited[start] = 1;
     for (size_t next = 0; next < island.size(); ++next) {
       const int cell = island[next], x = cell % w, y = cell / w;
-      const float depth = map.raw->patches[cell].inverse_depth;
+      const float depth = map.patches[cell].inverse_depth;
       const int around[4] = {x > 0 ? cell - 1 : -1, x + 1 < w ? cell + 1 : -1,
                              y > 0 ? cell - w : -1, y + 1 < h ? cell + w : -1};
       for (int other : around) {
         if (other < 0 || visited[other] || !states[other]) continue;
-        if (std::abs(map.raw->patches[other].inverse_depth / depth - 1) > 0.02f) continue;
+        if (std::abs(map.patches[other].inverse_depth / depth - 1) > 0.02f) continue;
         visited[other] = 1;
         island.push_back(other);
       }
@@ -102,12 +184,11 @@ ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* reference,
     using namespace ck::patches;
     ck::require(states && reference && options && (neighbors || neighbor_count == 0),
                 "missing argument");
-    const Map map(*reference);
-    const std::vector<Map> others(neighbors, neighbors + neighbor_count);
-    filter_by_visibility(states, map, others, *options, control);
+    VisibilityFilter(*reference, neighbors, neighbor_count, *options).run(states, control);
+    const Fringe fringe(options->fringe_contrast);
     for (int pass = 0; pass < options->fringe_passes; ++pass) {
-      remove_fringe(states, map, options->fringe_contrast);
+      fringe.remove(states, reference->view);
     }
-    remove_islands(states, map, options->minimum_island);
+    remove_islands(states, *reference, options->minimum_island);
   });
 }

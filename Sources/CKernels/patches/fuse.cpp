@@ -1,140 +1,187 @@
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "core/guard.h"
-#include "patches/map.h"
+#include "patches/ask.h"
 
 namespace ck::patches {
 namespace {
 
 constexpr size_t kMaxPhotos = sizeof(ck_fused_patch::photos) / sizeof(uint16_t);
 
-/// The patches of several views that show one piece of surface.
-struct Group {
-  std::vector<Vector3> points;
-  Vector3 normal = Vector3::Zero();
-  Eigen::Vector3i color = Eigen::Vector3i::Zero();
-  float cost = 0;
-  std::vector<uint16_t> photos;
-
-  void clear() {
-    points.clear();
-    photos.clear();
-    normal.setZero();
-    color.setZero();
-    cost = 0;
-  }
-
-  /// Notes a view that sees the surface.
-  void see(const Map& map) {
-    if (photos.size() < kMaxPhotos) photos.push_back(static_cast<uint16_t>(map.raw->photo));
-  }
-
-  /// Takes a view's own patch in.
-  void add(const Map& map, int x, int y, const Vector3& point) {
-    const size_t cell = static_cast<size_t>(y) * map.width + x;
-    const ck_patch& patch = map.raw->patches[cell];
-    points.push_back(point);
-    normal += map.normal(patch, x, y);
-    const uint8_t* rgb = map.raw->rgb + 3 * cell;
-    color += Eigen::Vector3i(rgb[0], rgb[1], rgb[2]);
-    cost += patch.cost;
-  }
+/// A view's word on the surface behind a pixel of the reference.
+struct Estimate {
+  /// Inverse depth on the pixel's ray.
+  float w = 0;
+  /// In the reference's camera frame, away from the camera.
+  float normal[3] = {};
+  float weight = 0;
 };
 
-Vector3 median(std::vector<Vector3>& points) {
-  Vector3 result;
-  const size_t middle = points.size() / 2;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto less = [axis](const Vector3& a, const Vector3& b) { return a[axis] < b[axis]; };
-    std::nth_element(points.begin(), points.begin() + middle, points.end(), less);
-    const float upper = points[middle][axis];
-    if (points.size() % 2 == 1) {
-      result[axis] = upper;
-    } else {
-      const auto lower = std::max_element(points.begin(), points.begin() + middle, less);
-      result[axis] = 0.5f * (upper + (*lower)[axis]);
-    }
-  }
-  return result;
-}
+/// What several views say about the surface behind one pixel, patches counting the more the better
+/// their photos agree.
+struct Group {
+  Estimate sum;
+  int count = 0;
+  int color[3] = {};
+  float cost = 0;
+  /// Which neighbours agree.
+  std::vector<size_t> neighbors;
 
-ck_fused_patch fuse(Group& group, const Map& reference) {
-  ck_fused_patch result{};
-  const auto count = static_cast<int>(group.points.size());
-  const Vector3 position = median(group.points), normal = group.normal.normalized();
-  for (int i = 0; i < 3; ++i) {
-    result.position[i] = position[i];
-    result.normal[i] = normal[i];
-    result.color[i] = static_cast<uint8_t>((group.color[i] + count / 2) / count);
+  void clear() {
+    sum = Estimate();
+    count = 0;
+    std::fill(color, color + 3, 0);
+    cost = 0;
+    neighbors.clear();
   }
-  result.consistency = 1 - group.cost / static_cast<float>(count);
-  result.footprint = reference.to_camera(position).z() / reference.fx;
-  std::sort(group.photos.begin(), group.photos.end());
-  result.photo_count = static_cast<uint8_t>(group.photos.size());
-  std::copy(group.photos.begin(), group.photos.end(), result.photos);
-  return result;
-}
 
-/// Orders views of one piece of surface: the finest first, the lowest photo among about equals.
-///
-/// A property of the patch alone, so that any two views order theirs alike.
-std::pair<int, int> rank(const Map& map, const ck_patch& patch, int x, int y) {
-  const Vector3 ray = map.ray(x + 0.5f, y + 0.5f);
-  const Vector3 away = map.rotation * map.normal(patch, x, y);
-  const float cosine = std::max(0.1f, -away.dot(ray) / ray.norm());
-  const float side = 1 / (patch.inverse_depth * map.fx * std::sqrt(cosine));
-  constexpr float kStepsAnOctave = 4;
-  return {static_cast<int>(std::floor(std::log2(side) * kStepsAnOctave)), map.raw->photo};
-}
+  /// Takes a view's patch in.
+  void add(const ck_patch_map& map, size_t cell, const Estimate& estimate) {
+    const float c = map.patches[cell].cost;
+    constexpr float kPerfect = 0.05f;  // a cost below which patches are as good as each other
+    const float weight = 1 / (kPerfect + c);
+    sum.w += weight * estimate.w;
+    for (int i = 0; i < 3; ++i) sum.normal[i] += weight * estimate.normal[i];
+    sum.weight += weight;
+    for (int i = 0; i < 3; ++i) color[i] += map.rgb[3 * cell + i];
+    cost += c;
+    ++count;
+  }
+};
 
 /// Fuses the accepted patches of one view.
 class Fusion {
  public:
-  Fusion(const Map& reference, const std::vector<Map>& neighbors,
+  Fusion(const ck_patch_map& reference, const ck_patch_map* neighbors, size_t count,
          const ck_patch_filter_options& options)
-      : reference_(reference), neighbors_(neighbors), options_(options) {}
+      : reference_(reference),
+        options_(options),
+        agreement_(reference.view, options),
+        ask_(ask_function(options.instructions)),
+        row_(reference.view.width) {
+    for (size_t i = 0; i < count; ++i) neighbors_.push_back(&neighbors[i]);
+    // In order of photos, whatever order they come in.
+    std::sort(neighbors_.begin(), neighbors_.end(),
+              [](const auto* a, const auto* b) { return a->photo < b->photo; });
+    for (const ck_patch_map* map : neighbors_) {
+      passages_.emplace_back(reference.view, *map);
+      replies_.emplace_back(reference.view.width);
+    }
+  }
 
-  ck_fused_patch* run(ck_fused_patch* fused, const ck_control* control) const {
-    Group group;
-    for (int y = 0; y < reference_.height; ++y) {
-      step(control, static_cast<double>(y) / reference_.height);
-      for (int x = 0; x < reference_.width; ++x) {
-        if (reference_.is_accepted(x, y) && collect(group, x, y))
-          *fused++ = fuse(group, reference_);
+  ck_fused_patch* run(ck_fused_patch* fused, const ck_control* control) {
+    const int width = reference_.view.width, height = reference_.view.height;
+    for (int y = 0; y < height; ++y) {
+      step(control, static_cast<double>(y) / height);
+      const size_t start = static_cast<size_t>(y) * width;
+      const uint8_t* states = reference_.states + start;
+      row_.read(reference_.patches, y, options_.weak_texture_threshold);
+      for (int x = 0; x < width; ++x) row_.w[x] = states[x] ? row_.w[x] : 0;
+      for (size_t i = 0; i < passages_.size(); ++i) {
+        ask_(passages_[i], agreement_, row_, replies_[i]);
+      }
+      for (int x = 0; x < width; ++x) {
+        if (states[x] && collect(x, y) && fuse(*fused, x, y)) ++fused;
       }
     }
     return fused;
   }
 
  private:
+  Estimate estimate(int x, int y, float w, float gx, float gy) const {
+    const float nx = gx * agreement_.fx, ny = gy * agreement_.fy;
+    const float nz = w + gx * (agreement_.cx - static_cast<float>(x)) +
+                     gy * (agreement_.cy - static_cast<float>(y));
+    const float scale = 1 / std::sqrt(nx * nx + ny * ny + nz * nz);
+    return {w, {nx * scale, ny * scale, nz * scale}, 1};
+  }
+
   /// Collects the accepted patches that agree with one; false where the point is another view's.
-  bool collect(Group& group, int x, int y) const {
-    const ck_patch& patch = reference_.at(x, y);
-    const Vector3 world = point_of(reference_, patch, x, y);
-    const Vector3 normal = reference_.normal(patch, x, y);
-    const auto own = rank(reference_, patch, x, y);
-    group.clear();
-    group.see(reference_);
-    group.add(reference_, x, y, world);
-    for (const Map& other : neighbors_) {
-      const auto found = confirm(reference_, other, x, y, world, normal, options_);
-      if (found.kind != Confirmation::kAgrees) continue;
-      group.see(other);
-      if (!other.is_accepted(found.x, found.y) || found.distance > options_.fusion_threshold) {
-        continue;
-      }
-      if (rank(other, other.at(found.x, found.y), found.x, found.y) < own) return false;
-      group.add(other, found.x, found.y, found.point);
+  bool collect(int x, int y) {
+    const size_t cell = static_cast<size_t>(y) * reference_.view.width + x;
+    group_.clear();
+    group_.add(reference_, cell, estimate(x, y, row_.w[x], row_.gx[x], row_.gy[x]));
+    const int own = reference_.states[cell];
+    for (size_t i = 0; i < neighbors_.size(); ++i) {
+      const Replies& r = replies_[i];
+      if (r.kind[x] != kAgrees) continue;
+      const ck_patch_map& other = *neighbors_[i];
+      group_.neighbors.push_back(i);
+      const auto there = static_cast<size_t>(r.cell[x]);
+      const int footprint = other.states ? other.states[there] : 0;
+      if (footprint == 0 || r.distance[x] > options_.fusion_threshold) continue;
+      if (footprint < own || (footprint == own && other.photo < reference_.photo)) return false;
+      group_.add(other, there, estimate(x, y, r.w[x], r.gx[x], r.gy[x]));
     }
     return true;
   }
 
-  const Map& reference_;
-  const std::vector<Map>& neighbors_;
+  /// False where no neighbour sees the fused plane from the front.
+  bool fuse(ck_fused_patch& result, int x, int y) const {
+    result = {};
+    const Estimate& sum = group_.sum;
+    const double depth = sum.weight / sum.w;
+    const ck_patch_view& view = reference_.view;
+    const double p[3] = {(x + 0.5 - view.cx) / view.fx * depth - view.translation[0],
+                         (y + 0.5 - view.cy) / view.fy * depth - view.translation[1],
+                         depth - view.translation[2]};
+    const double n[3] = {-sum.normal[0], -sum.normal[1], -sum.normal[2]};
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double* r = view.rotation;
+    const int count = group_.count;
+    for (int i = 0; i < 3; ++i) {
+      result.position[i] = static_cast<float>(r[i] * p[0] + r[3 + i] * p[1] + r[6 + i] * p[2]);
+      result.normal[i] =
+          static_cast<float>((r[i] * n[0] + r[3 + i] * n[1] + r[6 + i] * n[2]) / length);
+      result.color[i] = static_cast<uint8_t>((group_.color[i] + count / 2) / count);
+    }
+    result.consistency = 1 - group_.cost / static_cast<float>(count);
+    result.footprint = static_cast<float>(depth / view.fx);
+    list_photos(result);
+    return result.photo_count > 1;
+  }
+
+  /// The reference and the neighbours that agree and see the plane from the front.
+  void list_photos(ck_fused_patch& result) const {
+    const auto add = [&](int photo) {
+      if (result.photo_count < kMaxPhotos) {
+        result.photos[result.photo_count++] = static_cast<uint16_t>(photo);
+      }
+    };
+    bool is_listed = false;
+    for (size_t i : group_.neighbors) {
+      if (!is_in_front(neighbors_[i]->view, result)) continue;
+      if (!is_listed && neighbors_[i]->photo > reference_.photo) {
+        add(reference_.photo);
+        is_listed = true;
+      }
+      add(neighbors_[i]->photo);
+    }
+    if (!is_listed) add(reference_.photo);
+  }
+
+  static bool is_in_front(const ck_patch_view& view, const ck_fused_patch& patch) {
+    const float *n = patch.normal, *p = patch.position;
+    double dot = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double* r = view.rotation + 3 * i;
+      const double seen = r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + view.translation[i];
+      dot += (r[0] * n[0] + r[1] * n[1] + r[2] * n[2]) * seen;
+    }
+    return dot < 0;
+  }
+
+  const ck_patch_map& reference_;
   const ck_patch_filter_options& options_;
+  const Agreement agreement_;
+  const Ask ask_;
+  std::vector<const ck_patch_map*> neighbors_;
+  std::vector<Passage> passages_;
+  Row row_;
+  std::vector<Replies> replies_;
+  Group group_;
 };
 
 }  // namespace
@@ -148,8 +195,7 @@ ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_p
     ck::require(fused && fused_count && reference && reference->states && options &&
                     (neighbors || neighbor_count == 0),
                 "missing argument");
-    const Map map(*reference);
-    const std::vector<Map> others(neighbors, neighbors + neighbor_count);
-    *fused_count = static_cast<size_t>(Fusion(map, others, *options).run(fused, control) - fused);
+    Fusion fusion(*reference, neighbors, neighbor_count, *options);
+    *fused_count = static_cast<size_t>(fusion.run(fused, control) - fused);
   });
 }
