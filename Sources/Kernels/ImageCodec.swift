@@ -63,9 +63,15 @@ package enum ImageCodec {
     return [UInt8](data)
   }
 
+  /// What `decode` can divide both sides by, ascending.
+  package static let reductions = [1, 2, 4, 8]
+
   /// Decodes the content of an image file, pixels as stored.
+  ///
+  /// `reduction` is one of `reductions`: a JPEG comes with its sides divided by it and rounded up,
+  /// without the finest of its frequencies, which takes less time; other formats come whole.
   package static func decode(
-    _ bytes: [UInt8], limits: Limits = Limits()
+    _ bytes: [UInt8], reducedBy reduction: Int = 1, limits: Limits = Limits()
   ) throws(ImageError) -> RasterImage {
     let header = try ImageHeader(bytes)
     guard header.width <= limits.maximumSide, header.height <= limits.maximumSide,
@@ -84,7 +90,7 @@ package enum ImageCodec {
     do {
       try withKernel(KernelControl()) { _ in
         withUnsafePointer(to: rawLimits) {
-          ck_image_decode(bytes, bytes.count, codec, $0, &image)
+          ck_image_decode(bytes, bytes.count, codec, Int32(clamping: reduction), $0, &image)
         }
       }
     } catch {

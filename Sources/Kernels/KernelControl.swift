@@ -38,9 +38,41 @@ package final class KernelControl: Sendable {
     }
   }
 
+  /// A control for each of `count` units of work that run at once; this control hears of their sum.
+  func units(_ count: Int) -> [KernelControl] {
+    let progress = UnitProgress(count)
+    return (0..<count).map { unit in
+      KernelControl(threadCount: threadCount, flag: flag) { [onProgress] fraction in
+        onProgress?(progress.report(fraction, of: unit))
+      }
+    }
+  }
+
+  /// The control without anybody who hears of progress.
+  var silent: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
+
   fileprivate func shouldContinue(at fraction: Double) -> Bool {
     onProgress?(fraction)
     return !isCancelled
+  }
+}
+
+/// How far each of several units of work is.
+private final class UnitProgress: Sendable {
+  private let fractions: Mutex<(units: [Double], sum: Double)>
+
+  init(_ count: Int) {
+    fractions = Mutex((units: [Double](repeating: 0, count: count), sum: 0))
+  }
+
+  /// Takes a unit's fraction in and returns that of all.
+  func report(_ fraction: Double, of unit: Int) -> Double {
+    fractions.withLock { state in
+      let step = max(0, min(1, fraction) - state.units[unit])
+      state.units[unit] += step
+      state.sum += step
+      return state.sum / Double(state.units.count)
+    }
   }
 }
 

@@ -38,4 +38,16 @@ extension KernelControl {
       return try slots.compactMap { try $0?.get() }
     }
   }
+  /// Like `parallelMap`, but progress is the sum of what the units report to the control that each
+  /// is given; a unit that reports nothing counts when it ends.
+  package func parallelUnits<Result: Sendable>(
+    _ count: Int, _ body: @escaping @Sendable (Int, KernelControl) throws -> Result
+  ) throws -> [Result] {
+    let controls = units(count)
+    return try silent.parallelMap(count) { index in
+      let result = try body(index, controls[index])
+      try controls[index].step(1)
+      return result
+    }
+  }
 }

@@ -35,6 +35,7 @@ package final class PatchMap: @unchecked Sendable {
   let states: UnsafeMutablePointer<UInt8>
   var count: Int { view.width * view.height }
 
+  /// A map without patches.
   package init(view: PatchView) {
     self.view = view
     let count = view.width * view.height
@@ -43,6 +44,17 @@ package final class PatchMap: @unchecked Sendable {
       repeating: ck_patch(inverse_depth: 0, gradient_x: 0, gradient_y: 0, cost: 2), count: count)
     states = .allocate(capacity: count)
     states.initialize(repeating: 0, count: count)
+  }
+
+  /// A map whose patches `fill` puts into the buffer that it is given, as `patchBytes` has them.
+  package init(view: PatchView, fill: (UnsafeMutableRawBufferPointer) throws -> Void) rethrows {
+    self.view = view
+    let count = view.width * view.height
+    patches = .allocate(capacity: count)
+    states = .allocate(capacity: count)
+    states.initialize(repeating: 0, count: count)
+    try fill(
+      UnsafeMutableRawBufferPointer(start: patches, count: count * MemoryLayout<ck_patch>.stride))
   }
 
   deinit {
@@ -56,6 +68,20 @@ package final class PatchMap: @unchecked Sendable {
       photo: Int32(view.photo.index), view: view.raw, rgb: view.rgb, patches: patches,
       states: states)
   }
+
+  /// All patches as they are in memory, in the machine's byte order; valid as long as this object
+  /// lives.
+  package var patchBytes: UnsafeRawBufferPointer {
+    UnsafeRawBufferPointer(start: patches, count: count * MemoryLayout<ck_patch>.stride)
+  }
+
+  /// What became of each patch in the filter, a byte each; valid as long as this object lives.
+  package var stateBytes: UnsafeMutableRawBufferPointer {
+    UnsafeMutableRawBufferPointer(start: states, count: count)
+  }
+
+  /// Bytes that a map and its view take a pixel.
+  package static let bytesPerPixel = MemoryLayout<ck_patch>.stride + 5
 
   /// The patch at column `x`, row `y`.
   package subscript(x: Int, y: Int) -> Patch {

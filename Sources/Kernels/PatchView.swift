@@ -12,22 +12,38 @@ package final class PatchView: @unchecked Sendable {
   let luma: UnsafeMutablePointer<UInt8>
   let rgb: UnsafeMutablePointer<UInt8>
 
-  package init(_ view: PinholeView) {
-    photo = view.photo
-    camera = view.camera
-    cameraFromWorld = view.cameraFromWorld
-    (width, height) = (view.image.width, view.image.height)
-    let count = width * height
-    luma = .allocate(capacity: count)
-    rgb = .allocate(capacity: 3 * count)
-    view.image.pixels.withUnsafeBufferPointer { pixels in
-      rgb.initialize(from: pixels.baseAddress ?? UnsafePointer(rgb), count: 3 * count)
+  /// The view as it is in memory.
+  package convenience init(_ view: PinholeView) {
+    self.init(
+      photo: view.photo, camera: view.camera, cameraFromWorld: view.cameraFromWorld,
+      width: view.image.width, height: view.image.height
+    ) { rgb in
+      view.image.pixels.withUnsafeBytes { rgb.copyMemory(from: $0) }
     }
+  }
+
+  /// A view whose pixels, RGB, `fill` puts into the buffer that it is given.
+  package init(
+    photo: ID<Photo>, camera: Camera, cameraFromWorld: RigidTransform, width: Int, height: Int,
+    fill: (UnsafeMutableRawBufferPointer) throws -> Void
+  ) rethrows {
+    self.photo = photo
+    self.camera = camera
+    self.cameraFromWorld = cameraFromWorld
+    (self.width, self.height) = (width, height)
+    luma = .allocate(capacity: width * height)
+    rgb = .allocate(capacity: 3 * width * height)
+    try fill(UnsafeMutableRawBufferPointer(start: rgb, count: 3 * width * height))
     // Rec. 601 in 8-bit fixed point.
-    for i in 0..<count {
+    for i in 0..<width * height {
       let (r, g, b) = (UInt32(rgb[3 * i]), UInt32(rgb[3 * i + 1]), UInt32(rgb[3 * i + 2]))
-      luma[i] = UInt8((77 * r + 150 * g + 29 * b + 128) >> 8)
+      luma[i] = UInt8(truncatingIfNeeded: (77 &* r &+ 150 &* g &+ 29 &* b &+ 128) >> 8)
     }
+  }
+
+  /// The pixels, RGB; valid as long as this object lives.
+  package var rgbBytes: UnsafeRawBufferPointer {
+    UnsafeRawBufferPointer(start: rgb, count: 3 * width * height)
   }
 
   deinit {

@@ -7,6 +7,7 @@ import SceneModel
 /// ```
 /// sparse/{cameras,images,points3D}.txt    COLMAP text
 /// dense/points.ply                        oriented, coloured patches
+/// dense/views/                            what the dense stage has made of each view, to go on with
 /// mesh/surface.ply                        before simplification
 /// report.json
 /// ```
@@ -25,6 +26,9 @@ struct Checkpoint {
   func write(_ cloud: PointCloud) throws {
     try PLY.write(cloud, to: try folder("dense").appendingPathComponent("points.ply"))
   }
+
+  /// The folder of `PatchWorkspace`.
+  var views: URL { directory.appendingPathComponent("dense/views", isDirectory: true) }
 
   func write(_ surface: Mesh) throws {
     try PLY.write(surface, to: try folder("mesh").appendingPathComponent("surface.ply"))

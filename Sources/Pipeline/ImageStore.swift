@@ -23,15 +23,21 @@ package final class ImageStore: Sendable {
   private let images: [RasterImage]
   private let byteBudget: Int
   private let processingPixels: Int?
+  private let contentHashes: [UInt64]
   private let cache = Mutex(Cache())
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
-  /// is larger than `processingPixels`.
-  package init(photos: [Photo], byteBudget: Int = 1 << 30, processingPixels: Int? = nil) {
+  /// is larger than `processingPixels`. `contentHashes`, by photo id, save reading files again where
+  /// they are known.
+  package init(
+    photos: [Photo], byteBudget: Int = 1 << 30, processingPixels: Int? = nil,
+    contentHashes: [UInt64] = []
+  ) {
     self.photos = photos
     self.images = []
     self.byteBudget = byteBudget
     self.processingPixels = processingPixels
+    self.contentHashes = contentHashes
   }
 
   /// A store of images in memory: photo id i is `images[i]`.
@@ -40,6 +46,7 @@ package final class ImageStore: Sendable {
     self.images = images
     self.byteBudget = 0
     self.processingPixels = nil
+    self.contentHashes = []
   }
 
   /// The largest size of at most `maximumPixels` with the aspect of `width` × `height`; never
@@ -56,19 +63,62 @@ package final class ImageStore: Sendable {
   ///
   /// The camera of the result is `camera.resized(width:height:)` with the image's size.
   package func image(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage {
-    if !images.isEmpty || photos.isEmpty {
+    let size = try size(of: id, maximumPixels: maximumPixels)
+    if holdsImages {
+      return try element(id, of: images).resized(width: size.width, height: size.height)
+    }
+    let photo = try element(id, of: photos)
+    let key = Key(photo: id, width: size.width, height: size.height)
+    if let kept = keptImage(key) { return kept }
+    let image = try decode(photo, atLeast: size).resized(width: size.width, height: size.height)
+    keep(image, key)
+    return image
+  }
+
+  /// The size of `image(id, maximumPixels:)`.
+  private func size(
+    of id: ID<Photo>, maximumPixels: Int?
+  ) throws -> (width: Int, height: Int) {
+    if holdsImages {
       let full = try element(id, of: images)
-      let size = Self.size(width: full.width, height: full.height, maximumPixels: maximumPixels)
-      return try full.resized(width: size.width, height: size.height)
+      return Self.size(width: full.width, height: full.height, maximumPixels: maximumPixels)
     }
     let photo = try element(id, of: photos)
     let pixels = [maximumPixels, processingPixels].compactMap { $0 }.min()
-    let size = Self.size(width: photo.width, height: photo.height, maximumPixels: pixels)
-    let key = Key(photo: id, width: size.width, height: size.height)
-    if let kept = keptImage(key) { return kept }
-    let image = try decode(photo).resized(width: size.width, height: size.height)
-    keep(image, key)
-    return image
+    return Self.size(width: photo.width, height: photo.height, maximumPixels: pixels)
+  }
+
+  private var holdsImages: Bool { !images.isEmpty || photos.isEmpty }
+
+  /// A number that changes with the photo's content and with how it is decoded.
+  package func fingerprint(of id: ID<Photo>) throws -> UInt64 {
+    var fingerprint = Fingerprint()
+    if holdsImages {
+      let image = try element(id, of: images)
+      fingerprint.add(image.width)
+      fingerprint.add(image.pixels)
+      return fingerprint.value
+    }
+    let photo = try element(id, of: photos)
+    if contentHashes.indices.contains(id.index) {
+      fingerprint.add(contentHashes[id.index])
+    } else {
+      fingerprint.add(try contents(of: photo))
+    }
+    for value in [photo.width, photo.height, photo.orientation, processingPixels ?? 0] {
+      fingerprint.add(value)
+    }
+    return fingerprint.value
+  }
+
+  /// The camera of `pinholeView` with the same arguments.
+  package func pinholeCamera(
+    of id: ID<Photo>, in reconstruction: Reconstruction, maximumPixels: Int
+  ) throws -> Camera {
+    let size = try size(of: id, maximumPixels: maximumPixels)
+    let camera = reconstruction.camera(of: id).resized(width: size.width, height: size.height)
+    return camera.distortion == .zero
+      ? camera : camera.undistortedPinhole(maximumPixels: maximumPixels)
   }
 
   /// The photo freed from lens distortion, at most `maximumPixels` large.
@@ -87,7 +137,7 @@ package final class ImageStore: Sendable {
     guard camera.distortion != .zero else {
       return PinholeView(photo: id, image: image, camera: camera, cameraFromWorld: pose)
     }
-    let pinhole = camera.undistortedPinhole(maximumPixels: maximumPixels)
+    let pinhole = try pinholeCamera(of: id, in: reconstruction, maximumPixels: maximumPixels)
     return PinholeView(
       photo: id, image: try image.undistorted(from: camera, to: pinhole), camera: pinhole,
       cameraFromWorld: pose)
@@ -100,14 +150,37 @@ package final class ImageStore: Sendable {
     return array[id.index]
   }
 
-  private func decode(_ photo: Photo) throws -> RasterImage {
-    do {
-      let image = try ImageCodec.decode(ImageCodec.contents(of: photo.url))
+  /// The upright photo, at a half, a quarter or an eighth of its sides where that is still at least
+  /// `size` and costs less.
+  private func decode(_ photo: Photo, atLeast size: (width: Int, height: Int)) throws -> RasterImage
+  {
+    // Only sizes without remainder: pixels at the border must stand for as much as all others.
+    let reduction =
+      ImageCodec.reductions.last {
+        photo.width % $0 == 0 && photo.height % $0 == 0 && photo.width / $0 >= size.width
+          && photo.height / $0 >= size.height
+      } ?? 1
+    let bytes = try contents(of: photo)
+    return try naming(photo) {
+      let image = try ImageCodec.decode(bytes, reducedBy: reduction)
         .turned(byOrientation: photo.orientation)
-      guard image.width == photo.width, image.height == photo.height else {
+      let isWhole = image.width == photo.width && image.height == photo.height
+      let isReduced =
+        image.width == photo.width / reduction && image.height == photo.height / reduction
+      guard isWhole || isReduced else {
         throw ImageError.unreadable("it has changed during the run")
       }
       return image
+    }
+  }
+
+  private func contents(of photo: Photo) throws -> [UInt8] {
+    try naming(photo) { try ImageCodec.contents(of: photo.url) }
+  }
+
+  private func naming<Value>(_ photo: Photo, _ body: () throws -> Value) throws -> Value {
+    do {
+      return try body()
     } catch let error as ImageError {
       throw PhotoReadError(name: photo.name, reason: error)
     }

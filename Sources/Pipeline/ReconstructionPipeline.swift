@@ -62,7 +62,7 @@ package final class ReconstructionPipeline {
     ingested = result
     images = ImageStore(
       photos: result.photos, byteBudget: configuration.imageMemory,
-      processingPixels: result.processingPixels)
+      processingPixels: result.processingPixels, contentHashes: result.contentHashes)
     return result
   }
 
@@ -115,7 +115,9 @@ package final class ReconstructionPipeline {
     let reconstruction = try align()
     let result = try run(.pointCloudGeneration) { context in
       let cloud = try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
-        .run(reconstruction, images: images, context.part(from: 0, to: 0.98))
+        .run(
+          reconstruction, images: images, folder: checkpoint?.views, context.part(from: 0, to: 0.98)
+        )
       try CloudMetrics().run(cloud, reconstruction, context.part(from: 0.98, to: 1))
       return cloud
     }

@@ -20,7 +20,7 @@ namespace ck {
 /// Throws unless an image of this size may be decoded.
 void require_within(const ck_decode_limits& limits, int64_t width, int64_t height);
 
-void decode_jpeg(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+void decode_jpeg(const uint8_t* bytes, size_t count, int reduction, const ck_decode_limits& limits,
                  ck_image& image);
 void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
                 ck_image& image);

@@ -64,13 +64,15 @@ void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& li
 }  // namespace ck
 
 ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec codec,
-                          const ck_decode_limits* limits, ck_image** image) {
+                          int32_t reduction, const ck_decode_limits* limits, ck_image** image) {
   return ck::guarded([&] {
     ck::require(bytes && byte_count > 0, "the file is empty");
+    ck::require(reduction == 1 || reduction == 2 || reduction == 4 || reduction == 8,
+                "sides are divided by 1, 2, 4 or 8");
     auto result = std::make_unique<ck_image>();
     switch (codec) {
       case ck_codec_jpeg:
-        ck::decode_jpeg(bytes, byte_count, *limits, *result);
+        ck::decode_jpeg(bytes, byte_count, reduction, *limits, *result);
         break;
       case ck_codec_png:
         ck::decode_png(bytes, byte_count, *limits, *result);

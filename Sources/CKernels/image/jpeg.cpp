@@ -60,21 +60,25 @@ void write_rgb_of_inverted_cmyk(const uint8_t* cmyk, size_t count, uint8_t* rgb)
 
 /// The part that `longjmp` may leave: it owns nothing that needs a destructor.
 bool read(jpeg_decompress_struct& decoder, Errors& errors, const uint8_t* bytes, size_t count,
-          const ck_decode_limits& limits, ck_image& image, std::vector<uint8_t>& row) {
+          int reduction, const ck_decode_limits& limits, ck_image& image,
+          std::vector<uint8_t>& row) {
   if (setjmp(errors.jump)) return false;
   jpeg_mem_src(&decoder, bytes, static_cast<unsigned long>(count));
   jpeg_read_header(&decoder, TRUE);
-  const int64_t width = decoder.image_width, height = decoder.image_height;
-  if (width < 1 || height < 1 || width > limits.maximum_side || height > limits.maximum_side ||
-      width * height > limits.maximum_pixels) {
+  const int64_t full_width = decoder.image_width, full_height = decoder.image_height;
+  if (full_width < 1 || full_height < 1 || full_width > limits.maximum_side ||
+      full_height > limits.maximum_side || full_width * full_height > limits.maximum_pixels) {
     std::snprintf(errors.message, sizeof errors.message, "%lld × %lld pixels are too many",
-                  static_cast<long long>(width), static_cast<long long>(height));
+                  static_cast<long long>(full_width), static_cast<long long>(full_height));
     return false;
   }
   const bool cmyk = decoder.jpeg_color_space == JCS_CMYK || decoder.jpeg_color_space == JCS_YCCK;
   decoder.out_color_space = cmyk ? JCS_CMYK : JCS_RGB;
   decoder.dct_method = JDCT_ISLOW;
+  decoder.scale_num = 1;
+  decoder.scale_denom = static_cast<unsigned>(reduction);
   jpeg_start_decompress(&decoder);
+  const int64_t width = decoder.output_width, height = decoder.output_height;
   image.width = static_cast<int32_t>(width);
   image.height = static_cast<int32_t>(height);
   image.pixels.resize(static_cast<size_t>(width * height) * 3);
@@ -96,7 +100,7 @@ bool read(jpeg_decompress_struct& decoder, Errors& errors, const uint8_t* bytes,
 
 }  // namespace
 
-void decode_jpeg(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+void decode_jpeg(const uint8_t* bytes, size_t count, int reduction, const ck_decode_limits& limits,
                  ck_image& image) {
   jpeg_decompress_struct decoder{};
   Errors errors{};
@@ -110,7 +114,7 @@ void decode_jpeg(const uint8_t* bytes, size_t count, const ck_decode_limits& lim
   decoder.progress = &progress;
   bool complete = false;
   try {
-    complete = read(decoder, errors, bytes, count, limits, image, row);
+    complete = read(decoder, errors, bytes, count, reduction, limits, image, row);
   } catch (...) {
     jpeg_destroy_decompress(&decoder);
     throw;

@@ -10,17 +10,52 @@ package enum AtomicFile {
 
   /// Writes `data`, replacing a file of that name. Throws `OutputError`.
   package static func write(_ data: Data, to url: URL) throws {
+    try write(to: url) { try data.write(to: $0) }
+  }
+
+  /// Writes the parts one after the other, replacing a file of that name. Throws `OutputError`.
+  package static func write(_ parts: [UnsafeRawBufferPointer], to url: URL) throws {
+    try write(to: url) { temporary in
+      let descriptor = open(temporary.path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0o666)
+      guard descriptor >= 0 else { throw lastError }
+      do {
+        for part in parts { try append(part, to: descriptor) }
+      } catch {
+        close(descriptor)
+        throw error
+      }
+      // Some file systems tell only now that the disk is full.
+      guard close(descriptor) == 0 else { throw lastError }
+    }
+  }
+
+  /// Calls `body` with a temporary name for the file and renames what it wrote.
+  private static func write(to url: URL, _ body: (URL) throws -> Void) throws {
     try checkParent(of: url)
     if isDirectory(url) { throw OutputError.isAFolder(path: url.path) }
     let temporary = temporaryURL(for: url)
     do {
-      try data.write(to: temporary)
+      try body(temporary)
       try rename(temporary, to: url)
     } catch {
       try? FileManager.default.removeItem(at: temporary)
       throw outputError(error, path: url.path)
     }
   }
+
+  private static func append(_ part: UnsafeRawBufferPointer, to descriptor: Int32) throws {
+    var rest = part[...]
+    while !rest.isEmpty {
+      let count = Foundation.write(
+        descriptor, UnsafeRawBufferPointer(rebasing: rest).baseAddress, rest.count)
+      if count < 0, errno == EINTR { continue }
+      guard count > 0 else { throw lastError }
+      rest = rest.dropFirst(count)
+    }
+  }
+
+  /// The last error of the system.
+  private static var lastError: POSIXError { POSIXError(POSIXErrorCode(rawValue: errno) ?? .EIO) }
 
   /// Throws an `OutputError` unless the folder that is to hold `url` exists and is writable.
   package static func checkParent(of url: URL) throws {
@@ -48,7 +83,7 @@ package enum AtomicFile {
 
   static func rename(_ source: URL, to destination: URL) throws {
     guard Foundation.rename(source.path, destination.path) == 0 else {
-      throw POSIXError(POSIXErrorCode(rawValue: errno) ?? .EIO)
+      throw lastError
     }
   }
 

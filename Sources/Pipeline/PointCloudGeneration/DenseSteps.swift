@@ -1,0 +1,208 @@
+import Kernels
+import SceneModel
+
+/// The steps of the dense stage, each for the views that the plan names. A step reads what the one
+/// before left in the workspace, and leaves its own there.
+struct DenseSteps {
+  private let views: DenseViews
+  private let workspace: PatchWorkspace
+  private let plan: DensePlan
+  private let options: PointCloudGeneration.Options
+  private let photos: SharedValues<PatchView>
+
+  init(
+    _ views: DenseViews, _ workspace: PatchWorkspace, _ plan: DensePlan,
+    _ options: PointCloudGeneration.Options
+  ) {
+    self.views = views
+    self.workspace = workspace
+    self.plan = plan
+    self.options = options
+    photos = SharedValues(
+      count: views.views.count,
+      capacity: options.keptBytes / 4 / max(1, 4 * views.largestPixelCount))
+  }
+
+  func run(
+    _ reconstruction: Reconstruction, _ images: ImageStore, _ context: StageContext
+  ) throws {
+    var parts = Progress(plan, context)
+    try makeViews(reconstruction, images, parts.next(.view))
+    try makePatches(parts.next(.patches))
+    try filter(parts.next(.states))
+    try fuse(parts.next(.cloud))
+  }
+
+  /// Frees the photos from distortion, at the stage's resolution.
+  private func makeViews(
+    _ reconstruction: Reconstruction, _ images: ImageStore, _ context: StageContext
+  ) throws {
+    try forEach(.view, context) { [self] index, _ in
+      let view = try photos.value(index) {
+        PatchView(
+          try images.pinholeView(
+            views.views[index].photo, of: reconstruction,
+            maximumPixels: options.maximumPixelsPerView))
+      }
+      try workspace.write(view.rgbBytes, views.key(.view, index))
+    }
+  }
+
+  /// Seeds, optimises and expands.
+  private func makePatches(_ context: StageContext) throws {
+    try forEach(.patches, context) { [self] index, control in
+      let view = views.views[index]
+      let map = PatchMap(view: try photo(index))
+      do {
+        try PatchStereo.reconstruct(
+          map, sources: try view.sources.map(photo),
+          seeds: view.points.compactMap { map.view.seed(at: $0) }, options: options.patches,
+          control: control)
+      } catch KernelError.degenerate {
+        // A view that shows none of its sparse points gives no patches; others may do without it.
+      }
+      try workspace.write(map.patchBytes, views.key(.patches, index))
+    }
+  }
+
+  /// Marks the patches that enough sources confirm.
+  private func filter(_ context: StageContext) throws {
+    let maps = makeMaps()
+    try forEach(.states, context) { [self] index, control in
+      let map = try self.map(index, in: maps)
+      try PatchStereo.filter(
+        map, neighbors: try views.views[index].sources.map { try self.map($0, in: maps) },
+        options: options.filter, control: control)
+      try workspace.write(
+        UnsafeRawBufferPointer(map.stateBytes), views.key(.states, index))
+    }
+    context.notes.count("peakMaps", Double(maps.peakCount))
+    context.notes.count("peakViews", Double(photos.peakCount))
+  }
+
+  /// Makes each view's points of the cloud.
+  private func fuse(_ context: StageContext) throws {
+    let maps = makeMaps()
+    try forEach(.cloud, context) { [self] index, control in
+      let map = try filteredMap(index, in: maps)
+      let cloud = try PatchStereo.fuse(
+        map, neighbors: try views.views[index].sources.map { try filteredMap($0, in: maps) },
+        options: options.filter, control: control)
+      let accepted = withUnsafeBytes(of: UInt64(map.acceptedCount)) { Array($0) }
+      try (accepted + cloud.encoded()).withUnsafeBytes {
+        try workspace.write($0, views.key(.cloud, index))
+      }
+    }
+  }
+
+  /// Puts the views' points together, in the order of the views.
+  func cloud(_ context: StageContext) throws -> PointCloud {
+    var (cloud, accepted) = (PointCloud(), 0)
+    for index in views.indices {
+      try context.step(index, of: views.views.count)
+      let key = views.key(.cloud, index)
+      guard let bytes = workspace.bytes(key), bytes.count >= 8,
+        cloud.append(encoded: bytes.dropFirst(8))
+      else { throw WorkspaceError.changed(file: workspace.url(key).path) }
+      accepted += bytes.withUnsafeBytes { Int(clamping: $0.loadUnaligned(as: UInt64.self)) }
+    }
+    warnOfGaps(Double(accepted) / Double(max(1, views.pixelCount)), context.notes)
+    return cloud
+  }
+
+  private func warnOfGaps(_ ratio: Double, _ notes: StageNotes) {
+    notes.count("acceptedPixelRatio", ratio)
+    guard ratio < options.sparseRatio else { return }
+    notes.warn(
+      "Only \((1000 * ratio).rounded() / 10) % of the photos' area could be measured, so the "
+        + "model has large gaps: take more photos, from places further to the side of each other.")
+  }
+}
+
+extension DenseSteps {
+  /// Calls `body` for each view that lacks a step's file.
+  private func forEach(
+    _ step: PatchWorkspace.Step, _ context: StageContext,
+    _ body: @escaping @Sendable (Int, KernelControl) throws -> Void
+  ) throws {
+    let indices = plan[step]
+    _ = try context.control.parallelUnits(indices.count) { try body(indices[$0], $1) }
+  }
+
+  private func photo(_ index: Int) throws -> PatchView {
+    try photos.value(index) {
+      let (view, key) = (views.views[index], views.key(.view, index))
+      return try PatchView(
+        photo: view.photo, camera: view.camera, cameraFromWorld: view.cameraFromWorld,
+        width: key.width, height: key.height
+      ) { try read(key, into: $0) }
+    }
+  }
+
+  private func makeMaps() -> SharedValues<PatchMap> {
+    SharedValues(
+      count: views.views.count,
+      capacity: options.keptBytes / 4 * 3
+        / max(1, PatchMap.bytesPerPixel * views.largestPixelCount))
+  }
+
+  /// A view's patches as the last step left them.
+  private func map(_ index: Int, in maps: SharedValues<PatchMap>) throws -> PatchMap {
+    try maps.value(index) {
+      try PatchMap(view: try photo(index)) { try read(views.key(.patches, index), into: $0) }
+    }
+  }
+
+  /// A view's patches with what became of them in the filter.
+  private func filteredMap(_ index: Int, in maps: SharedValues<PatchMap>) throws -> PatchMap {
+    try maps.value(index) {
+      let map = try PatchMap(view: try photo(index)) {
+        try read(views.key(.patches, index), into: $0)
+      }
+      try read(views.key(.states, index), into: map.stateBytes)
+      return map
+    }
+  }
+
+  private func read(
+    _ key: PatchWorkspace.Key, into buffer: UnsafeMutableRawBufferPointer
+  ) throws {
+    guard workspace.read(key, into: buffer) else {
+      throw WorkspaceError.changed(file: workspace.url(key).path)
+    }
+  }
+
+  /// Shares the stage's progress between the steps by what they have to do.
+  private struct Progress {
+    private let context: StageContext
+    private let shares: [PatchWorkspace.Step: Double]
+    private var done = 0.0
+
+    /// Usual seconds a view of each step, by those of patches.
+    private static let costs: [(PatchWorkspace.Step, Double)] = [
+      (.view, 0.05), (.patches, 1), (.states, 0.05), (.cloud, 0.05),
+    ]
+
+    init(_ plan: DensePlan, _ context: StageContext) {
+      self.context = context
+      let work = Self.costs.map { ($0, $1 * Double(plan[$0].count)) }
+      let sum = work.reduce(0) { $0 + $1.1 }
+      shares = Dictionary(uniqueKeysWithValues: work.map { ($0, sum > 0 ? $1 / sum : 0) })
+    }
+
+    mutating func next(_ step: PatchWorkspace.Step) -> StageContext {
+      let start = done
+      done = min(1, done + (shares[step] ?? 0))
+      return context.part(from: start, to: done)
+    }
+  }
+}
+
+extension PatchView {
+  /// The seed of a sparse point; nil behind the camera.
+  fileprivate func seed(at point: SIMD3<Double>) -> PatchSeed? {
+    let seen = cameraFromWorld * point
+    guard seen.z > 0 else { return nil }
+    return PatchSeed(pixel: SIMD2<Float>(camera.project(seen)), inverseDepth: Float(1 / seen.z))
+  }
+}

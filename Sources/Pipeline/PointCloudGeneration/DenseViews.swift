@@ -1,0 +1,148 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// The views that take part in the dense stage, with what each step needs to know of them.
+struct DenseViews: Sendable {
+  struct View: Sendable {
+    var photo: ID<Photo>
+    /// Without distortion, at the stage's resolution.
+    var camera: Camera
+    var cameraFromWorld: RigidTransform
+    /// Positions in `views` of those that it is compared with, the best first.
+    var sources: [Int]
+    /// Sparse points that the photo observes.
+    var points: [SIMD3<Double>]
+
+    var pixelCount: Int { camera.width * camera.height }
+  }
+
+  /// In the order of the photos.
+  let views: [View]
+  /// By step, the fingerprint of each view's file.
+  private let fingerprints: [PatchWorkspace.Step: [UInt64]]
+
+  /// Throws `PipelineError.noSurface` where no two photos can be compared.
+  init(
+    _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options
+  ) throws {
+    let sources = SourceSelection().run(reconstruction)
+    let photos = reconstruction.registered.filter { !sources[$0.index].isEmpty }
+    guard !photos.isEmpty else {
+      throw PipelineError.noSurface(reason: "no two photos share enough points.")
+    }
+    let points = Self.points(of: reconstruction)
+    let position = Dictionary(uniqueKeysWithValues: photos.enumerated().map { ($1, $0) })
+    views = try photos.map { photo in
+      View(
+        photo: photo,
+        camera: try images.pinholeCamera(
+          of: photo, in: reconstruction, maximumPixels: options.maximumPixelsPerView),
+        cameraFromWorld: reconstruction.poses[photo.index] ?? .identity,
+        sources: sources[photo.index].compactMap { position[$0] }, points: points[photo.index])
+    }
+    fingerprints = try Self.fingerprints(views, reconstruction, images, options)
+  }
+
+  var indices: Range<Int> { views.indices }
+  var pixelCount: Int { views.reduce(0) { $0 + $1.pixelCount } }
+  var largestPixelCount: Int { views.map(\.pixelCount).max() ?? 0 }
+
+  /// What a view's file of a step must be.
+  func key(_ step: PatchWorkspace.Step, _ index: Int) -> PatchWorkspace.Key {
+    let view = views[index]
+    return PatchWorkspace.Key(
+      step: step, photo: view.photo, width: view.camera.width, height: view.camera.height,
+      fingerprint: fingerprints[step]?[index] ?? 0)
+  }
+
+  /// The views and all their sources, ascending.
+  func withSources(_ indices: [Int]) -> [Int] {
+    Set(indices.flatMap { [$0] + views[$0].sources }).sorted()
+  }
+
+  /// The sparse points that each photo observes, by photo id.
+  private static func points(of reconstruction: Reconstruction) -> [[SIMD3<Double>]] {
+    var points = [[SIMD3<Double>]](repeating: [], count: reconstruction.photos.count)
+    for point in reconstruction.points {
+      for observation in point.track { points[observation.photo.index].append(point.position) }
+    }
+    return points
+  }
+}
+
+extension DenseViews {
+  /// Each step's fingerprint holds those of the files that it reads, so that what depends on a
+  /// change is made again, and nothing else.
+  private static func fingerprints(
+    _ views: [View], _ reconstruction: Reconstruction, _ images: ImageStore,
+    _ options: PointCloudGeneration.Options
+  ) throws -> [PatchWorkspace.Step: [UInt64]] {
+    let (patchOptions, filterOptions) = (try json(options.patches), try json(options.filter))
+    let photos = try views.map { view in
+      fingerprint(view, try images.fingerprint(of: view.photo), reconstruction)
+    }
+    let patches = chain(photos, views) { fingerprint, view in
+      fingerprint.add(patchOptions)
+      fingerprint.add(view.points.count)
+      view.points.forEach { fingerprint.add($0) }
+    }
+    let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
+    let clouds = chain(states, views) { fingerprint, view in
+      // Points name the photos that see them.
+      for photo in [view.photo] + view.sources.map({ views[$0].photo }) {
+        fingerprint.add(photo.index)
+      }
+    }
+    return [.view: photos, .patches: patches, .states: states, .cloud: clouds]
+  }
+
+  /// The fingerprints of a step that reads the files of a view and its sources.
+  private static func chain(
+    _ inputs: [UInt64], _ views: [View], _ add: (inout Fingerprint, View) -> Void
+  ) -> [UInt64] {
+    views.indices.map { index in
+      var fingerprint = Fingerprint()
+      fingerprint.add(inputs[index])
+      fingerprint.add(views[index].sources.count)
+      views[index].sources.forEach { fingerprint.add(inputs[$0]) }
+      add(&fingerprint, views[index])
+      return fingerprint.value
+    }
+  }
+
+  private static func fingerprint(
+    _ view: View, _ photo: UInt64, _ reconstruction: Reconstruction
+  ) -> UInt64 {
+    var fingerprint = Fingerprint()
+    fingerprint.add(ProgramIdentity.fingerprint)
+    fingerprint.add(photo)
+    // The photo's own camera, and the one that it gives at this resolution.
+    for camera in [reconstruction.camera(of: view.photo), view.camera] {
+      fingerprint.add(camera.width)
+      fingerprint.add(camera.height)
+      fingerprint.add(camera.focalLength)
+      fingerprint.add(camera.principalPoint)
+      fingerprint.add(camera.distortion)
+    }
+    view.cameraFromWorld.rotation.matrix.elements.forEach { fingerprint.add($0) }
+    fingerprint.add(view.cameraFromWorld.translation)
+    return fingerprint.value
+  }
+
+  private static func json(_ value: some Encodable) throws -> Data {
+    let encoder = JSONEncoder()
+    encoder.outputFormatting = .sortedKeys
+    return try encoder.encode(value)
+  }
+}
+
+/// Tells programs apart whose steps may give other results.
+private enum ProgramIdentity {
+  /// Of the program file's content: any change of the code counts.
+  static let fingerprint: UInt64 = {
+    let path = Bundle.main.executablePath ?? "/proc/self/exe"
+    let content = try? Data(contentsOf: URL(fileURLWithPath: path), options: .alwaysMapped)
+    return content?.withUnsafeBytes { XXHash64.hash($0) } ?? 0
+  }()
+}

@@ -1,0 +1,206 @@
+import Formats
+import Foundation
+import SceneModel
+
+/// A folder with what the dense stage has made of each view so far, a file a view and step.
+///
+/// ```
+/// 0012.view      the photo without distortion, RGB
+/// 0012.patches   its patches
+/// 0012.states    which of them passed the filter
+/// 0012.cloud     its points of the fused cloud
+/// ```
+/// A file is there whole or not at all, and holds the fingerprint of all that it was made from: one
+/// that is cut off, damaged, or of other photos, cameras, options or another program counts as
+/// missing. Several processes may work in one folder. Its files may be deleted at any time between
+/// runs. Numbers are in the machine's byte order, which the first word tells.
+final class PatchWorkspace: Sendable {
+  /// A step whose results are kept.
+  enum Step: String, CaseIterable, Sendable { case view, patches, states, cloud }
+
+  /// What a file must be to be of use.
+  struct Key: Hashable, Sendable {
+    var step: Step
+    var photo: ID<Photo>
+    /// Pixels of the view.
+    var width: Int
+    var height: Int
+    /// Of all that the file is made from.
+    var fingerprint: UInt64
+  }
+
+  let folder: URL
+  /// Whether it goes away at the end.
+  let isTemporary: Bool
+
+  /// Opens or makes the folder; without one a temporary one in `temporaryParent`, which `close`
+  /// removes.
+  init(folder: URL?, temporaryParent: URL = PatchWorkspace.temporaryParent) throws {
+    self.folder =
+      folder ?? temporaryParent.appendingPathComponent("photogrammetry-\(UUID().uuidString)")
+    isTemporary = folder == nil
+    do {
+      try FileManager.default.createDirectory(at: self.folder, withIntermediateDirectories: true)
+    } catch {
+      throw WorkspaceError.notWritable(folder: self.folder.path, isTemporary: isTemporary)
+    }
+    removeRemains()
+  }
+
+  /// Removes a temporary folder.
+  func close() {
+    if isTemporary { try? FileManager.default.removeItem(at: folder) }
+  }
+
+  /// Throws where the disk has no room for so many bytes.
+  func checkSpace(_ needed: Int) throws {
+    let values = try? FileManager.default.attributesOfFileSystem(forPath: folder.path)
+    guard let free = (values?[.systemFreeSize] as? NSNumber)?.intValue, free < needed else {
+      return
+    }
+    throw WorkspaceError.noSpace(
+      folder: folder.path, needed: needed, free: free, isTemporary: isTemporary)
+  }
+
+  /// Writes a view's file, or replaces it.
+  func write(_ payload: UnsafeRawBufferPointer, _ key: Key) throws {
+    let header = Header(key, payload)
+    do {
+      try withUnsafeBytes(of: header.words) { try AtomicFile.write([$0, payload], to: url(key)) }
+    } catch OutputError.diskFull {
+      throw WorkspaceError.noSpace(
+        folder: folder.path, needed: payload.count, free: 0, isTemporary: isTemporary)
+    } catch OutputError.notWritable {
+      throw WorkspaceError.notWritable(folder: folder.path, isTemporary: isTemporary)
+    }
+  }
+
+  /// Reads a file into `buffer`, which has its very size; false where the file is of no use.
+  func read(_ key: Key, into buffer: UnsafeMutableRawBufferPointer) -> Bool {
+    guard let file = InputFile(url(key)), let header = Header(file), header.isFor(key),
+      header.byteCount == buffer.count, file.byteCount == Header.byteCount + buffer.count,
+      file.read(into: buffer)
+    else { return false }
+    return header == Header(key, UnsafeRawBufferPointer(buffer))
+  }
+
+  /// Reads a file of any size; nil where it is of no use.
+  func bytes(_ key: Key) -> [UInt8]? {
+    guard let file = InputFile(url(key)), let header = Header(file), header.isFor(key),
+      header.byteCount == file.byteCount - Header.byteCount
+    else { return nil }
+    var isComplete = false
+    let bytes = [UInt8](unsafeUninitializedCapacity: header.byteCount) { buffer, count in
+      isComplete = file.read(into: UnsafeMutableRawBufferPointer(buffer))
+      count = isComplete ? header.byteCount : 0
+    }
+    guard isComplete else { return nil }
+    return bytes.withUnsafeBytes { header == Header(key, $0) } ? bytes : nil
+  }
+
+  func url(_ key: Key) -> URL {
+    let number = String(key.photo.index)
+    let padding = String(repeating: "0", count: max(0, 4 - number.count))
+    return folder.appendingPathComponent("\(padding)\(number).\(key.step.rawValue)")
+  }
+
+  /// Removes what runs that were killed had not finished; others may be writing at this moment.
+  private func removeRemains() {
+    let manager = FileManager.default
+    let names = (try? manager.contentsOfDirectory(atPath: folder.path)) ?? []
+    for name in names where name.hasPrefix(".") && name.hasSuffix(".partial") {
+      let path = folder.appendingPathComponent(name).path
+      let date = (try? manager.attributesOfItem(atPath: path))?[.modificationDate] as? Date
+      if let date, date.timeIntervalSinceNow < -600 { try? manager.removeItem(atPath: path) }
+    }
+  }
+
+  /// `TMPDIR`, else the folder that is meant for large files: `/tmp` is often memory.
+  static var temporaryParent: URL {
+    let large = "/var/tmp"
+    let isChosen = ProcessInfo.processInfo.environment["TMPDIR"]?.isEmpty == false
+    return !isChosen && FileManager.default.isWritableFile(atPath: large)
+      ? URL(fileURLWithPath: large, isDirectory: true) : FileManager.default.temporaryDirectory
+  }
+}
+
+extension PatchWorkspace {
+  /// The beginning of a file.
+  private struct Header: Equatable {
+    /// "PATCHES1" in ASCII.
+    private static let magic: UInt64 = 0x3153_4548_4354_4150
+    static let byteCount = MemoryLayout<SIMD8<UInt64>>.size
+
+    /// Magic number, step, fingerprint, width, height, bytes that follow, their checksum, 0.
+    let words: SIMD8<UInt64>
+
+    init(_ key: Key, _ payload: UnsafeRawBufferPointer) {
+      var words = SIMD8<UInt64>(repeating: 0)
+      words[0] = Self.magic
+      words[1] = Self.number(of: key.step)
+      words[2] = key.fingerprint
+      words[3] = UInt64(key.width)
+      words[4] = UInt64(key.height)
+      words[5] = UInt64(payload.count)
+      words[6] = XXHash64.hash(payload, seed: key.fingerprint)
+      self.words = words
+    }
+
+    /// Nil where the file has none.
+    init?(_ file: borrowing InputFile) {
+      var words = SIMD8<UInt64>(repeating: 0)
+      guard withUnsafeMutableBytes(of: &words, { file.read(into: $0) }), words[0] == Self.magic,
+        words[5] <= UInt64(Int.max / 2)
+      else { return nil }
+      self.words = words
+    }
+
+    var byteCount: Int { Int(words[5]) }
+
+    func isFor(_ key: Key) -> Bool {
+      words[1] == Self.number(of: key.step) && words[2] == key.fingerprint
+        && words[3] == UInt64(key.width) && words[4] == UInt64(key.height)
+    }
+
+    private static func number(of step: Step) -> UInt64 {
+      UInt64(Step.allCases.firstIndex(of: step) ?? 0)
+    }
+  }
+}
+
+/// Why the dense stage can't keep what it makes.
+enum WorkspaceError: LocalizedError, Equatable, Sendable {
+  case noSpace(folder: String, needed: Int, free: Int, isTemporary: Bool)
+  case notWritable(folder: String, isTemporary: Bool)
+  case changed(file: String)
+
+  var errorDescription: String? {
+    switch self {
+    case .noSpace(let folder, let needed, let free, _):
+      "\(folder) has room for \(Self.size(free)), and the patches of the views need "
+        + "\(Self.size(needed))."
+    case .notWritable(let folder, _):
+      "\(folder) can't be written, and the patches of the views must go there."
+    case .changed(let file):
+      "\(file) was changed or deleted during the run."
+    }
+  }
+
+  var recoverySuggestion: String? {
+    switch self {
+    case .noSpace(_, _, _, true):
+      "Free some space, let TMPDIR name a folder on a larger disk, or choose a lower detail level."
+    case .noSpace:
+      "Free some space, name a folder on a larger disk, or choose a lower detail level."
+    case .notWritable(_, true): "Let TMPDIR name a folder that you may write to."
+    case .notWritable: "Name a folder that you may write to, or change its permissions."
+    case .changed: "Start again: all other views are kept."
+    }
+  }
+
+  private static func size(_ bytes: Int) -> String {
+    let megabytes = (Double(bytes) / 1e6).rounded(.up)
+    return megabytes < 1000
+      ? "\(Int(megabytes)) MB" : "\((megabytes / 100).rounded(.up) / 10) GB"
+  }
+}

@@ -1,0 +1,77 @@
+import SceneModel
+
+extension PointCloud {
+  /// The cloud as bytes: counts of points and of photo indices, then one array after the other.
+  func encoded() -> [UInt8] {
+    var bytes: [UInt8] = []
+    bytes.reserveCapacity(16 + count * 36 + photoIndices.count * 2)
+    func append(_ values: [some BitwiseCopyable]) {
+      values.withUnsafeBytes { bytes.append(contentsOf: $0) }
+    }
+    append([UInt64(count), UInt64(photoIndices.count)])
+    for vectors in [positions, normals] {
+      for axis in 0..<3 { append(vectors.map { $0[axis] }) }
+    }
+    append(consistency)
+    append(footprints)
+    append(photoIndices)
+    append(zip(photoOffsets.dropFirst(), photoOffsets).map { UInt8(clamping: $0 - $1) })
+    for channel in 0..<3 { append(colors.map { $0[channel] }) }
+    return bytes
+  }
+
+  /// Appends what `encoded` made; false, with nothing appended, where it isn't that.
+  mutating func append(encoded bytes: ArraySlice<UInt8>) -> Bool {
+    bytes.withUnsafeBytes { bytes in
+      guard bytes.count >= 16 else { return false }
+      let counts = (0..<2).map { bytes.loadUnaligned(fromByteOffset: 8 * $0, as: UInt64.self) }
+      guard counts.allSatisfy({ $0 <= UInt64(bytes.count) }) else { return false }
+      let (points, indices) = (Int(counts[0]), Int(counts[1]))
+      guard bytes.count == 16 + points * 36 + indices * 2 else { return false }
+      var reader = ArrayReader(bytes: bytes, offset: 16)
+      let vectors = (0..<6).map { _ in reader.array(points, of: Float.self) }
+      let values = (0..<2).map { _ in reader.array(points, of: Float.self) }
+      let photos = reader.array(indices, of: UInt16.self)
+      let photoCounts = reader.array(points, of: UInt8.self)
+      guard photoCounts.reduce(0, { $0 + Int($1) }) == indices else { return false }
+      let channels = (0..<3).map { _ in reader.array(points, of: UInt8.self) }
+      for i in 0..<points {
+        positions.append([vectors[0][i], vectors[1][i], vectors[2][i]])
+        normals.append([vectors[3][i], vectors[4][i], vectors[5][i]])
+        colors.append([channels[0][i], channels[1][i], channels[2][i]])
+        photoOffsets.append((photoOffsets.last ?? 0) + UInt32(photoCounts[i]))
+      }
+      consistency += values[0]
+      footprints += values[1]
+      photoIndices += photos
+      return true
+    }
+  }
+
+  /// Makes room for so many points more.
+  mutating func reserve(_ points: Int, photoIndices indices: Int) {
+    positions.reserveCapacity(count + points)
+    normals.reserveCapacity(count + points)
+    colors.reserveCapacity(count + points)
+    consistency.reserveCapacity(count + points)
+    footprints.reserveCapacity(count + points)
+    photoOffsets.reserveCapacity(count + points + 1)
+    photoIndices.reserveCapacity(photoIndices.count + indices)
+  }
+}
+
+/// Reads arrays that follow each other; the caller has checked that they are there.
+private struct ArrayReader {
+  let bytes: UnsafeRawBufferPointer
+  var offset: Int
+
+  mutating func array<Element: BitwiseCopyable>(_ count: Int, of type: Element.Type) -> [Element] {
+    defer { offset += count * MemoryLayout<Element>.stride }
+    let source = UnsafeRawBufferPointer(
+      rebasing: bytes[offset..<offset + count * MemoryLayout<Element>.stride])
+    return [Element](unsafeUninitializedCapacity: count) { buffer, initialized in
+      UnsafeMutableRawBufferPointer(buffer).copyMemory(from: source)
+      initialized = count
+    }
+  }
+}

@@ -1,0 +1,24 @@
+/// Collects what a result depends on and gives it a number that changes with any of it.
+package struct Fingerprint {
+  private var bytes: [UInt8] = []
+
+  package init() {}
+
+  package mutating func add(_ value: UInt64) {
+    withUnsafeBytes(of: value.littleEndian) { bytes.append(contentsOf: $0) }
+  }
+
+  package mutating func add(_ value: Int) { add(UInt64(bitPattern: Int64(value))) }
+  package mutating func add(_ value: Double) { add(value.bitPattern) }
+  package mutating func add(_ value: SIMD2<Double>) { for i in 0..<2 { add(value[i]) } }
+  package mutating func add(_ value: SIMD3<Double>) { for i in 0..<3 { add(value[i]) } }
+  package mutating func add(_ value: SIMD4<Double>) { for i in 0..<4 { add(value[i]) } }
+
+  /// Adds a sequence with its length, so that its end is told from what follows.
+  package mutating func add(_ content: some Collection<UInt8>) {
+    add(content.count)
+    bytes.append(contentsOf: content)
+  }
+
+  package var value: UInt64 { bytes.withUnsafeBytes { XXHash64.hash($0) } }
+}
