@@ -126,6 +126,23 @@ package final class ReconstructionPipeline {
     return result
   }
 
+  /// Makes the patches of a share of the views and leaves them in the checkpoint directory, which must
+  /// be there, for `densify(for:)` to go on with.
+  package func makePatches(
+    _ share: PointCloudGeneration.Share, for specification: DetailSpecification
+  ) throws {
+    plan(for: [specification])
+    let (_, images) = try input()
+    let reconstruction = try align()
+    try run(.pointCloudGeneration) { context in
+      guard let folder = checkpoint?.views else {
+        throw KernelError.invalidArgument("a share of the views needs a checkpoint directory")
+      }
+      try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
+        .run(share, of: reconstruction, images: images, folder: folder, context)
+    }
+  }
+
   /// Makes the surface of the object, or of everything where masking is off, unsimplified.
   package func surface(for specification: DetailSpecification) throws -> Mesh {
     plan(for: [specification])

@@ -63,7 +63,30 @@ import Testing
     #expect(report.worldFrame?.scale == .given)
     #expect((report.stages.last?.counts["points"] ?? 0) > 5000)
     let files = try FileManager.default.subpathsOfDirectory(atPath: folder.path + "/work").sorted()
-    #expect(files == ["dense", "dense/points.ply", "report.json"])
+    #expect(
+      files.filter { !$0.hasPrefix("dense/views/") }
+        == ["dense", "dense/points.ply", "dense/views", "report.json"])
+  }
+
+  @Test func jobsLeaveTheirShareOfTheViews() throws {
+    let scene = scene()
+    let poses = try makePhotos(scene)
+    try write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: "rig/cameras.txt")
+    try write(poses.joined(), as: "rig/images.txt")
+    let arguments = ["densify", "photos", "rig", "work", "--view-pixels", "10000"]
+    let run = try CommandProcess.run(arguments + ["--job", "2/3"], in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    #expect(run.output == "work/dense/views\n")
+    let files = try FileManager.default.subpathsOfDirectory(atPath: folder.path + "/work").sorted()
+    #expect(
+      files.filter { $0.hasSuffix(".patches") }
+        == ["dense/views/0001.patches", "dense/views/0004.patches"])
+    let rest = try CommandProcess.run(arguments, in: folder)
+    #expect(rest.exitCode == 0)
+    #expect(rest.errors.contains("2 of 5 views"), "\(rest.errors)")
+    for job in ["0/3", "4/3", "2", "a/b", "1/0"] {
+      #expect(try CommandProcess.run(arguments + ["--job", job], in: folder).exitCode != 0)
+    }
   }
 
   @Test func camerasOfOtherPhotosEndWithOne() throws {

@@ -104,4 +104,50 @@ import Testing
       try store.pinholeView(ID(0), of: scene, maximumPixels: 1000)
     }
   }
+
+  /// Orientation 6 turns by 90 degrees, 405 has no half without remainder, and 800 / 250 is between
+  /// a quarter and a half.
+  @Test(arguments: [(800, 600, 1), (800, 600, 6), (405, 300, 1), (803, 601, 1)])
+  func smallCopiesOfJPEGsAreThoseOfTheWhole(
+    width: Int, height: Int, orientation: Int
+  ) throws {
+    let folder = try TemporaryFolder()
+    let bytes = try ImageCodec.encodeJPEG(
+      TexturePattern.image(width: width, height: height, seed: 3), quality: 0.95)
+    let url = try folder.write(bytes, as: "a.jpg")
+    let whole = try ImageCodec.decode(bytes).turned(byOrientation: orientation)
+    let photo = Photo(
+      id: ID(0), sampleID: 0, name: "a.jpg", url: url, width: whole.width, height: whole.height,
+      orientation: orientation, camera: ID(0))
+    for pixels in [250_000, 100_000, 40_000, 9000] {
+      let small = try ImageStore(photos: [photo]).image(ID(0), maximumPixels: pixels)
+      let expected = try whole.reduced(to: pixels)
+      #expect(small.width == expected.width)
+      #expect(small.height == expected.height)
+      let differences = zip(small.pixels, expected.pixels).map { abs(Int($0) - Int($1)) }
+      #expect(differences.reduce(0, +) < differences.count)
+      #expect(differences.max() ?? 0 < 20)
+    }
+  }
+
+  @Test func fingerprintsFollowContentAndSize() throws {
+    let folder = try TemporaryFolder()
+    let images = (0..<2).map { TexturePattern.image(width: 400, height: 300, seed: $0) }
+    for (index, image) in images.enumerated() {
+      try folder.write(ImageCodec.encodeJPEG(image, quality: 0.9), as: "\(index).jpg")
+    }
+    let ingested = try PhotoIngestion().run(folder: folder.url, StageContext())
+    let stores = [[], ingested.contentHashes].map {
+      ImageStore(photos: ingested.photos, contentHashes: $0)
+    }
+    for store in stores {
+      #expect(try store.fingerprint(of: ID(0)) == store.fingerprint(of: ID(0)))
+      #expect(try store.fingerprint(of: ID(0)) != store.fingerprint(of: ID(1)))
+    }
+    let reduced = ImageStore(photos: ingested.photos, processingPixels: 50_000)
+    #expect(try reduced.fingerprint(of: ID(0)) != stores[0].fingerprint(of: ID(0)))
+    let before = try stores[0].fingerprint(of: ID(0))
+    try folder.write(ImageCodec.encodeJPEG(images[0], quality: 0.8), as: "0.jpg")
+    #expect(try stores[0].fingerprint(of: ID(0)) != before)
+  }
 }

@@ -48,6 +48,13 @@
         DETAIL LEVELS (at most so many pixels of a photo are used)
           preview 0.25, reduced 0.5, medium 1, full 2, raw 4 megapixels
 
+        JOBS
+          --job 2/8 makes the patches of every eighth view, from the second on,
+          in <output>/dense/views/, which is nine tenths of the work, and stops.
+          Jobs may run one after the other or at once, also on several machines
+          that share <output>. Then the same command without --job makes the
+          cloud.
+
         Exit codes: 0 the cloud was written, 1 the photos give none with these cameras, 2 the \
         command line can't be carried out, 130 interrupted.
         """)
@@ -70,6 +77,12 @@
       help: ArgumentHelp(
         "Pixels of a view at most, in the place of the level's.", visibility: .hidden))
     var viewPixels: Int?
+
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Make the patches of a share of the views only.", valueName: "number/count"))
+    var job: JobArgument?
 
     @Flag(
       name: .long,
@@ -103,7 +116,7 @@
       let pipeline = ReconstructionPipeline(
         folder: folder, configuration: configuration, knownCameras: cameras, flag: flag,
         onEvent: listener.take)
-      let outcome = Result { try pipeline.densify(for: try specification()) }
+      let outcome = Result { try work(pipeline) }
       listener.finish()
       try arguments.writeReport(of: pipeline)
       if case .failure(let error) = outcome {
@@ -112,11 +125,34 @@
           sentence: "Interrupted; no points were written.",
           exitCode: CommandFailure.interruptedCode)
       }
-      Terminal.shared.result(target.appendingPathComponent("dense/points.ply").relativePath)
+      let result = job == nil ? "dense/points.ply" : "dense/views"
+      Terminal.shared.result(target.appendingPathComponent(result).relativePath)
+    }
+  }
+
+  /// One of several jobs, as in "2/8".
+  struct JobArgument: ExpressibleByArgument {
+    let share: PointCloudGeneration.Share
+
+    init?(argument: String) {
+      let numbers = argument.split(separator: "/", omittingEmptySubsequences: false).map { Int($0) }
+      guard numbers.count == 2, let number = numbers[0], let count = numbers[1], count >= 1,
+        (1...count).contains(number)
+      else { return nil }
+      share = PointCloudGeneration.Share(index: number - 1, of: count)
     }
   }
 
   extension Densify {
+    private func work(_ pipeline: ReconstructionPipeline) throws {
+      let specification = try specification()
+      if let job {
+        try pipeline.makePatches(job.share, for: specification)
+      } else {
+        _ = try pipeline.densify(for: specification)
+      }
+    }
+
     private func specification() throws -> DetailSpecification {
       guard let level = DetailLevel(rawValue: detail.rawValue) else {
         throw CommandFailure.usage("There is no detail level '\(detail.rawValue)'.")

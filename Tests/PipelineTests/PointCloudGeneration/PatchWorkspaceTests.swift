@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import Synchronization
 import TestSupport
 import Testing
 
@@ -193,6 +194,20 @@ import Testing
       try PointCloudGeneration().run(
         .init(index: 3, of: 3), of: Self.scene.reconstruction, images: images,
         folder: folder.url, StageContext())
+    }
+  }
+
+  @Test func progressOnlyGrows() throws {
+    let folder = try TemporaryFolder()
+    for expected in [40, 2] {
+      let fractions = Mutex<[Double]>([])
+      _ = try run(
+        in: folder.url, control: KernelControl { new in fractions.withLock { $0.append(new) } })
+      let seen = fractions.withLock { $0 }
+      #expect(zip(seen, seen.dropFirst()).allSatisfy { $0 <= $1 + 1e-12 })
+      #expect(seen.count >= expected)
+      #expect(try #require(seen.last) <= 1)
+      #expect(seen.allSatisfy { $0 >= 0 })
     }
   }
 
