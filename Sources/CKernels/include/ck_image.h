@@ -41,8 +41,8 @@ typedef struct {
 /// are turned by their own tag), alpha is dropped, 16 bits become 8, gray, palette and CMYK become
 /// RGB.
 ///
-/// `reduction` is 1, 2, 4 or 8: a JPEG comes with its sides divided by it and rounded up, which takes
-/// less time; other formats come whole.
+/// `reduction` is 1, 2, 4 or 8: a JPEG comes with its sides divided by it and rounded up, which
+/// takes less time; other formats come whole.
 ///
 /// A JPEG whose pixel data is damaged or cut off fails with a message that says so.
 ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec codec,
