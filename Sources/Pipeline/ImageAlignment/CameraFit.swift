@@ -13,14 +13,13 @@ struct CameraFit: Hashable {
 
   /// Nil where the camera is for a photo of another shape.
   init?(_ camera: Camera, to photo: Photo, isSizeKnown: Bool) {
+    var camera = camera
+    if !isSizeKnown {
+      guard let size = Self.size(camera.principalPoint, photo) else { return nil }
+      (camera.width, camera.height) = size
+    }
     self.camera = camera
     original = [Double(camera.width), Double(camera.height)]
-    guard isSizeKnown else {
-      (self.camera.width, self.camera.height) = (photo.width, photo.height)
-      let center = camera.principalPoint / SIMD2(Double(photo.width), Double(photo.height))
-      guard center.min() > 0.25, center.max() < 0.75 else { return nil }
-      return
-    }
     if !Self.agree(camera, photo), let turns = [6: 1, 8: 3][photo.orientation] {
       for _ in 0..<turns { self.camera = self.camera.turnedClockwise() }
       quarterTurns = turns
@@ -31,6 +30,21 @@ struct CameraFit: Hashable {
       Double(photo.height) / Double(self.camera.height),
     ]
     self.camera = self.camera.resized(width: photo.width, height: photo.height)
+  }
+
+  /// The size, of the upright or of the stored photo, that has the principal point nearer to its
+  /// middle; nil where it is far from both.
+  private static func size(
+    _ principalPoint: SIMD2<Double>, _ photo: Photo
+  ) -> (width: Int, height: Int)? {
+    func offset(_ width: Int, _ height: Int) -> Double {
+      let place = principalPoint / SIMD2(Double(width), Double(height))
+      return max(abs(place.x - 0.5), abs(place.y - 0.5))
+    }
+    let upright = offset(photo.width, photo.height)
+    let stored = photo.orientation > 4 ? offset(photo.height, photo.width) : .infinity
+    guard min(upright, stored) < 0.2 else { return nil }
+    return upright <= stored ? (photo.width, photo.height) : (photo.height, photo.width)
   }
 
   /// Whether the shapes agree, up to a pixel of the smaller of the two.

@@ -20,7 +20,7 @@
           photogrammetry-cli densify photos/ sparse/0/ work/
               COLMAP's cameras; the photos needn't be undistorted.
           photogrammetry-cli align photos/ work/
-          photogrammetry-cli densify photos/ work/ work/ -d full
+          photogrammetry-cli densify photos/ work/ cloud/ -d full
               Our own cameras.
           photogrammetry-cli densify photos/ rig/ work/ --metric
               Cameras of a survey or a rig, in metres.
@@ -37,7 +37,7 @@
               [{"name": "IMG_1.jpg", "K": [[f, 0, cx], [0, f, cy], [0, 0, 1]],
                 "R": [[…], […], […]], "t": […], "width": 4000, "height": 3000}]
               where x_camera = R x_world + t, with x right, y down, z forward;
-              width and height may be left out.
+              width and height may be left out; they are then the photo's.
           Cameras are given to photos by file name. One that is for another
           size of the same shape is scaled. Pixels count from the corner of the
           top left one, in the photo turned upright by its EXIF orientation, as

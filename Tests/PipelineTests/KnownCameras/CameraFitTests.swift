@@ -69,6 +69,10 @@ import Testing
     let fit = try #require(CameraFit(camera, to: photo(404, 297), isSizeKnown: false))
     #expect(fit.camera.width == 404 && fit.camera.height == 297)
     #expect(fit.camera.focalLength == camera.focalLength)
+    let turned = try #require(
+      CameraFit(camera, to: photo(300, 400, orientation: 8), isSizeKnown: false))
+    #expect(turned.quarterTurns == 3)
+    #expect(turned.camera.width == 300 && turned.camera.principalPoint == [160, 210])
     #expect(CameraFit(camera, to: photo(200, 150), isSizeKnown: false) == nil)
     #expect(CameraFit(camera, to: photo(1000, 750), isSizeKnown: false) == nil)
   }
