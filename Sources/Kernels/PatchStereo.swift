@@ -109,19 +109,19 @@ package enum PatchStereo {
   /// How patches are made.
   package struct Options: Hashable, Codable, Sendable {
     /// Resolutions, each half of the next.
-    package var levelCount = 3
+    package var levelCount = 4
     /// Sweeps of expansion at the coarsest level.
     package var coarseSweeps = 2
     /// Random planes tried around the current one at the coarsest level.
     package var perturbations = 3
-    /// Gauss–Newton steps at the finer levels.
+    /// Gauss–Newton steps.
     package var refinementSteps = 2
     /// Sources that a pixel keeps for the finest level.
-    package var finestSources = 4
+    package var finestSources = 6
     /// Grey levels at which the bilateral weight is one half.
     package var bilateralContrast: Float = 10
-    /// Standard deviation of the photos' noise in grey levels.
-    package var noise: Float = 1
+    /// Standard deviation of the photos' noise in grey levels; estimated from each view where nil.
+    package var noise: Float?
     package var seed: UInt32 = 1
     /// Of the inner loops; results differ by rounding only.
     package var instructions = Instructions.automatic
@@ -223,7 +223,8 @@ extension PatchStereo.Options {
     ck_patch_options(
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
-      finest_sources: Int32(finestSources), bilateral_contrast: bilateralContrast, noise: noise,
+      finest_sources: Int32(finestSources), bilateral_contrast: bilateralContrast,
+      noise: noise ?? 0,
       seed: seed, instructions: instructions.raw)
   }
 }

@@ -28,7 +28,8 @@ typedef struct {
 /// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
 typedef struct {
   float inverse_depth, gradient_x, gradient_y;
-  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
+  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch. From 0.4 where texture is
+  /// so weak that the patch is that of a coarser level.
   float cost;
 } ck_patch;
 
@@ -40,13 +41,13 @@ typedef struct {
   int32_t coarse_sweeps;
   /// Random planes tried around the current one at the coarsest level.
   int32_t perturbations;
-  /// Gauss–Newton steps at the finer levels.
+  /// Gauss–Newton steps.
   int32_t refinement_steps;
   /// Sources that a pixel keeps for the finest level.
   int32_t finest_sources;
   /// Grey levels at which the bilateral weight is one half.
   float bilateral_contrast;
-  /// Standard deviation of the photos' noise in grey levels.
+  /// Standard deviation of the photos' noise in grey levels; 0 to estimate it from the reference.
   float noise;
   /// The same seed gives the same patches.
   uint32_t seed;

@@ -20,11 +20,13 @@ void expand(Grid& grid, const Comparison& comparison, const Kernels& kernels, co
       const Plane& beside = grid.planes[grid.index(x + direction, y)];
       const Plane& above = grid.planes[grid.index(x, y + direction)];
       const auto step_back = static_cast<float>(-direction);
-      if (beside.w > 0) pixel.offer(beside.at(step_back, 0));
-      if (above.w > 0) pixel.offer(above.at(0, step_back));
-      if (pixel.is_empty()) continue;
-      if (sweep.perturbations > 0) pixel.perturb(sweep.perturbations, sweep.seed);
-      if (sweep.refinement_steps > 0) pixel.refine(sweep.refinement_steps);
+      if (beside.w > 0) pixel.offer_different(beside.at(step_back, 0));
+      if (above.w > 0) pixel.offer_different(above.at(0, step_back));
+      if (!pixel.is_empty()) {
+        pixel.perturb(sweep.perturbations, sweep.seed);
+        pixel.refine(sweep.refinement_steps);
+      }
+      if (sweep.may_inherit) pixel.settle();
     }
   }
 }

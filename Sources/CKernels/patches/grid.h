@@ -12,6 +12,9 @@ struct Plane {
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
+/// The least that a patch of weak texture costs, so that the filter asks one more view about it.
+constexpr float kWeakCost = 0.4f;
+
 /// What a plane costs at a pixel and which sources see it well.
 struct Score {
   /// The mean of the best two sources' 1 − ZNCC.
@@ -47,6 +50,8 @@ struct Comparison {
   int kept_sources = 4;
   /// Inverse depths between which a patch may lie.
   float minimum_w = 0, maximum_w = 0;
+  /// Pixels by which a source moves, at most, with inverse depth.
+  float motion = 0;
   /// Focal lengths and principal point, to bound the slant.
   float fx = 1, fy = 1, cx = 0, cy = 0;
 };
@@ -66,12 +71,17 @@ struct alignas(64) ReferencePatch {
 };
 
 /// What the sources show where a plane puts the patch: computed with the score, used by the step.
+///
+/// Sources stand in slots, four a group; a vector holds a row of four texels for each of a group.
 struct alignas(64) Samples {
-  /// Grey values by source.
-  float values[kMaxSources][kTexels];
-  float mean[kMaxSources], inverse_deviation[kMaxSources];
+  /// Grey values by row.
+  float values[2][4][16];
+  float mean[2][16], inverse_deviation[2][16];
   /// Motion of the patch with inverse depth, in pixels of the reference.
-  float motion_x[kMaxSources], motion_y[kMaxSources];
+  float motion_x[2][16], motion_y[2][16];
+  int group_count = 0;
+  /// The slots of the best sources, a bit each.
+  unsigned best_slots = 0;
 };
 
 /// The inner loops, compiled for each instruction set.
@@ -80,10 +90,10 @@ struct Kernels {
   /// `sources` is a bit mask of the sources to compare with.
   Score (*score)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
                  const Plane& plane, uint8_t sources, Samples& samples);
-  /// One Gauss–Newton step on inverse depth and gradient over `sources`, which were scored at
-  /// `plane`. False where they do not determine one.
+  /// One Gauss–Newton step on inverse depth and gradient over the best sources, which were scored
+  /// at `plane`. False where they do not determine one.
   bool (*step)(const ReferencePatch& patch, const Samples& samples, const Plane& plane,
-               uint8_t sources, Plane& result);
+               Plane& result);
 };
 
 /// The kernels for the instructions. Throws where the processor lacks them.

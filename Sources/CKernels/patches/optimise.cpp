@@ -1,5 +1,7 @@
 #include "patches/optimise.h"
 
+#include <cmath>
+
 #include "core/random.h"
 
 namespace ck::patches {
@@ -12,11 +14,11 @@ PatchOptimiser::PatchOptimiser(Grid& grid, const Comparison& comparison, const K
       y_(y),
       plane_(grid.planes[grid.index(x, y)]),
       score_(grid.scores[grid.index(x, y)]),
-      sources_(sources) {
+      sources_(sources),
+      inherited_{plane_, score_} {
   kernels.prepare(reference_, comparison, x, y);
-  const Plane start = plane_;
   score_ = Score();
-  if (start.w > 0) offer(start);
+  if (inherited_.plane.w > 0) offer(inherited_.plane);
 }
 
 bool PatchOptimiser::offer(const Plane& plane) {
@@ -28,6 +30,28 @@ bool PatchOptimiser::offer(const Plane& plane) {
   plane_ = plane;
   current_ = 1 - current_;
   return true;
+}
+
+float PatchOptimiser::motion_to(const Plane& plane) const {
+  constexpr float kReach = 2;  // the patch's outermost texels
+  const float slope = std::fabs(plane.gx - plane_.gx) + std::fabs(plane.gy - plane_.gy);
+  return (std::fabs(plane.w - plane_.w) + kReach * slope) * comparison_.motion;
+}
+
+void PatchOptimiser::offer_different(const Plane& plane) {
+  constexpr float kSame = 0.4f;  // Gauss–Newton gets there by itself.
+  if (is_empty() || motion_to(plane) > kSame) offer(plane);
+}
+
+void PatchOptimiser::settle() {
+  constexpr float kDistinct = 0.95f;  // deviation over noise of about 3
+  constexpr float kMargin = 0.1f;
+  const bool is_weak = reference_.confidence < kDistinct;
+  if (inherited_.plane.w > 0 && is_weak && inherited_.score.cost + kMargin < score_.cost) {
+    plane_ = inherited_.plane;
+    score_ = inherited_.score;
+    if (score_.cost < kWeakCost) score_.cost = kWeakCost + 0.25f * score_.cost;
+  }
 }
 
 void PatchOptimiser::perturb(int count, uint32_t seed) {
@@ -43,9 +67,11 @@ void PatchOptimiser::perturb(int count, uint32_t seed) {
 }
 
 void PatchOptimiser::refine(int steps) {
+  constexpr float kConverged = 0.1f;  // Scoring it costs more than it brings.
   for (int i = 0; i < steps && score_.best; ++i) {
     Plane next;
-    if (!kernels_.step(reference_, samples_[current_], plane_, score_.best, next)) return;
+    if (!kernels_.step(reference_, samples_[current_], plane_, next)) return;
+    if (motion_to(next) < kConverged) return;
     if (!offer(next)) return;
   }
 }

@@ -20,7 +20,6 @@ std::vector<std::vector<Image>> make_pyramids(const ck_patch_view& reference,
     pyramid[0].height = view.height;
     pyramid[0].luma.assign(view.luma, view.luma + static_cast<size_t>(view.width) * view.height);
     for (int level = 1; level < levels; ++level) pyramid.push_back(half(pyramid.back()));
-    if (i > 0) std::for_each(pyramid.begin(), pyramid.end(), pack);
     pyramids.push_back(std::move(pyramid));
   }
   return pyramids;
@@ -40,7 +39,7 @@ void bound_depth(Comparison& comparison, const ck_patch_seed* seeds, size_t coun
 }
 
 Comparison compare(const ck_patch_view& reference, const ck_patch_view* sources,
-                   const std::vector<std::vector<Image>>& pyramids, int level,
+                   const std::vector<std::vector<Image>>& pyramids, int level, float noise,
                    const ck_patch_options& options) {
   const double scale = 1.0 / (1 << level);
   const Image& image = pyramids[0][level];
@@ -50,16 +49,33 @@ Comparison compare(const ck_patch_view& reference, const ck_patch_view* sources,
   c.luma = image.luma.data();
   c.bilateral_contrast = options.bilateral_contrast;
   // Averaging 2 × 2 pixels halves the noise.
-  c.noise_variance = static_cast<float>(options.noise * options.noise * scale * scale);
+  c.noise_variance = static_cast<float>(noise * noise * scale * scale);
   c.kept_sources = options.finest_sources;
   c.fx = static_cast<float>(reference.fx * scale);
   c.fy = static_cast<float>(reference.fy * scale);
   c.cx = static_cast<float>(reference.cx * scale);
   c.cy = static_cast<float>(reference.cy * scale);
   for (size_t s = 0; s + 1 < pyramids.size(); ++s) {
-    add_warp(c.warps, reference, sources[s], scale, pyramids[s + 1][level]);
+    add_source(c.warps, reference, sources[s], scale, pyramids[s + 1][level]);
   }
   return c;
+}
+
+/// The largest motion in a source, in pixels, with the inverse depth of the view's centre.
+float largest_motion(const Comparison& c) {
+  const float x = 0.5f * c.width, y = 0.5f * c.height, w = 0.5f * (c.minimum_w + c.maximum_w);
+  float largest = 0;
+  for (int s = 0; s < c.warps.count; ++s) {
+    float q[3], e[3];
+    for (int i = 0; i < 3; ++i) {
+      e[i] = c.warps.epipole[i][s];
+      q[i] = c.warps.base[i][s] + x * c.warps.column0[i][s] + y * c.warps.column1[i][s] + w * e[i];
+    }
+    if (!(q[2] > 0)) continue;
+    const float du = (e[0] - q[0] / q[2] * e[2]) / q[2], dv = (e[1] - q[1] / q[2] * e[2]) / q[2];
+    largest = std::max(largest, std::sqrt(du * du + dv * dv));
+  }
+  return largest;
 }
 
 /// The levels that leave the coarsest grid a useful size.
@@ -86,11 +102,13 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
                  const ck_control* control) {
   const int levels = level_count(reference, sources, count, options.level_count);
   const auto pyramids = make_pyramids(reference, sources, count, levels);
+  const float noise = options.noise > 0 ? options.noise : noise_of(pyramids[0][0]);
   Grid grid;
   double progress = 0;
   for (int level = levels - 1; level >= 0; --level) {
-    Comparison comparison = compare(reference, sources, pyramids, level, options);
+    Comparison comparison = compare(reference, sources, pyramids, level, noise, options);
     bound_depth(comparison, seeds, seed_count);
+    comparison.motion = largest_motion(comparison);
     const bool is_coarsest = level == levels - 1;
     if (is_coarsest) {
       grid = Grid(comparison.width, comparison.height);
@@ -104,8 +122,9 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
       Sweep sweep;
       sweep.is_forward = (level + i) % 2 == 0;
       sweep.perturbations = is_coarsest ? options.perturbations : 0;
-      sweep.refinement_steps = is_coarsest && levels > 1 ? 0 : options.refinement_steps;
+      sweep.refinement_steps = options.refinement_steps;
       sweep.uses_kept_sources = level == 0 && levels > 1;
+      sweep.may_inherit = !is_coarsest;
       sweep.seed = options.seed + static_cast<uint32_t>(16 * level + i);
       expand(grid, comparison, kernels(options.instructions), sweep, control,
              progress + (end - progress) * i / sweeps,

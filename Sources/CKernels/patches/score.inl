@@ -6,8 +6,15 @@ namespace {
 
 #define CK_INLINE inline __attribute__((always_inline))
 
+// A vector of 16 lanes holds one row of four texels for each of four sources.
+constexpr int kSlots = 4;
+constexpr int kRows = 4;
+constexpr float kOffset[4] = {-2, -1, 1, 2};
 const F16 kDx = {-2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2};
-const F16 kDy = {-2, -2, -2, -2, -1, -1, -1, -1, 1, 1, 1, 1, 2, 2, 2, 2};
+
+/// A Gaussian of two pixels: what is near the centre says most about it.
+const F16 kProximity = {0.368f, 0.535f, 0.535f, 0.368f, 0.535f, 0.779f, 0.779f, 0.535f,
+                        0.535f, 0.779f, 0.779f, 0.535f, 0.368f, 0.535f, 0.535f, 0.368f};
 
 CK_INLINE float sum(const F16& v) {
   const F8 a = v.lo + v.hi;
@@ -69,14 +76,70 @@ CK_INLINE void locate(const Warps& t, int x, int y, const Plane& p, Footprints& 
   f.motion_y = (f.ax * dv - f.ay * du) * inverse_area;
 }
 
-/// The grey values of source `s` at the 16 texels, bilinearly.
-CK_INLINE F16 sample(const Warps& t, const Footprints& f, int s) {
-  const F16 u = (f.u[s] - 0.5f) + kDx * f.ax[s] + kDy * f.bx[s];
-  const F16 v = (f.v[s] - 0.5f) + kDx * f.ay[s] + kDy * f.by[s];
+/// A row of four values, once for each source.
+CK_INLINE F16 row(const float* values, int j) {
+  F4 v;
+  __builtin_memcpy(&v, values + 4 * j, sizeof v);
+  return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
+}
+
+/// In all lanes of a source the sum of its four.
+CK_INLINE F16 sum_by_source(const F16& v) {
+  const F16 a =
+      v + __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
+  return a + __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
+}
+
+/// Sums over the sources.
+CK_INLINE F4 fold(const F16& v) {
+  const F8 a = v.lo + v.hi;
+  return a.lo + a.hi;
+}
+
+CK_INLINE float sum(const F4& v) { return (v.x + v.z) + (v.y + v.w); }
+
+/// Which sources the slots of two groups hold, as indices of lanes; free slots repeat the first.
+struct Slots {
+  uint8_t sources[256][kMaxSources] = {};
+  Slots() {
+    for (int mask = 1; mask < 256; ++mask) {
+      int slot = 0;
+      for (int s = 0; s < kMaxSources; ++s) {
+        if (mask >> s & 1) sources[mask][slot++] = static_cast<uint8_t>(s);
+      }
+      for (; slot < kMaxSources; ++slot) sources[mask][slot] = sources[mask][0];
+    }
+  }
+};
+const Slots kSourcesOf;
+
+/// The patch in four sources.
+struct Quad {
+  F16 u, v, bx, by;
+  I16 offset, stride;
+};
+
+CK_INLINE Quad quad(const Warps& t, const Footprints& f, const I16& lanes) {
+  Quad q;
+  q.u = spread(f.u, lanes) - 0.5f + kDx * spread(f.ax, lanes);
+  q.v = spread(f.v, lanes) - 0.5f + kDx * spread(f.ay, lanes);
+  q.bx = spread(f.bx, lanes);
+  q.by = spread(f.by, lanes);
+  I8 offset, stride;
+  __builtin_memcpy(&offset, t.offset, sizeof offset);
+  __builtin_memcpy(&stride, t.stride, sizeof stride);
+  q.offset = __builtin_bit_cast(I16, spread(__builtin_bit_cast(F8, offset), lanes));
+  q.stride = __builtin_bit_cast(I16, spread(__builtin_bit_cast(F8, stride), lanes));
+  return q;
+}
+
+/// The grey values of four sources at a row of texels, bilinearly.
+CK_INLINE F16 sample(const Warps& t, const Quad& q, float dy) {
+  const F16 u = q.u + dy * q.bx, v = q.v + dy * q.by;
   const I16 iu = __builtin_convertvector(u, I16), iv = __builtin_convertvector(v, I16);
   const F16 ru = u - __builtin_convertvector(iu, F16), rv = v - __builtin_convertvector(iv, F16);
   I16 word;
-  gather(word, t.packed[s], iv * t.stride[s] + iu);
+  gather(word, t.texels.data(), iv * q.stride + (iu + q.offset));
   const F16 p00 = __builtin_convertvector(word & 255, F16);
   const F16 p10 = __builtin_convertvector((word >> 8) & 255, F16);
   const F16 p01 = __builtin_convertvector((word >> 16) & 255, F16);
@@ -88,11 +151,11 @@ CK_INLINE F16 sample(const Warps& t, const Footprints& f, int s) {
 void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
   const uint8_t* center = c.luma + static_cast<ptrdiff_t>(y) * c.width + x;
   float grey[kTexels], gx[kTexels], gy[kTexels];
-  constexpr int kOffset[4] = {-2, -1, 1, 2};
-  for (int j = 0; j < 4; ++j) {
-    const uint8_t* row = center + static_cast<ptrdiff_t>(kOffset[j]) * c.width;
+  constexpr int kStep[4] = {-2, -1, 1, 2};
+  for (int j = 0; j < kRows; ++j) {
+    const uint8_t* row = center + static_cast<ptrdiff_t>(kStep[j]) * c.width;
     for (int i = 0; i < 4; ++i) {
-      const uint8_t* p = row + kOffset[i];
+      const uint8_t* p = row + kStep[i];
       grey[4 * j + i] = p[0];
       gx[4 * j + i] = 0.5f * (p[1] - p[-1]);
       gy[4 * j + i] = 0.5f * (p[c.width] - p[-c.width]);
@@ -101,6 +164,7 @@ void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
   const F16 value = load(grey);
   const F16 contrast = (value - static_cast<float>(*center)) * (1 / c.bilateral_contrast);
   F16 weight = 1.0f / (1.0f + contrast * contrast);
+  weight = weight * kProximity;
   weight = weight * (1 / sum(weight));
   const F16 centered = value - sum(weight * value);
   const float variance = sum(weight * centered * centered);
@@ -114,74 +178,121 @@ void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
   store(patch.gradient_y, load(gy) * scale);
 }
 
-/// The mean of the two lowest costs, and the sources of the lowest ones.
-CK_INLINE Score summarise(const float* costs, int count, int kept_sources) {
-  float best = 2, second = 2;
-  for (int s = 0; s < count; ++s) {
-    second = std::min(second, std::max(best, costs[s]));
-    best = std::min(best, costs[s]);
+/// The two lowest of some costs.
+struct Lowest {
+  float first = 2, second = 2;
+};
+
+CK_INLINE Lowest lowest(const F4& c) {
+  const float low = std::min(c.x, c.y), high = std::max(c.x, c.y);
+  const float low2 = std::min(c.z, c.w), high2 = std::max(c.z, c.w);
+  return {std::min(low, low2), std::min(std::max(low, low2), std::min(high, high2))};
+}
+
+/// How many costs come before each, in order of cost, then of slot.
+CK_INLINE I8 ranks(const F8& c) {
+  const I8 slot = {0, 1, 2, 3, 4, 5, 6, 7};
+  I8 rank = 0;
+  for (int s = 0; s < kMaxSources; ++s) {
+    const F8 other = c[s];
+    rank -= (other < c) | ((other == c) & (slot > s));
   }
-  Score result;
-  result.cost = count == 1 ? best : 0.5f * (best + second);
-  for (int kept = 0; kept < kept_sources; ++kept) {
-    int argmin = -1;
-    for (int s = 0; s < count; ++s) {
-      if (costs[s] < 1 && !(result.best >> s & 1) && (argmin < 0 || costs[s] < costs[argmin])) {
-        argmin = s;
-      }
-    }
-    if (argmin < 0) break;
-    result.best |= static_cast<uint8_t>(1 << argmin);
-  }
-  return result;
+  return rank;
+}
+
+/// The slots of `count` that hold the lowest costs, at most `kept`, a bit each.
+CK_INLINE unsigned best_slots(const F8& costs, int count, int kept) {
+  const I8 is_useful = costs < 1.0f;
+  return count <= kept ? mask(is_useful) : mask(is_useful & (ranks(costs) < kept));
 }
 
 Score score(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
             uint8_t sources, Samples& samples) {
   Footprints f;
   locate(c.warps, x, y, plane, f);
-  const F16 weight = load(patch.weight), weighted = load(patch.weighted);
-  F8 mean = 0, square = 0, covariance = 0;
-  for (int s = 0; s < c.warps.count; ++s) {
-    if (!(sources >> s & 1) || !f.is_valid[s]) continue;
-    const F16 value = sample(c.warps, f, s);
-    const F16 weighted_value = weight * value;
-    mean[s] = sum(weighted_value);
-    square[s] = sum(weighted_value * value);
-    covariance[s] = sum(weighted * value);
-    store(samples.values[s], value);
+  const unsigned valid = mask(f.is_valid) & sources;
+  Score result;
+  if (!valid) return result;
+  const int count = __builtin_popcount(valid);
+  const uint8_t* of_slot = kSourcesOf.sources[valid];
+  typedef uint8_t B8 __attribute__((ext_vector_type(8)));
+  B8 bytes;
+  __builtin_memcpy(&bytes, of_slot, sizeof bytes);
+  const I8 slots = __builtin_convertvector(bytes, I8);
+  const I16 slot = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  samples.group_count = count > kSlots ? 2 : 1;
+  F4 costs[2] = {2, 2};
+  for (int g = 0; g < samples.group_count; ++g) {
+    const F4 four = __builtin_bit_cast(F4, g == 0 ? slots.lo : slots.hi);
+    const I16 lanes = __builtin_bit_cast(
+        I16, __builtin_shufflevector(four, four, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3));
+    const Quad q = quad(c.warps, f, lanes);
+    F16 mean = 0, square = 0, covariance = 0;
+    for (int j = 0; j < kRows; ++j) {
+      const F16 value = sample(c.warps, q, kOffset[j]);
+      const F16 weighted_value = row(patch.weight, j) * value;
+      mean += weighted_value;
+      square += weighted_value * value;
+      covariance += row(patch.weighted, j) * value;
+      store(samples.values[g][j], value);
+    }
+    mean = sum_by_source(mean);
+    const F16 variance =
+        __builtin_elementwise_max(sum_by_source(square) - mean * mean, F16(0)) + c.noise_variance;
+    const F16 inverse_deviation = 1.0f / __builtin_elementwise_sqrt(variance);
+    const F16 cost = 1.0f - sum_by_source(covariance) * inverse_deviation * patch.confidence;
+    const F16 known = slot < count - kSlots * g ? cost : F16(2);
+    costs[g] = __builtin_shufflevector(known, known, 0, 4, 8, 12);
+    store(samples.mean[g], mean);
+    store(samples.inverse_deviation[g], inverse_deviation);
+    store(samples.motion_x[g], spread(f.motion_x, lanes));
+    store(samples.motion_y[g], spread(f.motion_y, lanes));
   }
-  const F8 variance = __builtin_elementwise_max(square - mean * mean, F8(0)) + c.noise_variance;
-  const F8 inverse_deviation = 1.0f / __builtin_elementwise_sqrt(variance);
-  const F8 similarity = covariance * inverse_deviation * patch.confidence;
-  store8(samples.mean, mean);
-  store8(samples.inverse_deviation, inverse_deviation);
-  store8(samples.motion_x, f.motion_x);
-  store8(samples.motion_y, f.motion_y);
-  float costs[kMaxSources];
-  for (int s = 0; s < c.warps.count; ++s) {
-    costs[s] = (sources >> s & 1) && f.is_valid[s] ? 1 - similarity[s] : 2;
+  Lowest low = lowest(costs[0]);
+  if (samples.group_count > 1) {
+    const Lowest more = lowest(costs[1]);
+    low = {std::min(low.first, more.first),
+           std::min(std::max(low.first, more.first), std::min(low.second, more.second))};
   }
-  return summarise(costs, c.warps.count, c.kept_sources);
+  result.cost = c.warps.count == 1 ? low.first : 0.5f * (low.first + low.second);
+  const F8 all = __builtin_shufflevector(costs[0], costs[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  samples.best_slots = best_slots(all, count, c.kept_sources);
+  for (int k = 0; k < count; ++k) {
+    result.best |= static_cast<uint8_t>((samples.best_slots >> k & 1) << of_slot[k]);
+  }
+  // Those that see the patch much worse than the best one, for what is in front of it, don't vote.
+  samples.best_slots &= mask(all < 1.5f * low.first + 0.05f);
+  return result;
 }
 
-bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plane,
-          uint8_t sources, Plane& result) {
-  const F16 weight = load(patch.weight), reference = load(patch.value);
-  const F16 gx = load(patch.gradient_x), gy = load(patch.gradient_y);
-  F16 squares = 0, products = 0;
-  for (int s = 0; s < kMaxSources; ++s) {
-    if (!(sources >> s & 1)) continue;
-    const F16 value = load(samples.values[s]);
-    const F16 residual = (value - samples.mean[s]) * samples.inverse_deviation[s] - reference;
-    const F16 slope = gx * samples.motion_x[s] + gy * samples.motion_y[s];
-    squares += weight * slope * slope;
-    products += weight * slope * residual;
+bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plane, Plane& result) {
+  F16 squares = 0, squares_y = 0, squares_yy = 0, products = 0, products_y = 0;
+  const I16 bit = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4, 8, 8, 8, 8};
+  for (int g = 0; g < samples.group_count; ++g) {
+    const I16 is_used = (bit & static_cast<int>(samples.best_slots >> kSlots * g)) != 0;
+    const F16 share = is_used ? F16(1) : F16(0);
+    const F16 mean = load(samples.mean[g]);
+    const F16 inverse_deviation = load(samples.inverse_deviation[g]);
+    const F16 motion_x = load(samples.motion_x[g]), motion_y = load(samples.motion_y[g]);
+    for (int j = 0; j < kRows; ++j) {
+      const F16 residual =
+          (load(samples.values[g][j]) - mean) * inverse_deviation - row(patch.value, j);
+      const F16 slope = row(patch.gradient_x, j) * motion_x + row(patch.gradient_y, j) * motion_y;
+      const F16 weighted = share * row(patch.weight, j) * slope;
+      const F16 square = weighted * slope, product = weighted * residual;
+      const float dy = kOffset[j];
+      squares += square;
+      squares_y += dy * square;
+      squares_yy += dy * dy * square;
+      products += product;
+      products_y += dy * product;
+    }
   }
-  const float h00 = sum(squares), h01 = sum(squares * kDx), h02 = sum(squares * kDy);
-  const float h11 = sum(squares * kDx * kDx), h12 = sum(squares * kDx * kDy);
-  const float h22 = sum(squares * kDy * kDy);
-  const float b0 = -sum(products), b1 = -sum(products * kDx), b2 = -sum(products * kDy);
+  const F4 dx = {-2, -1, 1, 2};
+  const F4 h = fold(squares), hy = fold(squares_y), b = fold(products);
+  const float h00 = sum(h), h01 = sum(h * dx), h11 = sum(h * dx * dx);
+  const float h02 = sum(hy), h12 = sum(hy * dx), h22 = sum(fold(squares_yy));
+  const float b0 = -sum(b), b1 = -sum(b * dx), b2 = -sum(fold(products_y));
   // Levenberg's damping keeps weak directions where they are.
   const float damping = 1e-3f * (h00 + h11 + h22) + 1e-20f;
   const float a00 = h00 + damping, a11 = h11 + damping, a22 = h22 + damping;

@@ -21,6 +21,24 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
   lanes[1] = _mm256_i32gather_epi32(words, lanes[1], 4);
   __builtin_memcpy(&out, lanes, sizeof lanes);
 }
+
+inline __attribute__((always_inline)) F16 spread(const F8& values, const I16& lanes) {
+  __m256 from, to[2];
+  __m256i index[2];
+  __builtin_memcpy(&from, &values, sizeof from);
+  __builtin_memcpy(index, &lanes, sizeof index);
+  to[0] = _mm256_permutevar8x32_ps(from, index[0]);
+  to[1] = _mm256_permutevar8x32_ps(from, index[1]);
+  F16 out;
+  __builtin_memcpy(&out, to, sizeof out);
+  return out;
+}
+
+inline __attribute__((always_inline)) unsigned mask(const I8& lanes) {
+  __m256 signs;
+  __builtin_memcpy(&signs, &lanes, sizeof signs);
+  return static_cast<unsigned>(_mm256_movemask_ps(signs));
+}
 }  // namespace
 }  // namespace ck::patches
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <algorithm>
+#include <cstdlib>
 
 namespace ck::patches {
 
@@ -22,13 +24,41 @@ Image half(const Image& image) {
   return result;
 }
 
-void pack(Image& image) {
+float noise_of(const Image& image) {
+  constexpr int kBins = 256, kBlack = 4, kWhite = 251;
+  constexpr float kRounding = 0.29f, kLargest = 8;
+  // The tenth of a normal distribution that is nearest to 0 lies within 0.1257 deviations; the
+  // mask's gain is 6.
+  constexpr float kQuantile = 0.1f, kDeviation = 6 * 0.1257f;
+  std::vector<size_t> counts(kBins, 0);
+  size_t total = 0;
+  const int w = image.width;
+  for (int y = 1; y + 1 < image.height; y += 2) {
+    const uint8_t* p = &image.luma[static_cast<size_t>(y) * w];
+    for (int x = 1; x + 1 < w; x += 2) {
+      if (p[x] < kBlack || p[x] > kWhite) continue;
+      const int corners = p[x - w - 1] + p[x - w + 1] + p[x + w - 1] + p[x + w + 1];
+      const int sides = p[x - w] + p[x - 1] + p[x + 1] + p[x + w];
+      ++counts[std::min(kBins - 1, std::abs(corners - 2 * sides + 4 * p[x]))];
+      ++total;
+    }
+  }
+  const auto wanted = static_cast<size_t>(kQuantile * static_cast<float>(total));
+  size_t below = 0;
+  int bin = 0;
+  while (bin + 1 < kBins && below + counts[bin] <= wanted) below += counts[bin++];
+  const float part = counts[bin] ? static_cast<float>(wanted - below) / counts[bin] : 0;
+  // Bin 0 holds half as wide an interval as the others.
+  const float edge = bin == 0 ? 0.5f * part : bin - 0.5f + part;
+  return std::clamp(edge / kDeviation, kRounding, kLargest);
+}
+
+void pack(uint32_t* texels, const Image& image) {
   const int w = image.width, h = image.height;
-  image.packed.assign(static_cast<size_t>(w) * h, 0);
   for (int y = 0; y + 1 < h; ++y) {
     const uint8_t* upper = &image.luma[static_cast<size_t>(y) * w];
     const uint8_t* lower = upper + w;
-    uint32_t* out = &image.packed[static_cast<size_t>(y) * w];
+    uint32_t* out = texels + static_cast<size_t>(y) * w;
     for (int x = 0; x + 1 < w; ++x) {
       out[x] =
           upper[x] | upper[x + 1] << 8 | lower[x] << 16 | static_cast<uint32_t>(lower[x + 1]) << 24;
@@ -51,8 +81,8 @@ Matrix calibration(const ck_patch_view& view, double scale) {
 
 }  // namespace
 
-void add_warp(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
-              double scale, const Image& image) {
+void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
+                double scale, const Image& image) {
   const Eigen::Map<const Matrix> r_ref(reference.rotation), r_src(source.rotation);
   const Eigen::Map<const Eigen::Vector3d> t_ref(reference.translation), t_src(source.translation);
   const Matrix rotation = r_src * r_ref.transpose();
@@ -72,7 +102,9 @@ void add_warp(Warps& warps, const ck_patch_view& reference, const ck_patch_view&
   warps.limit_u[lane] = static_cast<float>(image.width) - 1.5f;
   warps.limit_v[lane] = static_cast<float>(image.height) - 1.5f;
   warps.stride[lane] = image.width;
-  warps.packed[lane] = image.packed.data();
+  warps.offset[lane] = static_cast<int>(warps.texels.size());
+  warps.texels.resize(warps.texels.size() + image.pixel_count());
+  pack(warps.texels.data() + warps.offset[lane], image);
 }
 
 }  // namespace ck::patches

@@ -19,16 +19,20 @@ constexpr int kMargin = 3;
 struct Image {
   int width = 0, height = 0;
   std::vector<uint8_t> luma;
-  /// A pixel, its right, lower and diagonal neighbour in one word, so that a bilinear sample is one
-  /// gather.
-  std::vector<uint32_t> packed;
+
+  size_t pixel_count() const { return static_cast<size_t>(width) * height; }
 };
 
 /// Halves both sides by averaging 2 × 2 pixels.
 Image half(const Image& image);
 
-/// Fills `packed`.
-void pack(Image& image);
+/// The standard deviation of the noise in grey levels, from what differs from a smooth surface in
+/// the smoothest parts of the photo (after Immerkær, CVIU 1996); at least that of rounding.
+float noise_of(const Image& image);
+
+/// Writes a word for each pixel: itself, its right, lower and diagonal neighbour, so that a
+/// bilinear sample is one gather.
+void pack(uint32_t* texels, const Image& image);
 
 /// Where the reference's pixels go in its sources, a lane a source:
 /// q = base + x · column0 + y · column1 + inverse depth · epipole, u = q.xy / q.z.
@@ -40,12 +44,13 @@ struct alignas(32) Warps {
   float base[3][kMaxSources] = {}, epipole[3][kMaxSources] = {};
   /// Largest coordinates that can be sampled.
   float limit_u[kMaxSources] = {}, limit_v[kMaxSources] = {};
-  int stride[kMaxSources] = {};
-  const uint32_t* packed[kMaxSources] = {};
+  /// Where a source's packed pixels begin in `texels`, and its width.
+  int offset[kMaxSources] = {}, stride[kMaxSources] = {};
+  std::vector<uint32_t> texels;
 };
 
 /// Appends a source to the reference's, both reduced to `scale` of their size.
-void add_warp(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
-              double scale, const Image& image);
+void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
+                double scale, const Image& image);
 
 }  // namespace ck::patches

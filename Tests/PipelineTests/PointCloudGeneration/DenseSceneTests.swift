@@ -37,8 +37,8 @@ import Testing
     let scores = try Self.rich.get().thresholds
     #expect(scores[0].precision > 0.96)
     #expect(scores[1].precision > 0.99)
-    #expect(scores[0].recall > 0.64)
-    #expect(scores[1].recall > 0.72)
+    #expect(scores[0].recall > 0.68)
+    #expect(scores[1].recall > 0.75)
   }
 
   /// A tenth of the contrast, and less in some regions: less is found, and hardly worse.
@@ -46,7 +46,7 @@ import Testing
     let (rich, low) = (try Self.rich.get(), try Self.scores(.lowTexture))
     #expect(low.thresholds[0].precision > 0.91)
     #expect(low.thresholds[1].precision > 0.98)
-    #expect(low.thresholds[1].recall > 0.5 * rich.thresholds[1].recall)
+    #expect(low.thresholds[1].recall > 0.72 * rich.thresholds[1].recall)
     #expect(low.accuracy < 2 * rich.accuracy)
   }
 
