@@ -28,8 +28,8 @@ typedef struct {
 /// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
 typedef struct {
   float inverse_depth, gradient_x, gradient_y;
-  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch. From 0.4 where texture is
-  /// so weak that the patch is that of a coarser level.
+  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch. From 0.4 where texture
+  /// is so weak that the patch is that of a coarser level.
   float cost;
 } ck_patch;
 
