@@ -224,8 +224,7 @@ extension PatchStereo.Options {
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
       finest_sources: Int32(finestSources), bilateral_contrast: bilateralContrast,
-      noise: noise ?? 0,
-      seed: seed, instructions: instructions.raw)
+      noise: noise ?? 0, seed: seed, instructions: instructions.raw)
   }
 }
 

@@ -50,6 +50,10 @@ bool ck_instructions_supported(ck_instructions instructions);
 /// Valid until the next kernel call on the same thread.
 const char* ck_last_error(void);
 
+/// The XXH64 hash of some bytes (Y. Collet): the same in every run and on every machine. It tells
+/// changed bytes, not forged ones.
+uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
+
 /// Redirects the messages of OpenCV, glog and Open3D away from the terminal. Call once.
 void ck_silence_libraries(void);
 

@@ -3,16 +3,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "ck_patches.h"
+#include "patches/view.h"
 
 namespace ck::patches {
 
-/// How a reference's pixels and their inverse depths go to a neighbour's patches:
-/// q = base + x · column0 + y · column1 + w · epipole, (u, v) = q.xy / q.z.
-struct Passage {
+/// How a reference's pixels and their inverse depths go to a neighbour's patches.
+struct Passage : PixelTransfer {
   Passage(const ck_patch_view& reference, const ck_patch_map& neighbor);
 
-  float column0[3], column1[3], base[3], epipole[3];
   /// Focal length of the neighbour over that of the reference.
   float magnification;
   int width, height;

@@ -5,6 +5,7 @@
 #include "patches/optimise.h"
 
 namespace ck::patches {
+
 void expand(Grid& grid, const Comparison& comparison, const Kernels& kernels, const Sweep& sweep,
             const ck_control* control, double progress_from, double progress_to) {
   const int rows = grid.height - 2 * kMargin, columns = grid.width - 2 * kMargin;

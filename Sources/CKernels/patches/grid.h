@@ -67,7 +67,6 @@ struct alignas(64) ReferencePatch {
   float gradient_x[kTexels], gradient_y[kTexels];
   /// deviation / sqrt(variance + noise): what weak texture takes off the correlation.
   float confidence;
-  float deviation;
 };
 
 /// What the sources show where a plane puts the patch: computed with the score, used by the step.

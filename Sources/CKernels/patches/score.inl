@@ -36,8 +36,6 @@ CK_INLINE F8 load8(const float* p) {
   return v;
 }
 
-CK_INLINE void store8(float* p, const F8& v) { __builtin_memcpy(p, &v, sizeof v); }
-
 CK_INLINE F8 absolute(const F8& v) { return __builtin_elementwise_abs(v); }
 
 /// Where a patch lies in each source: its centre and the affine map of the offsets.
@@ -99,9 +97,11 @@ CK_INLINE F4 fold(const F16& v) {
 CK_INLINE float sum(const F4& v) { return (v.x + v.z) + (v.y + v.w); }
 
 /// Which sources the slots of two groups hold, as indices of lanes; free slots repeat the first.
+///
+/// Made by the compiler: code of this file must not run before the processor is known.
 struct Slots {
   uint8_t sources[256][kMaxSources] = {};
-  Slots() {
+  constexpr Slots() {
     for (int mask = 1; mask < 256; ++mask) {
       int slot = 0;
       for (int s = 0; s < kMaxSources; ++s) {
@@ -111,7 +111,7 @@ struct Slots {
     }
   }
 };
-const Slots kSourcesOf;
+constexpr Slots kSourcesOf;
 
 /// The patch in four sources.
 struct Quad {
@@ -168,8 +168,7 @@ void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
   weight = weight * (1 / sum(weight));
   const F16 centered = value - sum(weight * value);
   const float variance = sum(weight * centered * centered);
-  patch.deviation = std::sqrt(variance);
-  patch.confidence = patch.deviation / std::sqrt(variance + c.noise_variance);
+  patch.confidence = std::sqrt(variance / (variance + c.noise_variance));
   const float scale = 1 / std::sqrt(variance + 1e-6f);
   store(patch.weight, weight);
   store(patch.value, centered * scale);

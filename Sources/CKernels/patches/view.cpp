@@ -81,23 +81,33 @@ Matrix calibration(const ck_patch_view& view, double scale) {
 
 }  // namespace
 
+PixelTransfer::PixelTransfer(const ck_patch_view& from, const ck_patch_view& to, double scale) {
+  const Eigen::Map<const Matrix> r_from(from.rotation), r_to(to.rotation);
+  const Eigen::Map<const Eigen::Vector3d> t_from(from.translation), t_to(to.translation);
+  const Matrix rotation = r_to * r_from.transpose();
+  const Eigen::Vector3d translation = t_to - rotation * t_from;
+  const Matrix k_to = calibration(to, scale);
+  const Matrix homography = k_to * rotation * calibration(from, scale).inverse();
+  const Eigen::Vector3d shift = k_to * translation;
+  // Pixel (0, 0) has its centre at (0.5, 0.5).
+  const Eigen::Vector3d origin = homography * Eigen::Vector3d(0.5, 0.5, 1);
+  for (int i = 0; i < 3; ++i) {
+    column0[i] = static_cast<float>(homography(i, 0));
+    column1[i] = static_cast<float>(homography(i, 1));
+    base[i] = static_cast<float>(origin(i));
+    epipole[i] = static_cast<float>(shift(i));
+  }
+}
+
 void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
                 double scale, const Image& image) {
-  const Eigen::Map<const Matrix> r_ref(reference.rotation), r_src(source.rotation);
-  const Eigen::Map<const Eigen::Vector3d> t_ref(reference.translation), t_src(source.translation);
-  const Matrix rotation = r_src * r_ref.transpose();
-  const Eigen::Vector3d translation = t_src - rotation * t_ref;
-  const Matrix k_src = calibration(source, scale);
-  const Matrix homography = k_src * rotation * calibration(reference, scale).inverse();
-  const Eigen::Vector3d epipole = k_src * translation;
-  // Pixel (0, 0) has its centre at (0.5, 0.5).
-  const Eigen::Vector3d base = homography * Eigen::Vector3d(0.5, 0.5, 1);
+  const PixelTransfer transfer(reference, source, scale);
   const int lane = warps.count++;
   for (int i = 0; i < 3; ++i) {
-    warps.column0[i][lane] = static_cast<float>(homography(i, 0));
-    warps.column1[i][lane] = static_cast<float>(homography(i, 1));
-    warps.base[i][lane] = static_cast<float>(base(i));
-    warps.epipole[i][lane] = static_cast<float>(epipole(i));
+    warps.column0[i][lane] = transfer.column0[i];
+    warps.column1[i][lane] = transfer.column1[i];
+    warps.base[i][lane] = transfer.base[i];
+    warps.epipole[i][lane] = transfer.epipole[i];
   }
   warps.limit_u[lane] = static_cast<float>(image.width) - 1.5f;
   warps.limit_v[lane] = static_cast<float>(image.height) - 1.5f;

@@ -34,8 +34,15 @@ float noise_of(const Image& image);
 /// bilinear sample is one gather.
 void pack(uint32_t* texels, const Image& image);
 
-/// Where the reference's pixels go in its sources, a lane a source:
-/// q = base + x · column0 + y · column1 + inverse depth · epipole, u = q.xy / q.z.
+/// Where the pixels of one view and their inverse depths w go in another, both reduced to `scale`
+/// of their size: q = base + x · column0 + y · column1 + w · epipole, (u, v) = q.xy / q.z.
+struct PixelTransfer {
+  PixelTransfer(const ck_patch_view& from, const ck_patch_view& to, double scale);
+
+  float column0[3], column1[3], base[3], epipole[3];
+};
+
+/// Where the reference's pixels go in its sources, a lane a source; see `PixelTransfer`.
 ///
 /// Lanes without source are zero, which no pixel projects to.
 struct alignas(32) Warps {

@@ -1,5 +1,6 @@
 import Formats
 import Foundation
+import Kernels
 import SceneModel
 
 /// A folder with what the dense stage has made of each view so far, a file a view and step.

@@ -47,17 +47,6 @@ extension PointCloud {
       return true
     }
   }
-
-  /// Makes room for so many points more.
-  mutating func reserve(_ points: Int, photoIndices indices: Int) {
-    positions.reserveCapacity(count + points)
-    normals.reserveCapacity(count + points)
-    colors.reserveCapacity(count + points)
-    consistency.reserveCapacity(count + points)
-    footprints.reserveCapacity(count + points)
-    photoOffsets.reserveCapacity(count + points + 1)
-    photoIndices.reserveCapacity(photoIndices.count + indices)
-  }
 }
 
 /// Reads arrays that follow each other; the caller has checked that they are there.

@@ -1,3 +1,5 @@
+import SceneModel
+
 /// Collects what a result depends on and gives it a number that changes with any of it.
 package struct Fingerprint {
   private var bytes: [UInt8] = []

@@ -1,4 +1,4 @@
-import SceneModel
+import Kernels
 import Testing
 
 @Suite struct FingerprintTests {
