@@ -33,6 +33,8 @@ package final class PatchMap: @unchecked Sendable {
   // Written by one call at a time; `PatchStereo` says in which order calls go.
   let patches: UnsafeMutablePointer<ck_patch>
   let states: UnsafeMutablePointer<UInt8>
+  /// The neighbours that agree with each patch, where `filter` was asked to tell.
+  private(set) var visibility: UnsafeMutablePointer<UInt8>?
   var count: Int { view.width * view.height }
 
   /// A map without patches.
@@ -60,13 +62,21 @@ package final class PatchMap: @unchecked Sendable {
   deinit {
     patches.deallocate()
     states.deallocate()
+    visibility?.deallocate()
+  }
+
+  /// Makes room for what `visibility` tells.
+  func makeVisibility() {
+    guard visibility == nil else { return }
+    visibility = .allocate(capacity: count)
+    visibility?.initialize(repeating: 0, count: count)
   }
 
   /// The C map, valid as long as this object lives.
   var raw: ck_patch_map {
     ck_patch_map(
       photo: Int32(view.photo.index), view: view.raw, rgb: view.rgb, patches: patches,
-      states: states)
+      states: states, visibility: visibility)
   }
 
   /// All patches as they are in memory, in the machine's byte order; valid as long as this object
@@ -108,7 +118,7 @@ package final class PatchMap: @unchecked Sendable {
 package enum PatchStereo {
   /// How patches are made.
   package struct Options: Hashable, Codable, Sendable {
-    /// Resolutions, each half of the next.
+    /// Resolutions, each half of the next, from that of the view down.
     package var levelCount = 4
     /// Sweeps of expansion at the coarsest level.
     package var coarseSweeps = 2
@@ -116,12 +126,8 @@ package enum PatchStereo {
     package var perturbations = 3
     /// Gauss–Newton steps.
     package var refinementSteps = 2
-    /// Sources that a pixel keeps for the finest level.
-    package var finestSources = 6
     /// Grey levels at which the bilateral weight is one half.
-    package var bilateralContrast: Float = 10
-    /// Standard deviation of the photos' noise in grey levels; estimated from each view where nil.
-    package var noise: Float?
+    package var bilateralContrast: Float = 6
     package var seed: UInt32 = 1
     /// Of the inner loops; results differ by rounding only.
     package var instructions = Instructions.automatic
@@ -152,13 +158,15 @@ package enum PatchStereo {
     /// Grey levels that make a pixel half like another.
     package var fringeContrast: Float = 10
     /// Connected patches fewer than this are removed.
-    package var minimumIsland = 30
+    package var minimumIsland: Int
     /// Pixels within which confirmations are fused.
     package var fusionThreshold: Float = 0.6
     /// Of the inner loops; results differ by rounding only.
     package var instructions = Instructions.automatic
 
-    package init() {}
+    package init(minimumIsland: Int = 30) {
+      self.minimumIsland = minimumIsland
+    }
   }
 
   /// Views that one reference is compared with at most.
@@ -183,18 +191,55 @@ package enum PatchStereo {
     withExtendedLifetime(sources) {}
   }
 
-  /// Marks the patches of `map` that enough of its neighbours confirm and no more contradict.
-  package static func filter(
-    _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, control: KernelControl
+  /// Makes the patches of `map`'s view from those at half the resolution, which the filter has judged
+  /// with visibility. `sources` are as they were for them, in the same order.
+  package static func refine(
+    _ map: PatchMap, from coarse: PatchMap, sources: [PatchView], options: Options,
+    control: KernelControl
   ) throws {
+    var (reference, rawCoarse, rawOptions) = (map.view.raw, coarse.raw, options.raw)
+    let rawSources = sources.prefix(maximumSources).map(\.raw)
+    try withExtendedLifetime((coarse, sources)) {
+      try withKernel(control) {
+        ck_patches_refine(
+          map.patches, &reference, rawSources, rawSources.count, &rawCoarse, &rawOptions, $0)
+      }
+    }
+  }
+
+  /// Marks the patches of `map` that enough of its neighbours confirm and no more contradict; `refine`
+  /// wants to know which do, too.
+  package static func filter(
+    _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, tellsVisibility: Bool = false,
+    control: KernelControl
+  ) throws {
+    if tellsVisibility { map.makeVisibility() }
     var (rawOptions, rawMap) = (options.raw, map.raw)
     let rawNeighbors = neighbors.map(\.raw)
     try withExtendedLifetime(neighbors) {
       try withKernel(control) {
         ck_patches_filter(
-          map.states, &rawMap, rawNeighbors, rawNeighbors.count, &rawOptions, $0)
+          map.states, map.visibility, &rawMap, rawNeighbors, rawNeighbors.count, &rawOptions, $0)
       }
     }
+  }
+
+  /// Expands patches across views and into holes: the patches of `map` with better ones, taken from
+  /// its neighbours and from those beside them, where the filter rejected them. Call once the map and
+  /// all its neighbours are filtered; the filter has to judge the result anew.
+  package static func complete(
+    _ map: PatchMap, neighbors: [PatchMap], options: Options, control: KernelControl
+  ) throws -> PatchMap {
+    let completed = PatchMap(view: map.view)
+    var (rawMap, rawOptions) = (map.raw, options.raw)
+    let rawNeighbors = neighbors.prefix(maximumSources).map(\.raw)
+    try withExtendedLifetime((map, neighbors)) {
+      try withKernel(control) {
+        ck_patches_complete(
+          completed.patches, &rawMap, rawNeighbors, rawNeighbors.count, &rawOptions, $0)
+      }
+    }
+    return completed
   }
 
   /// Fuses the accepted patches of `map` with those of its neighbours that agree with them.
@@ -223,8 +268,7 @@ extension PatchStereo.Options {
     ck_patch_options(
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
-      finest_sources: Int32(finestSources), bilateral_contrast: bilateralContrast,
-      noise: noise ?? 0, seed: seed, instructions: instructions.raw)
+      bilateral_contrast: bilateralContrast, seed: seed, instructions: instructions.raw)
   }
 }
 

@@ -8,15 +8,18 @@ package final class PatchView: @unchecked Sendable {
   package let cameraFromWorld: RigidTransform
   package let width: Int
   package let height: Int
+  /// Standard deviation of the luma's noise in grey levels.
+  package let noise: Float
   // Written in `init` only, which makes sharing between threads safe.
   let luma: UnsafeMutablePointer<UInt8>
-  let rgb: UnsafeMutablePointer<UInt8>
+  /// None in a view that was halved: colours are taken from the whole one.
+  let rgb: UnsafeMutablePointer<UInt8>?
 
-  /// The view as it is in memory.
-  package convenience init(_ view: PinholeView) {
+  /// The view as it is in memory; its noise is estimated where it isn't known.
+  package convenience init(_ view: PinholeView, noise: Float? = nil) {
     self.init(
       photo: view.photo, camera: view.camera, cameraFromWorld: view.cameraFromWorld,
-      width: view.image.width, height: view.image.height
+      width: view.image.width, height: view.image.height, noise: noise
     ) { rgb in
       view.image.pixels.withUnsafeBytes { rgb.copyMemory(from: $0) }
     }
@@ -25,30 +28,58 @@ package final class PatchView: @unchecked Sendable {
   /// A view whose pixels, RGB, `fill` puts into the buffer that it is given.
   package init(
     photo: ID<Photo>, camera: Camera, cameraFromWorld: RigidTransform, width: Int, height: Int,
-    fill: (UnsafeMutableRawBufferPointer) throws -> Void
+    noise: Float? = nil, fill: (UnsafeMutableRawBufferPointer) throws -> Void
   ) rethrows {
     self.photo = photo
     self.camera = camera
     self.cameraFromWorld = cameraFromWorld
     (self.width, self.height) = (width, height)
-    luma = .allocate(capacity: width * height)
-    rgb = .allocate(capacity: 3 * width * height)
-    try fill(UnsafeMutableRawBufferPointer(start: rgb, count: 3 * width * height))
+    let (luma, rgb) = (
+      UnsafeMutablePointer<UInt8>.allocate(capacity: width * height),
+      UnsafeMutablePointer<UInt8>.allocate(capacity: 3 * width * height)
+    )
+    (self.luma, self.rgb) = (luma, rgb)
+    do {
+      try fill(UnsafeMutableRawBufferPointer(start: rgb, count: 3 * width * height))
+    } catch {
+      luma.deallocate()
+      rgb.deallocate()
+      throw error
+    }
     // Rec. 601 in 8-bit fixed point.
     for i in 0..<width * height {
       let (r, g, b) = (UInt32(rgb[3 * i]), UInt32(rgb[3 * i + 1]), UInt32(rgb[3 * i + 2]))
       luma[i] = UInt8(truncatingIfNeeded: (77 &* r &+ 150 &* g &+ 29 &* b &+ 128) >> 8)
     }
+    self.noise = noise ?? ck_patches_noise(luma, Int32(width), Int32(height))
   }
 
-  /// The pixels, RGB; valid as long as this object lives.
+  /// The view at half the resolution, luma only.
+  package func halved() -> PatchView { PatchView(halving: self) }
+
+  private init(halving view: PatchView) {
+    (photo, cameraFromWorld) = (view.photo, view.cameraFromWorld)
+    (width, height) = (view.width / 2, view.height / 2)
+    var camera = view.camera
+    (camera.width, camera.height) = (width, height)
+    camera.focalLength *= 0.5
+    camera.principalPoint *= 0.5
+    self.camera = camera
+    // Of the mean of four pixels.
+    noise = view.noise / 2
+    rgb = nil
+    luma = .allocate(capacity: width * height)
+    ck_patches_halve(luma, view.luma, Int32(view.width), Int32(view.height))
+  }
+
+  /// The pixels, RGB, none of a halved view; valid as long as this object lives.
   package var rgbBytes: UnsafeRawBufferPointer {
-    UnsafeRawBufferPointer(start: rgb, count: 3 * width * height)
+    UnsafeRawBufferPointer(start: rgb, count: rgb == nil ? 0 : 3 * width * height)
   }
 
   deinit {
     luma.deallocate()
-    rgb.deallocate()
+    rgb?.deallocate()
   }
 
   /// The C view, valid as long as this object lives.
@@ -59,6 +90,6 @@ package final class PatchView: @unchecked Sendable {
       width: Int32(width), height: Int32(height), luma: luma, fx: camera.focalLength.x,
       fy: camera.focalLength.y, cx: camera.principalPoint.x, cy: camera.principalPoint.y,
       rotation: (r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]),
-      translation: (t.x, t.y, t.z))
+      translation: (t.x, t.y, t.z), noise: noise)
   }
 }

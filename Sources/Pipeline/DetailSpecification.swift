@@ -42,13 +42,13 @@ package struct DetailSpecification: Hashable, Codable, Sendable {
     switch level {
     case .preview:
       self.init(
-        maximumTriangles: 24_999, textureSide: 1024, maps: basic, viewPixels: 250_000)
+        maximumTriangles: 24_999, textureSide: 1024, maps: basic, viewPixels: 80_000)
     case .reduced:
       self.init(
-        maximumTriangles: 49_999, textureSide: 2048, maps: basic, viewPixels: 500_000)
+        maximumTriangles: 49_999, textureSide: 2048, maps: basic, viewPixels: 180_000)
     case .medium:
       self.init(
-        maximumTriangles: 99_999, textureSide: 4096, maps: basic, viewPixels: 1_000_000)
+        maximumTriangles: 99_999, textureSide: 4096, maps: basic, viewPixels: 500_000)
     case .full:
       self.init(
         maximumTriangles: 249_999, textureSide: 8192, maps: Set(TextureMap.allCases),

@@ -115,10 +115,8 @@ package final class ReconstructionPipeline {
     let reconstruction = try align()
     let result = try run(.pointCloudGeneration) { context in
       let cloud = try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
-        .run(
-          reconstruction, images: images, folder: checkpoint?.views, context.part(from: 0, to: 0.98)
-        )
-      try CloudMetrics().run(cloud, reconstruction, context.part(from: 0.98, to: 1))
+        .run(reconstruction, images: images, folder: checkpoint?.views, context)
+      CloudMetrics().run(cloud, reconstruction, context.notes)
       return cloud
     }
     try checkpoint?.write(result)

@@ -11,9 +11,11 @@ import Testing
   /// The maps of all views, each with all others as sources.
   static func maps(
     _ scene: RaycastScene, _ options: PatchStereo.Options = PatchStereo.Options(),
-    seeds perturb: (PatchSeed) -> PatchSeed = { $0 }, control: KernelControl = KernelControl()
+    noise: Float? = nil, isHalved: Bool = false, seeds perturb: (PatchSeed) -> PatchSeed = { $0 },
+    control: KernelControl = KernelControl()
   ) throws -> [PatchMap] {
-    let views = scene.views.map { PatchView($0) }
+    let wholes = scene.views.map { PatchView($0, noise: noise) }
+    let views = isHalved ? wholes.map { $0.halved() } : wholes
     return try views.indices.map { index in
       let map = PatchMap(view: views[index])
       let seeds = scene.reconstruction.points.compactMap { point -> PatchSeed? in
@@ -44,7 +46,10 @@ import Testing
         errors.append(abs(1 / Double(map[x, y].inverseDepth) / truth - 1))
       }
     }
-    return (errors.sorted()[errors.count / 2], Double(errors.count) / Double(count))
+    return (
+      errors.sorted().dropFirst(errors.count / 2).first ?? .infinity,
+      Double(errors.count) / Double(count)
+    )
   }
 
   @Test func depthsAreRight() throws {
@@ -78,11 +83,10 @@ import Testing
   func instructionsAgree(_ instructions: Instructions) throws {
     var options = PatchStereo.Options()
     // Where there is no texture, rounding decides.
-    options.noise = 1
     options.instructions = .portable
-    let expected = try Self.maps(Self.scene, options)[2]
+    let expected = try Self.maps(Self.scene, options, noise: 1)[2]
     options.instructions = instructions
-    let map = try Self.maps(Self.scene, options)[2]
+    let map = try Self.maps(Self.scene, options, noise: 1)[2]
     var (close, count) = (0, 0)
     for y in 20..<110 {
       for x in 20..<140 where expected[x, y].cost < 0.3 {
@@ -93,6 +97,91 @@ import Testing
     }
     #expect(count > 1000)
     #expect(Double(close) > 0.97 * Double(count))
+  }
+
+  /// Filtered patches of all views at half the resolution, with visibility.
+  static func coarseMaps(_ scene: RaycastScene) throws -> [PatchMap] {
+    let maps = try maps(scene, isHalved: true)
+    for index in maps.indices {
+      try PatchStereo.filter(
+        maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
+        tellsVisibility: true, control: KernelControl())
+    }
+    return maps
+  }
+
+  @Test func refinedPatchesAreRight() throws {
+    let coarse = try Self.coarseMaps(Self.scene)
+    let views = Self.scene.views.map { PatchView($0) }
+    for index in views.indices {
+      let map = PatchMap(view: views[index])
+      try PatchStereo.refine(
+        map, from: coarse[index], sources: views.indices.filter { $0 != index }.map { views[$0] },
+        options: PatchStereo.Options(), control: KernelControl())
+      let error = Self.depthError(map, Self.scene, view: index)
+      #expect(error.median < 0.002)
+      #expect(error.share > 0.7)
+    }
+  }
+
+  @Test func refiningNeedsHalfTheResolution() throws {
+    let views = Self.scene.views.map { PatchView($0) }
+    let whole = PatchMap(view: views[0])
+    try PatchStereo.filter(
+      whole, neighbors: [PatchMap(view: views[1])], options: PatchStereo.FilterOptions(),
+      tellsVisibility: true, control: KernelControl())
+    #expect(throws: KernelError.self) {
+      try PatchStereo.refine(
+        PatchMap(view: views[0]), from: whole, sources: [views[1]],
+        options: PatchStereo.Options(), control: KernelControl())
+    }
+  }
+
+  @Test func aViewWithoutPatchesTakesThoseOfOthers() throws {
+    let maps = try Self.maps(Self.scene)
+    let empty = PatchMap(view: maps[2].view)
+    try Self.filter(maps)
+    let completed = try PatchStereo.complete(
+      empty, neighbors: Self.others(maps, 2), options: PatchStereo.Options(),
+      control: KernelControl())
+    let error = Self.depthError(completed, Self.scene, view: 2)
+    #expect(error.median < 0.002)
+    #expect(error.share > 0.6)
+    // Without other views' patches there is nothing to take.
+    let alone = try PatchStereo.complete(
+      empty, neighbors: Self.others(maps, 2).map { PatchMap(view: $0.view) },
+      options: PatchStereo.Options(), control: KernelControl())
+    #expect(Self.depthError(alone, Self.scene, view: 2).share == 0)
+  }
+
+  @Test func completionKeepsAcceptedPatches() throws {
+    let maps = try Self.maps(Self.scene)
+    try Self.filter(maps)
+    let completed = try PatchStereo.complete(
+      maps[2], neighbors: Self.others(maps, 2), options: PatchStereo.Options(),
+      control: KernelControl())
+    var (rejected, changed) = (0, 0)
+    for y in 0..<120 {
+      for x in 0..<160 {
+        if maps[2].isAccepted(x, y) {
+          #expect(completed[x, y] == maps[2][x, y])
+        } else {
+          rejected += 1
+          changed += completed[x, y] == maps[2][x, y] ? 0 : 1
+          #expect(completed[x, y].cost <= maps[2][x, y].cost + 0.2)
+        }
+      }
+    }
+    #expect(changed > 0 && changed < rejected)
+  }
+
+  @Test func halvedViewsHaveHalfTheNoise() throws {
+    let view = PatchView(Self.scene.views[0], noise: 3)
+    let half = view.halved()
+    #expect(half.width == 80 && half.height == 60 && half.noise == 1.5)
+    #expect(half.camera.focalLength == view.camera.focalLength / 2)
+    // The same ray goes through the corner of a pixel and of the four that it is made of.
+    #expect(half.camera.unproject([20, 10]) == view.camera.unproject([40, 20]))
   }
 
   @Test func pointsLieOnTheSurface() throws {

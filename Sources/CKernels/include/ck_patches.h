@@ -17,7 +17,17 @@ typedef struct {
   /// `cameraFromWorld`: rotation by rows, then translation. x right, y down, z forward.
   double rotation[9];
   double translation[3];
+  /// Standard deviation of the luma's noise in grey levels.
+  float noise;
 } ck_patch_view;
+
+/// Averages 2 × 2 pixels of `width × height` bytes; `result` holds `(width / 2) × (height / 2)`.
+void ck_patches_halve(uint8_t* result, const uint8_t* luma, int32_t width, int32_t height);
+
+/// Estimates the standard deviation of the noise of `width × height` bytes in grey levels, from
+/// what differs from a smooth surface in the smoothest parts (after Immerkær, CVIU 1996); at least
+/// that of rounding.
+float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height);
 
 /// A sparse point in a reference view: pixel and inverse depth.
 typedef struct {
@@ -43,12 +53,8 @@ typedef struct {
   int32_t perturbations;
   /// Gauss–Newton steps.
   int32_t refinement_steps;
-  /// Sources that a pixel keeps for the finest level.
-  int32_t finest_sources;
   /// Grey levels at which the bilateral weight is one half.
   float bilateral_contrast;
-  /// Standard deviation of the photos' noise in grey levels; 0 to estimate it from the reference.
-  float noise;
   /// The same seed gives the same patches.
   uint32_t seed;
   /// Of the inner loops. Results differ by rounding only.
@@ -75,7 +81,20 @@ typedef struct {
   const ck_patch* patches;
   /// What the filter said of each patch; may be null where only patches are asked for.
   const uint8_t* states;
+  /// The neighbours that agree with each patch, a bit each in the filter's order; may be null.
+  const uint8_t* visibility;
 } ck_patch_map;
+
+/// Makes the patches of one reference view from its patches at half the resolution.
+///
+/// `coarse` are filtered patches of the reference that `ck_patches_halve` halved, with half its
+/// focal lengths and principal point; its neighbours were the halved `sources`, in the same order.
+/// Each patch is compared with the sources that agree with the coarse ones around (its visible
+/// photos, Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width × height` values.
+ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
+                            const ck_patch_view* sources, size_t source_count,
+                            const ck_patch_map* coarse, const ck_patch_options* options,
+                            const ck_control* control);
 
 /// Which patches are kept and how they are joined.
 typedef struct {
@@ -109,11 +128,21 @@ typedef struct {
 ///
 /// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint, so
 /// that views tell which of them shows a piece of surface finest. `states` holds `width × height`
-/// bytes; `neighbors` are the views that may confirm, the best first. Runs on one thread: call it
-/// for several views at once.
-ck_status ck_patches_filter(uint8_t* states, const ck_patch_map* reference,
+/// bytes, and `visibility` as many, or is null; `neighbors` are the views that may confirm, the
+/// best first. Runs on one thread: call it for several views at once.
+ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch_map* reference,
                             const ck_patch_map* neighbors, size_t neighbor_count,
                             const ck_patch_filter_options* options, const ck_control* control);
+
+/// Expands patches across views and into holes: offers the accepted patches of the neighbours, and
+/// those beside a cell, to the cells of `reference` that the filter rejected, and optimises what is
+/// better than what they had (Furukawa and Ponce, PAMI 2010, section 3.2).
+///
+/// All maps have states; `completed` holds `width × height` patches, for the filter to judge. Runs
+/// on one thread.
+ck_status ck_patches_complete(ck_patch* completed, const ck_patch_map* reference,
+                              const ck_patch_map* neighbors, size_t neighbor_count,
+                              const ck_patch_options* options, const ck_control* control);
 
 /// A fused patch.
 typedef struct {

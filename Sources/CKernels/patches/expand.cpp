@@ -15,9 +15,8 @@ void expand(Grid& grid, const Comparison& comparison, const Kernels& kernels, co
     const int y = sweep.is_forward ? kMargin + row : grid.height - 1 - kMargin - row;
     for (int column = 0; column < columns; ++column) {
       const int x = sweep.is_forward ? kMargin + column : grid.width - 1 - kMargin - column;
-      const uint8_t kept = grid.scores[grid.index(x, y)].best;
-      const uint8_t sources = sweep.uses_kept_sources && kept ? kept : 0xff;
-      PatchOptimiser pixel(grid, comparison, kernels, x, y, sources);
+      if (!grid.sources[grid.index(x, y)]) continue;
+      PatchOptimiser pixel(grid, comparison, kernels, x, y);
       const Plane& beside = grid.planes[grid.index(x + direction, y)];
       const Plane& above = grid.planes[grid.index(x, y + direction)];
       const auto step_back = static_cast<float>(-direction);
@@ -45,7 +44,7 @@ Grid refine_grid(const Grid& coarse, int width, int height) {
       plane.gx *= 0.5f;
       plane.gy *= 0.5f;
       fine.planes[child] = plane;
-      fine.scores[child] = coarse.scores[parent];
+      fine.costs[child] = coarse.costs[parent];
     }
   }
   return fine;

@@ -13,8 +13,6 @@ struct Sweep {
   int perturbations = 0;
   /// Gauss–Newton steps.
   int refinement_steps = 0;
-  /// Compare only with the sources that the pixel kept.
-  bool uses_kept_sources = false;
   /// The grid holds a coarser level's patches, to be kept where they are better.
   bool may_inherit = false;
   uint32_t seed = 0;

@@ -15,28 +15,33 @@ struct Plane {
 /// The least that a patch of weak texture costs, so that the filter asks one more view about it.
 constexpr float kWeakCost = 0.4f;
 
-/// What a plane costs at a pixel and which sources see it well.
-struct Score {
-  /// The mean of the best two sources' 1 − ZNCC.
-  float cost = 2;
-  /// A bit for each source, the best `finest_sources`.
-  uint8_t best = 0;
-};
+/// All sources, a bit each.
+constexpr uint8_t kAllSources = 0xff;
+
+/// The cost of no patch.
+constexpr float kNoPatch = 2;
 
 /// The patches of one reference view at one resolution.
 struct Grid {
   int width = 0, height = 0;
   std::vector<Plane> planes;
-  std::vector<Score> scores;
+  /// The mean of the best two sources' 1 − ZNCC.
+  std::vector<float> costs;
+  /// The sources that a patch is compared with, a bit each; cells with none stay as they are.
+  std::vector<uint8_t> sources;
 
   Grid() = default;
   Grid(int w, int h)
       : width(w),
         height(h),
         planes(static_cast<size_t>(w) * h),
-        scores(static_cast<size_t>(w) * h) {}
+        costs(static_cast<size_t>(w) * h, kNoPatch),
+        sources(static_cast<size_t>(w) * h, kAllSources) {}
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * width + x; }
+
+  void read(const ck_patch* patches);
+  void write(ck_patch* patches) const;
 };
 
 /// All that scoring a patch of one reference needs at one resolution.
@@ -47,7 +52,6 @@ struct Comparison {
   float bilateral_contrast = 10;
   /// Variance of the photos' noise.
   float noise_variance = 1;
-  int kept_sources = 4;
   /// Inverse depths between which a patch may lie.
   float minimum_w = 0, maximum_w = 0;
   /// Pixels by which a source moves, at most, with inverse depth.
@@ -79,18 +83,19 @@ struct alignas(64) Samples {
   /// Motion of the patch with inverse depth, in pixels of the reference.
   float motion_x[2][16], motion_y[2][16];
   int group_count = 0;
-  /// The slots of the best sources, a bit each.
-  unsigned best_slots = 0;
+  /// The slots of the sources that see the patch well, a bit each: they move it.
+  unsigned voters = 0;
 };
 
 /// The inner loops, compiled for each instruction set.
 struct Kernels {
   void (*prepare)(ReferencePatch& patch, const Comparison& comparison, int x, int y);
   /// `sources` is a bit mask of the sources to compare with.
-  Score (*score)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
-                 const Plane& plane, uint8_t sources, Samples& samples);
-  /// One Gauss–Newton step on inverse depth and gradient over the best sources, which were scored
-  /// at `plane`. False where they do not determine one.
+  /// The mean of the best two sources' 1 − ZNCC.
+  float (*score)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
+                 const Plane& plane, unsigned sources, Samples& samples);
+  /// One Gauss–Newton step on inverse depth and gradient over the voters, which were scored at
+  /// `plane`. False where they do not determine one.
   bool (*step)(const ReferencePatch& patch, const Samples& samples, const Plane& plane,
                Plane& result);
 };

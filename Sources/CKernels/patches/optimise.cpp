@@ -7,26 +7,26 @@
 namespace ck::patches {
 
 PatchOptimiser::PatchOptimiser(Grid& grid, const Comparison& comparison, const Kernels& kernels,
-                               int x, int y, uint8_t sources)
+                               int x, int y)
     : comparison_(comparison),
       kernels_(kernels),
       x_(x),
       y_(y),
       plane_(grid.planes[grid.index(x, y)]),
-      score_(grid.scores[grid.index(x, y)]),
-      sources_(sources),
-      inherited_{plane_, score_} {
+      cost_(grid.costs[grid.index(x, y)]),
+      sources_(grid.sources[grid.index(x, y)]),
+      inherited_{plane_, cost_} {
   kernels.prepare(reference_, comparison, x, y);
-  score_ = Score();
+  cost_ = kNoPatch;
   if (inherited_.plane.w > 0) offer(inherited_.plane);
 }
 
 bool PatchOptimiser::offer(const Plane& plane) {
   if (!is_plausible(comparison_, x_, y_, plane)) return false;
   Samples& samples = samples_[1 - current_];
-  const Score score = kernels_.score(reference_, comparison_, x_, y_, plane, sources_, samples);
-  if (!(score.cost < score_.cost)) return false;
-  score_ = score;
+  const float cost = kernels_.score(reference_, comparison_, x_, y_, plane, sources_, samples);
+  if (!(cost < cost_)) return false;
+  cost_ = cost;
   plane_ = plane;
   current_ = 1 - current_;
   return true;
@@ -38,19 +38,19 @@ float PatchOptimiser::motion_to(const Plane& plane) const {
   return (std::fabs(plane.w - plane_.w) + kReach * slope) * comparison_.motion;
 }
 
-void PatchOptimiser::offer_different(const Plane& plane) {
+bool PatchOptimiser::offer_different(const Plane& plane) {
   constexpr float kSame = 0.4f;  // Gauss–Newton gets there by itself.
-  if (is_empty() || motion_to(plane) > kSame) offer(plane);
+  return (is_empty() || motion_to(plane) > kSame) && offer(plane);
 }
 
 void PatchOptimiser::settle() {
   constexpr float kDistinct = 0.95f;  // deviation over noise of about 3
   constexpr float kMargin = 0.1f;
   const bool is_weak = reference_.confidence < kDistinct;
-  if (inherited_.plane.w > 0 && is_weak && inherited_.score.cost + kMargin < score_.cost) {
+  if (inherited_.plane.w > 0 && is_weak && inherited_.cost + kMargin < cost_) {
     plane_ = inherited_.plane;
-    score_ = inherited_.score;
-    if (score_.cost < kWeakCost) score_.cost = kWeakCost + 0.25f * score_.cost;
+    cost_ = inherited_.cost;
+    if (cost_ < kWeakCost) cost_ = kWeakCost + 0.25f * cost_;
   }
 }
 
@@ -67,11 +67,14 @@ void PatchOptimiser::perturb(int count, uint32_t seed) {
 }
 
 void PatchOptimiser::refine(int steps) {
-  constexpr float kConverged = 0.1f;  // Scoring it costs more than it brings.
-  for (int i = 0; i < steps && score_.best; ++i) {
+  constexpr float kClose = 0.2f;  // So near the optimum a step need not be verified.
+  for (int i = 0; i < steps && samples_[current_].voters; ++i) {
     Plane next;
     if (!kernels_.step(reference_, samples_[current_], plane_, next)) return;
-    if (motion_to(next) < kConverged) return;
+    if (motion_to(next) < kClose) {
+      if (is_plausible(comparison_, x_, y_, next)) plane_ = next;
+      return;
+    }
     if (!offer(next)) return;
   }
 }

@@ -7,15 +7,15 @@ namespace ck::patches {
 /// Optimises the patch of one pixel photometrically: holds the best plane so far and tries others.
 class PatchOptimiser {
  public:
-  /// Scores the plane that the grid holds over `sources`, a bit mask.
-  PatchOptimiser(Grid& grid, const Comparison& comparison, const Kernels& kernels, int x, int y,
-                 uint8_t sources);
+  /// Scores the plane that the grid holds.
+  PatchOptimiser(Grid& grid, const Comparison& comparison, const Kernels& kernels, int x, int y);
 
   /// Takes the plane if it costs less.
   bool offer(const Plane& plane);
 
-  /// Offers the plane unless it is the best one so far but for a fraction of a pixel.
-  void offer_different(const Plane& plane);
+  /// Offers the plane unless it is the best one so far but for a fraction of a pixel; true where it
+  /// was taken.
+  bool offer_different(const Plane& plane);
 
   /// Tries random planes around the best one, ever closer to it.
   void perturb(int count, uint32_t seed);
@@ -28,7 +28,7 @@ class PatchOptimiser {
   void settle();
 
   /// No plane so far can be seen in any source.
-  bool is_empty() const { return !(plane_.w > 0) || score_.cost >= 2; }
+  bool is_empty() const { return !(plane_.w > 0) || cost_ >= kNoPatch; }
 
  private:
   /// Pixels of a source by which the plane moves the patch's texels, at most.
@@ -38,12 +38,12 @@ class PatchOptimiser {
   const Kernels& kernels_;
   const int x_, y_;
   Plane& plane_;
-  Score& score_;
-  const uint8_t sources_;
+  float& cost_;
+  const unsigned sources_;
   /// What the grid held before.
   const struct {
     Plane plane;
-    Score score;
+    float cost;
   } inherited_;
   ReferencePatch reference_;
   Samples samples_[2];

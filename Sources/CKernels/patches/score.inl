@@ -179,7 +179,7 @@ void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
 
 /// The two lowest of some costs.
 struct Lowest {
-  float first = 2, second = 2;
+  float first = kNoPatch, second = kNoPatch;
 };
 
 CK_INLINE Lowest lowest(const F4& c) {
@@ -188,30 +188,13 @@ CK_INLINE Lowest lowest(const F4& c) {
   return {std::min(low, low2), std::min(std::max(low, low2), std::min(high, high2))};
 }
 
-/// How many costs come before each, in order of cost, then of slot.
-CK_INLINE I8 ranks(const F8& c) {
-  const I8 slot = {0, 1, 2, 3, 4, 5, 6, 7};
-  I8 rank = 0;
-  for (int s = 0; s < kMaxSources; ++s) {
-    const F8 other = c[s];
-    rank -= (other < c) | ((other == c) & (slot > s));
-  }
-  return rank;
-}
-
-/// The slots of `count` that hold the lowest costs, at most `kept`, a bit each.
-CK_INLINE unsigned best_slots(const F8& costs, int count, int kept) {
-  const I8 is_useful = costs < 1.0f;
-  return count <= kept ? mask(is_useful) : mask(is_useful & (ranks(costs) < kept));
-}
-
-Score score(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
-            uint8_t sources, Samples& samples) {
+float score(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
+            unsigned sources, Samples& samples) {
   Footprints f;
   locate(c.warps, x, y, plane, f);
   const unsigned valid = mask(f.is_valid) & sources;
-  Score result;
-  if (!valid) return result;
+  samples.voters = 0;
+  if (!valid) return kNoPatch;
   const int count = __builtin_popcount(valid);
   const uint8_t* of_slot = kSourcesOf.sources[valid];
   typedef uint8_t B8 __attribute__((ext_vector_type(8)));
@@ -253,22 +236,17 @@ Score score(const ReferencePatch& patch, const Comparison& c, int x, int y, cons
     low = {std::min(low.first, more.first),
            std::min(std::max(low.first, more.first), std::min(low.second, more.second))};
   }
-  result.cost = c.warps.count == 1 ? low.first : 0.5f * (low.first + low.second);
-  const F8 all = __builtin_shufflevector(costs[0], costs[1], 0, 1, 2, 3, 4, 5, 6, 7);
-  samples.best_slots = best_slots(all, count, c.kept_sources);
-  for (int k = 0; k < count; ++k) {
-    result.best |= static_cast<uint8_t>((samples.best_slots >> k & 1) << of_slot[k]);
-  }
   // Those that see the patch much worse than the best one, for what is in front of it, don't vote.
-  samples.best_slots &= mask(all < 1.5f * low.first + 0.05f);
-  return result;
+  const F8 all = __builtin_shufflevector(costs[0], costs[1], 0, 1, 2, 3, 4, 5, 6, 7);
+  samples.voters = mask(all < std::min(1.0f, 1.5f * low.first + 0.05f));
+  return c.warps.count == 1 ? low.first : 0.5f * (low.first + low.second);
 }
 
 bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plane, Plane& result) {
   F16 squares = 0, squares_y = 0, squares_yy = 0, products = 0, products_y = 0;
   const I16 bit = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4, 8, 8, 8, 8};
   for (int g = 0; g < samples.group_count; ++g) {
-    const I16 is_used = (bit & static_cast<int>(samples.best_slots >> kSlots * g)) != 0;
+    const I16 is_used = (bit & static_cast<int>(samples.voters >> kSlots * g)) != 0;
     const F16 share = is_used ? F16(1) : F16(0);
     const F16 mean = load(samples.mean[g]);
     const F16 inverse_deviation = load(samples.inverse_deviation[g]);

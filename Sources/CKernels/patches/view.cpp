@@ -7,50 +7,21 @@
 
 namespace ck::patches {
 
+Image image_of(const ck_patch_view& view) {
+  Image image;
+  image.width = view.width;
+  image.height = view.height;
+  image.luma.assign(view.luma, view.luma + image.pixel_count());
+  return image;
+}
+
 Image half(const Image& image) {
   Image result;
   result.width = image.width / 2;
   result.height = image.height / 2;
-  result.luma.resize(static_cast<size_t>(result.width) * result.height);
-  for (int y = 0; y < result.height; ++y) {
-    const uint8_t* upper = &image.luma[static_cast<size_t>(2 * y) * image.width];
-    const uint8_t* lower = upper + image.width;
-    uint8_t* out = &result.luma[static_cast<size_t>(y) * result.width];
-    for (int x = 0; x < result.width; ++x) {
-      const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
-      out[x] = static_cast<uint8_t>((sum + 2) / 4);
-    }
-  }
+  result.luma.resize(result.pixel_count());
+  ck_patches_halve(result.luma.data(), image.luma.data(), image.width, image.height);
   return result;
-}
-
-float noise_of(const Image& image) {
-  constexpr int kBins = 256, kBlack = 4, kWhite = 251;
-  constexpr float kRounding = 0.29f, kLargest = 8;
-  // The tenth of a normal distribution that is nearest to 0 lies within 0.1257 deviations; the
-  // mask's gain is 6.
-  constexpr float kQuantile = 0.1f, kDeviation = 6 * 0.1257f;
-  std::vector<size_t> counts(kBins, 0);
-  size_t total = 0;
-  const int w = image.width;
-  for (int y = 1; y + 1 < image.height; y += 2) {
-    const uint8_t* p = &image.luma[static_cast<size_t>(y) * w];
-    for (int x = 1; x + 1 < w; x += 2) {
-      if (p[x] < kBlack || p[x] > kWhite) continue;
-      const int corners = p[x - w - 1] + p[x - w + 1] + p[x + w - 1] + p[x + w + 1];
-      const int sides = p[x - w] + p[x - 1] + p[x + 1] + p[x + w];
-      ++counts[std::min(kBins - 1, std::abs(corners - 2 * sides + 4 * p[x]))];
-      ++total;
-    }
-  }
-  const auto wanted = static_cast<size_t>(kQuantile * static_cast<float>(total));
-  size_t below = 0;
-  int bin = 0;
-  while (bin + 1 < kBins && below + counts[bin] <= wanted) below += counts[bin++];
-  const float part = counts[bin] ? static_cast<float>(wanted - below) / counts[bin] : 0;
-  // Bin 0 holds half as wide an interval as the others.
-  const float edge = bin == 0 ? 0.5f * part : bin - 0.5f + part;
-  return std::clamp(edge / kDeviation, kRounding, kLargest);
 }
 
 void pack(uint32_t* texels, const Image& image) {
@@ -118,3 +89,15 @@ void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_vie
 }
 
 }  // namespace ck::patches
+
+void ck_patches_halve(uint8_t* result, const uint8_t* luma, int32_t width, int32_t height) {
+  for (int y = 0; y < height / 2; ++y) {
+    const uint8_t* upper = luma + static_cast<ptrdiff_t>(2 * y) * width;
+    const uint8_t* lower = upper + width;
+    uint8_t* out = result + static_cast<ptrdiff_t>(y) * (width / 2);
+    for (int x = 0; x < width / 2; ++x) {
+      const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
+      out[x] = static_cast<uint8_t>((sum + 2) / 4);
+    }
+  }
+}

@@ -23,12 +23,11 @@ struct Image {
   size_t pixel_count() const { return static_cast<size_t>(width) * height; }
 };
 
+/// The view's photo as it is.
+Image image_of(const ck_patch_view& view);
+
 /// Halves both sides by averaging 2 × 2 pixels.
 Image half(const Image& image);
-
-/// The standard deviation of the noise in grey levels, from what differs from a smooth surface in
-/// the smoothest parts of the photo (after Immerkær, CVIU 1996); at least that of rounding.
-float noise_of(const Image& image);
 
 /// Writes a word for each pixel: itself, its right, lower and diagonal neighbour, so that a
 /// bilinear sample is one gather.

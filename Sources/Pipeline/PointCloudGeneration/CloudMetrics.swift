@@ -1,5 +1,4 @@
 import Foundation
-import Kernels
 import SceneModel
 
 /// What a dense cloud is worth: how much denser it is than the sparse points, how much of them it
@@ -33,28 +32,30 @@ package struct CloudMetrics: Sendable {
   /// Measures `cloud` and puts the figures into the report.
   @discardableResult
   package func run(
-    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
-  ) throws -> Values {
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ notes: StageNotes
+  ) -> Values {
     let values = Values(
       points: cloud.count, sparsePoints: reconstruction.points.count,
-      sparseCoverage: try coverage(of: reconstruction.points, by: cloud, context.control),
+      sparseCoverage: coverage(of: reconstruction.points, by: cloud),
       pointsPerCubicMeter: reconstruction.worldFrame.scale.isMetric ? density(cloud) : nil)
-    report(values, context.notes)
+    report(values, notes)
     return values
   }
 
-  private func coverage(
-    of points: [ScenePoint], by cloud: PointCloud, _ control: KernelControl
-  ) throws -> Double {
+  private func coverage(of points: [ScenePoint], by cloud: PointCloud) -> Double {
     let places = points.map { SIMD3<Float>($0.position) }
       .filter { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite }
     guard !places.isEmpty, cloud.count > 0 else { return 0 }
-    let nearest = try NearestPoints(of: places, in: cloud.positions, control)
+    // A few points that are far away shall not make the cells large for all.
+    let typical = stride(from: 0, to: cloud.count, by: 1 + cloud.count / 10_000)
+      .map { cloud.footprints[$0] }.sorted()
     let factor = Float(options.coverageFootprints)
-    let covered = zip(nearest.indices, nearest.distances).count { index, distance in
-      index >= 0 && distance <= factor * cloud.footprints[Int(index)]
+    let reach = factor * typical[typical.count * 9 / 10]
+    var grid = PlaceGrid(places, reach: reach)
+    for index in 0..<cloud.count {
+      grid.mark(cloud.positions[index], within: min(reach, factor * cloud.footprints[index]))
     }
-    return Double(covered) / Double(points.count)
+    return Double(grid.markedCount) / Double(points.count)
   }
 
   /// Points in a unit of volume of the box that holds all but the outermost.
@@ -93,4 +94,44 @@ package struct CloudMetrics: Sendable {
   }
 
   private func percent(_ ratio: Double) -> String { String(format: "%.0f %%", 100 * ratio) }
+}
+
+/// Places by the cells of a grid around them, to mark those that many points come near to: a k-d tree
+/// of the points would take longer to build.
+private struct PlaceGrid {
+  private let places: [SIMD3<Float>]
+  private let inverseCell: Float
+  private var cells: [SIMD3<Int32>: [Int32]] = [:]
+  private var isMarked: [Bool]
+
+  /// Each place is in its own cell and those around it, which are `reach` wide.
+  init(_ places: [SIMD3<Float>], reach: Float) {
+    self.places = places
+    inverseCell = 1 / max(reach, .leastNormalMagnitude)
+    isMarked = [Bool](repeating: false, count: places.count)
+    for (index, place) in places.enumerated() {
+      guard let center = cell(of: place) else { continue }
+      for offset in 0..<27 {
+        let step = SIMD3(Int32(offset % 3), Int32(offset / 3 % 3), Int32(offset / 9)) &- 1
+        cells[center &+ step, default: []].append(Int32(index))
+      }
+    }
+  }
+
+  var markedCount: Int { isMarked.count { $0 } }
+
+  mutating func mark(_ point: SIMD3<Float>, within distance: Float) {
+    guard let cell = cell(of: point), let near = cells[cell] else { return }
+    for index in near {
+      let way = places[Int(index)] - point
+      if (way * way).sum() <= distance * distance { isMarked[Int(index)] = true }
+    }
+  }
+
+  /// Nil where the point is too far away to number its cell.
+  private func cell(of point: SIMD3<Float>) -> SIMD3<Int32>? {
+    let scaled = (point * inverseCell).rounded(.down)
+    guard scaled.max() < 1e9, scaled.min() > -1e9 else { return nil }
+    return SIMD3<Int32>(scaled)
+  }
 }

@@ -8,22 +8,18 @@ struct DensePlan: Sendable {
   /// Positions of views, ascending, by step.
   private(set) var missing: [PatchWorkspace.Step: [Int]] = [:]
 
-  /// What the cloud needs.
-  init(cloudOf views: DenseViews, _ workspace: PatchWorkspace, _ control: KernelControl) throws {
-    let all = Array(views.indices)
-    let clouds = try Self.absent(.cloud, all, views, workspace, control)
-    let states = try Self.absent(.states, views.withSources(clouds), views, workspace, control)
-    let needed = views.withSources(clouds) + views.withSources(states)
-    missing = [.cloud: clouds, .states: states]
-    try addPatches(Set(needed).sorted(), views, workspace, control)
-  }
-
-  /// What the patches of some views need.
+  /// What a step needs of some views, all of them where none are named.
   init(
-    patchesOf indices: [Int], _ views: DenseViews, _ workspace: PatchWorkspace,
-    _ control: KernelControl
+    _ target: PatchWorkspace.Step, of indices: [Int]? = nil, _ views: DenseViews,
+    _ workspace: PatchWorkspace, _ control: KernelControl
   ) throws {
-    try addPatches(indices, views, workspace, control)
+    var needed = [target: Set(indices ?? Array(views.indices))]
+    for step in PatchWorkspace.Step.allCases.reversed() {
+      guard let wanted = needed[step] else { continue }
+      let absent = try Self.absent(step, wanted.sorted(), views, workspace, control)
+      missing[step] = absent
+      for input in step.inputs { needed[input, default: []].formUnion(views.withSources(absent)) }
+    }
   }
 
   subscript(step: PatchWorkspace.Step) -> [Int] { missing[step] ?? [] }
@@ -35,22 +31,13 @@ struct DensePlan: Sendable {
     }
   }
 
-  private mutating func addPatches(
-    _ indices: [Int], _ views: DenseViews, _ workspace: PatchWorkspace, _ control: KernelControl
-  ) throws {
-    let patches = try Self.absent(.patches, indices, views, workspace, control)
-    let needed = Set(indices + views.withSources(patches)).sorted()
-    missing[.patches] = patches
-    missing[.view] = try Self.absent(.view, needed, views, workspace, control)
-  }
-
   /// The views whose file can't be used; reads all of it, so that damage is found before the work.
   private static func absent(
     _ step: PatchWorkspace.Step, _ indices: [Int], _ views: DenseViews,
     _ workspace: PatchWorkspace, _ control: KernelControl
   ) throws -> [Int] {
     let isThere = try control.parallelUnits(indices.count) { index, _ in
-      workspace.bytes(views.key(step, indices[index])) != nil
+      workspace.contains(views.key(step, indices[index]))
     }
     return zip(indices, isThere).filter { !$0.1 }.map(\.0)
   }
@@ -61,9 +48,9 @@ extension PatchWorkspace.Step {
   fileprivate var bytesPerPixel: Int {
     switch self {
     case .view: 3
-    case .patches: 16
-    case .states: 1
-    case .cloud: 16
+    case .coarse, .completed: 4
+    case .patches, .cloud: 16
+    case .coarseStates, .states: 1
     }
   }
 }

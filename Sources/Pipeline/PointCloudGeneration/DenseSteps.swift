@@ -8,19 +8,23 @@ struct DenseSteps {
   private let workspace: PatchWorkspace
   private let plan: DensePlan
   private let options: PointCloudGeneration.Options
+  private let share: PointCloudGeneration.Share?
   private let photos: SharedValues<PatchView>
+  private let halves: SharedValues<PatchView>
 
+  /// `share` says which of several jobs that work at the same time this is.
   init(
     _ views: DenseViews, _ workspace: PatchWorkspace, _ plan: DensePlan,
-    _ options: PointCloudGeneration.Options
+    _ options: PointCloudGeneration.Options, share: PointCloudGeneration.Share? = nil
   ) {
     self.views = views
     self.workspace = workspace
     self.plan = plan
     self.options = options
-    photos = SharedValues(
-      count: views.views.count,
-      capacity: options.keptBytes / 4 / max(1, 4 * views.largestPixelCount))
+    self.share = share
+    let (count, pixels) = (views.views.count, max(1, views.largestPixelCount))
+    photos = SharedValues(count: count, capacity: options.keptBytes / 4 / (4 * pixels))
+    halves = SharedValues(count: count, capacity: options.keptBytes / 4 / pixels)
   }
 
   func run(
@@ -28,7 +32,10 @@ struct DenseSteps {
   ) throws {
     var parts = Progress(plan, context)
     try makeViews(reconstruction, images, parts.next(.view))
-    try makePatches(parts.next(.patches))
+    try makeCoarsePatches(parts.next(.coarse))
+    try filterCoarsePatches(parts.next(.coarseStates))
+    try complete(parts.next(.completed))
+    try refine(parts.next(.patches))
     try filter(parts.next(.states))
     try fuse(parts.next(.cloud))
   }
@@ -48,21 +55,70 @@ struct DenseSteps {
     }
   }
 
-  /// Seeds, optimises and expands.
-  private func makePatches(_ context: StageContext) throws {
-    try forEach(.patches, context) { [self] index, control in
+  /// Seeds, optimises and expands within each view, at half the resolution.
+  private func makeCoarsePatches(_ context: StageContext) throws {
+    try forEach(.coarse, context) { [self] index, control in
       let view = views.views[index]
-      let map = PatchMap(view: try photo(index))
+      let map = PatchMap(view: try half(index))
       do {
         try PatchStereo.reconstruct(
-          map, sources: try view.sources.map(photo),
+          map, sources: try view.sources.map(half),
           seeds: view.points.compactMap { map.view.seed(at: $0) }, options: options.patches,
           control: control)
       } catch KernelError.degenerate {
-        // A view that shows none of its sparse points gives no patches; others may do without it.
+        // A view that shows none of its sparse points has no patches but those of other views.
       }
+      try workspace.write(map.patchBytes, views.key(.coarse, index))
+    }
+  }
+
+  /// Marks the coarse patches that enough sources confirm.
+  private func filterCoarsePatches(_ context: StageContext) throws {
+    let maps = makeMaps()
+    try forEach(.coarseStates, context) { [self] index, control in
+      let map = try coarseMap(.coarse, index, in: maps)
+      try PatchStereo.filter(
+        map,
+        neighbors: try views.views[index].sources.map { try coarseMap(.coarse, $0, in: maps) },
+        options: options.coarseFilter, control: control)
+      try workspace.write(
+        UnsafeRawBufferPointer(map.stateBytes), views.key(.coarseStates, index))
+    }
+  }
+
+  /// Expands coarse patches across views and into holes.
+  private func complete(_ context: StageContext) throws {
+    let maps = makeMaps()
+    let map = { @Sendable [self] (index: Int) in
+      try coarseMap(.coarse, states: .coarseStates, index, in: maps)
+    }
+    try forEach(.completed, context) { [self] index, control in
+      let completed = try PatchStereo.complete(
+        try map(index), neighbors: try views.views[index].sources.map(map),
+        options: options.patches, control: control)
+      try workspace.write(completed.patchBytes, views.key(.completed, index))
+    }
+    notePeaks(maps, context.notes)
+  }
+
+  /// Makes the patches at the view's resolution, each by the sources that its coarse patch is
+  /// visible in.
+  private func refine(_ context: StageContext) throws {
+    let maps = makeMaps()
+    try forEach(.patches, context) { [self] index, control in
+      let sources = views.views[index].sources
+      let coarse = try coarseMap(.completed, index, in: maps)
+      try PatchStereo.filter(
+        coarse, neighbors: try sources.map { try coarseMap(.completed, $0, in: maps) },
+        options: options.coarseFilter, tellsVisibility: true,
+        control: control.part(from: 0, to: 0.05))
+      let map = PatchMap(view: try photo(index))
+      try PatchStereo.refine(
+        map, from: coarse, sources: try sources.map(photo), options: options.patches,
+        control: control.part(from: 0.05, to: 1))
       try workspace.write(map.patchBytes, views.key(.patches, index))
     }
+    notePeaks(maps, context.notes)
   }
 
   /// Marks the patches that enough sources confirm.
@@ -76,8 +132,7 @@ struct DenseSteps {
       try workspace.write(
         UnsafeRawBufferPointer(map.stateBytes), views.key(.states, index))
     }
-    context.notes.count("peakMaps", Double(maps.peakCount))
-    context.notes.count("peakViews", Double(photos.peakCount))
+    notePeaks(maps, context.notes)
   }
 
   /// Makes each view's points of the cloud.
@@ -125,8 +180,19 @@ extension DenseSteps {
     _ step: PatchWorkspace.Step, _ context: StageContext,
     _ body: @escaping @Sendable (Int, KernelControl) throws -> Void
   ) throws {
-    let indices = plan[step]
-    _ = try context.control.parallelUnits(indices.count) { try body(indices[$0], $1) }
+    let indices = inOrderOfWork(plan[step])
+    _ = try context.control.parallelUnits(indices.count) { [self] unit, control in
+      // Another job may have made it since the plan.
+      if share != nil, workspace.contains(views.key(step, indices[unit])) { return }
+      try body(indices[unit], control)
+    }
+  }
+
+  /// Of several jobs each begins with its own share and then helps the others from their ends.
+  private func inOrderOfWork(_ indices: [Int]) -> [Int] {
+    guard let share else { return indices }
+    let own = indices.filter { share.contains($0) }
+    return own + indices.reversed().filter { !share.contains($0) }
   }
 
   private func photo(_ index: Int) throws -> PatchView {
@@ -139,11 +205,27 @@ extension DenseSteps {
     }
   }
 
+  private func half(_ index: Int) throws -> PatchView {
+    try halves.value(index) { try photo(index).halved() }
+  }
+
   private func makeMaps() -> SharedValues<PatchMap> {
     SharedValues(
       count: views.views.count,
       capacity: options.keptBytes / 4 * 3
         / max(1, PatchMap.bytesPerPixel * views.largestPixelCount))
+  }
+
+  /// A view's patches at half the resolution as a step left them, with those that another accepted.
+  private func coarseMap(
+    _ step: PatchWorkspace.Step, states: PatchWorkspace.Step? = nil, _ index: Int,
+    in maps: SharedValues<PatchMap>
+  ) throws -> PatchMap {
+    try maps.value(index) {
+      let map = try PatchMap(view: try half(index)) { try read(views.key(step, index), into: $0) }
+      if let states { try read(views.key(states, index), into: map.stateBytes) }
+      return map
+    }
   }
 
   /// A view's patches as the last step left them.
@@ -164,6 +246,13 @@ extension DenseSteps {
     }
   }
 
+  /// Reports how many maps and views were in memory at once.
+  private func notePeaks(_ maps: SharedValues<PatchMap>, _ notes: StageNotes) {
+    let before = notes.counts["peakMaps"] ?? 0
+    notes.count("peakMaps", max(before, Double(maps.peakCount)))
+    notes.count("peakViews", Double(photos.peakCount))
+  }
+
   private func read(
     _ key: PatchWorkspace.Key, into buffer: UnsafeMutableRawBufferPointer
   ) throws {
@@ -178,9 +267,10 @@ extension DenseSteps {
     private let shares: [PatchWorkspace.Step: Double]
     private var done = 0.0
 
-    /// Usual seconds a view of each step, by those of patches.
+    /// Usual shares of the time.
     private static let costs: [(PatchWorkspace.Step, Double)] = [
-      (.view, 0.05), (.patches, 1), (.states, 0.05), (.cloud, 0.05),
+      (.view, 0.03), (.coarse, 0.2), (.coarseStates, 0.03), (.completed, 0.03),
+      (.patches, 0.5), (.states, 0.12), (.cloud, 0.09),
     ]
 
     init(_ plan: DensePlan, _ context: StageContext) {

@@ -51,8 +51,10 @@ struct DenseViews: Sendable {
   /// What a view's file of a step must be.
   func key(_ step: PatchWorkspace.Step, _ index: Int) -> PatchWorkspace.Key {
     let view = views[index]
+    let divisor = [.coarse, .coarseStates, .completed].contains(step) ? 2 : 1
     return PatchWorkspace.Key(
-      step: step, photo: view.photo, width: view.camera.width, height: view.camera.height,
+      step: step, photo: view.photo, width: view.camera.width / divisor,
+      height: view.camera.height / divisor,
       fingerprint: fingerprints[step]?[index] ?? 0)
   }
 
@@ -78,15 +80,19 @@ extension DenseViews {
     _ views: [View], _ reconstruction: Reconstruction, _ images: ImageStore,
     _ options: PointCloudGeneration.Options
   ) throws -> [PatchWorkspace.Step: [UInt64]] {
-    let (patchOptions, filterOptions) = (try json(options.patches), try json(options.filter))
+    let patchOptions = try json(options.patches)
+    let (filterOptions, coarseFilter) = (try json(options.filter), try json(options.coarseFilter))
     let photos = try views.map { view in
       fingerprint(view, try images.fingerprint(of: view.photo), reconstruction)
     }
-    let patches = chain(photos, views) { fingerprint, view in
+    let coarse = chain(photos, views) { fingerprint, view in
       fingerprint.add(patchOptions)
       fingerprint.add(view.points.count)
       view.points.forEach { fingerprint.add($0) }
     }
+    let coarseStates = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
+    let completed = chain(coarseStates, views)
+    let patches = chain(completed, views)
     let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
     let clouds = chain(states, views) { fingerprint, view in
       // Points name the photos that see them.
@@ -94,12 +100,17 @@ extension DenseViews {
         fingerprint.add(photo.index)
       }
     }
-    return [.view: photos, .patches: patches, .states: states, .cloud: clouds]
+    return [
+      .view: photos, .coarse: coarse, .coarseStates: coarseStates, .completed: completed,
+      .patches: patches, .states: states, .cloud: clouds,
+    ]
   }
 
-  /// The fingerprints of a step that reads the files of a view and its sources.
+  /// The fingerprints of a step that reads the files of a view and its sources, and what it takes
+  /// besides.
   private static func chain(
-    _ inputs: [UInt64], _ views: [View], _ add: (inout Fingerprint, View) -> Void
+    _ inputs: [UInt64], _ views: [View],
+    _ add: (inout Fingerprint, View) -> Void = { _, _ in }
   ) -> [UInt64] {
     views.indices.map { index in
       var fingerprint = Fingerprint()

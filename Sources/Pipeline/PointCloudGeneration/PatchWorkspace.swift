@@ -6,18 +6,36 @@ import SceneModel
 /// A folder with what the dense stage has made of each view so far, a file a view and step.
 ///
 /// ```
-/// 0012.view      the photo without distortion, RGB
-/// 0012.patches   its patches
-/// 0012.states    which of them passed the filter
-/// 0012.cloud     its points of the fused cloud
+/// 0012.view          the photo without distortion, RGB
+/// 0012.coarse        its patches at half the resolution
+/// 0012.coarseStates  which of them passed the filter
+/// 0012.completed     the same with what neighbours know of the others
+/// 0012.patches       the patches at the view's resolution
+/// 0012.states        which of them passed the filter
+/// 0012.cloud         its points of the fused cloud
 /// ```
 /// A file is there whole or not at all, and holds the fingerprint of all that it was made from: one
 /// that is cut off, damaged, or of other photos, cameras, options or another program counts as
 /// missing. Several processes may work in one folder. Its files may be deleted at any time between
 /// runs. Numbers are in the machine's byte order, which the first word tells.
 final class PatchWorkspace: Sendable {
-  /// A step whose results are kept.
-  enum Step: String, CaseIterable, Sendable { case view, patches, states, cloud }
+  /// A step whose results are kept, in the order in which they are made.
+  enum Step: String, CaseIterable, Sendable {
+    case view, coarse, coarseStates, completed, patches, states, cloud
+
+    /// The steps whose files, of a view and its sources, it reads.
+    var inputs: [Step] {
+      switch self {
+      case .view: []
+      case .coarse: [.view]
+      case .coarseStates: [.view, .coarse]
+      case .completed: [.view, .coarse, .coarseStates]
+      case .patches: [.view, .completed]
+      case .states: [.view, .patches]
+      case .cloud: [.view, .patches, .states]
+      }
+    }
+  }
 
   /// What a file must be to be of use.
   struct Key: Hashable, Sendable {
@@ -98,6 +116,9 @@ final class PatchWorkspace: Sendable {
     guard isComplete else { return nil }
     return bytes.withUnsafeBytes { header == Header(key, $0) } ? bytes : nil
   }
+
+  /// Whether a file is there and of use; reads all of it.
+  func contains(_ key: Key) -> Bool { bytes(key) != nil }
 
   func url(_ key: Key) -> URL {
     let number = String(key.photo.index)

@@ -15,6 +15,8 @@ package struct PointCloudGeneration {
     package var maximumPixelsPerView = 1_000_000
     package var patches = PatchStereo.Options()
     package var filter = PatchStereo.FilterOptions()
+    /// Of the patches at half the resolution, where smaller islands may grow.
+    package var coarseFilter = PatchStereo.FilterOptions(minimumIsland: 10)
     /// Share of the photos' pixels below which the cloud is called sparse in a warning.
     package var sparseRatio = 0.05
     /// Bytes of views and patches that are kept in memory although nobody works on them.
@@ -35,6 +37,8 @@ package struct PointCloudGeneration {
       self.index = index
       self.count = count
     }
+
+    func contains(_ position: Int) -> Bool { position % count == index }
   }
 
   package var options: Options
@@ -54,7 +58,7 @@ package struct PointCloudGeneration {
     let views = try DenseViews(reconstruction, images: images, options: options)
     let workspace = try PatchWorkspace(folder: folder, temporaryParent: temporaryParent)
     defer { workspace.close() }
-    let plan = try DensePlan(cloudOf: views, workspace, context.part(from: 0, to: 0).control)
+    let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
     tellReuse(views.views.count - plan[.patches].count, views, context.notes)
     let steps = DenseSteps(views, workspace, plan, options)
@@ -68,9 +72,10 @@ package struct PointCloudGeneration {
     return cloud
   }
 
-  /// Makes the patches of a share of the views, nine tenths of the work, and leaves them in `folder`.
-  /// Once all shares are made, by processes at the same time or one after the other, `run` needs
-  /// little more.
+  /// Makes the patches of a share of the views, with what they need of other views, and leaves all in
+  /// `folder`. That is eight tenths of the work: once all shares are made, by processes at the same
+  /// time or one after the other, `run` needs little more. Jobs at the same time share the coarse
+  /// patches of all views between them.
   package func run(
     _ share: Share, of reconstruction: Reconstruction, images: ImageStore, folder: URL,
     _ context: StageContext
@@ -80,12 +85,13 @@ package struct PointCloudGeneration {
     }
     let views = try DenseViews(reconstruction, images: images, options: options)
     let workspace = try PatchWorkspace(folder: folder)
-    let own = views.indices.filter { $0 % share.count == share.index }
+    let own = views.indices.filter(share.contains)
     let plan = try DensePlan(
-      patchesOf: own, views, workspace, context.part(from: 0, to: 0).control)
+      .patches, of: own, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
     tellReuse(own.count - plan[.patches].count, views, context.notes)
-    try DenseSteps(views, workspace, plan, options).run(reconstruction, images, context)
+    try DenseSteps(views, workspace, plan, options, share: share)
+      .run(reconstruction, images, context)
   }
 
   private func tellReuse(_ reused: Int, _ views: DenseViews, _ notes: StageNotes) {

@@ -28,8 +28,7 @@ import Testing
     // On a point, within three footprints of one, and beyond.
     let sparse: [SIMD3<Double>] = [[0.5, 0.5, 0.2], [0.5, -0.29, 0.2], [0.5, -0.31, 0.2]]
     let notes = StageNotes()
-    let values = try CloudMetrics().run(
-      cloud, reconstruction(sparse, .gps), StageContext(notes: notes))
+    let values = CloudMetrics().run(cloud, reconstruction(sparse, .gps), notes)
     #expect(values.points == 1001 && values.sparsePoints == 3)
     #expect(values.sparseCoverage == 2.0 / 3)
     #expect(values.pointsPerSparsePoint == 1001.0 / 3)
@@ -40,15 +39,15 @@ import Testing
     #expect(notes.details.count == 1)
   }
 
-  @Test func densityNeedsAUnitAndAVolume() throws {
-    let arbitrary = try CloudMetrics().run(
-      cloud, reconstruction([[0, 0, 0]], .arbitrary), StageContext())
+  @Test func densityNeedsAUnitAndAVolume() {
+    let arbitrary = CloudMetrics().run(
+      cloud, reconstruction([[0, 0, 0]], .arbitrary), StageNotes())
     #expect(arbitrary.pointsPerCubicMeter == nil)
     var flat = cloud
     for index in flat.positions.indices { flat.positions[index].z = 2 }
-    let values = try CloudMetrics().run(flat, reconstruction([], .given), StageContext())
+    let values = CloudMetrics().run(flat, reconstruction([], .given), StageNotes())
     #expect(values.pointsPerCubicMeter == nil)
     #expect(values.sparseCoverage == 0)
-    _ = try CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageContext())
+    CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
   }
 }

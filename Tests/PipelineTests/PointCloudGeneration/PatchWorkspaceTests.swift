@@ -37,7 +37,8 @@ import Testing
     #expect(
       try names(folder.url)
         == (0..<4).flatMap { view in
-          ["cloud", "patches", "states", "view"].map { "000\(view).\($0)" }
+          ["cloud", "coarse", "coarseStates", "completed", "patches", "states", "view"]
+            .map { "000\(view).\($0)" }
         })
     let notes = StageNotes()
     #expect(try run(in: folder.url, notes: notes).encoded() == first)
@@ -195,6 +196,32 @@ import Testing
         .init(index: 3, of: 3), of: Self.scene.reconstruction, images: images,
         folder: folder.url, StageContext())
     }
+  }
+
+  /// Two jobs at the same time, and one that finds all that it needs of other views there.
+  @Test func jobsShareTheWork() throws {
+    let folder = try TemporaryFolder()
+    let url = folder.url
+    let images = ImageStore(images: Self.scene.views.map(\.image))
+    DispatchQueue.concurrentPerform(iterations: 2) { index in
+      try? PointCloudGeneration().run(
+        .init(index: index, of: 3), of: Self.scene.reconstruction, images: images,
+        folder: url, StageContext())
+    }
+    let date = { (name: String) throws in
+      try FileManager.default.attributesOfItem(
+        atPath: folder.url.appendingPathComponent(name).path)[.modificationDate] as? Date
+    }
+    let coarse = try names(folder.url).filter { $0.hasSuffix(".coarse") }
+    #expect(coarse.count == 4)
+    let before = try coarse.map(date)
+    try PointCloudGeneration().run(
+      .init(index: 2, of: 3), of: Self.scene.reconstruction, images: images, folder: folder.url,
+      StageContext())
+    #expect(try coarse.map(date) == before)
+    let notes = StageNotes()
+    #expect(try run(in: folder.url, notes: notes).encoded() == run(in: nil).encoded())
+    #expect(reused(notes) == 4)
   }
 
   @Test func progressOnlyGrows() throws {

@@ -1,0 +1,174 @@
+#include <algorithm>
+#include <vector>
+
+#include "core/guard.h"
+#include "patches/ask.h"
+#include "patches/comparison.h"
+#include "patches/optimise.h"
+
+namespace ck::patches {
+namespace {
+
+/// Where the patches of one view go in another.
+class Transfer {
+ public:
+  Transfer(const ck_patch_map& from, const ck_patch_map& to)
+      : there_(from.view, to), back_(to.view, from) {}
+
+  /// The cell of the other view that shows a patch, and the patch's plane over its pixels; false
+  /// where the view doesn't show it or sees its back.
+  bool carry(const ck_patch& p, int x, int y, int& cell_x, int& cell_y, Plane& plane) const {
+    float q[3];
+    for (int i = 0; i < 3; ++i) {
+      q[i] = there_.base[i] + x * there_.column0[i] + y * there_.column1[i] +
+             p.inverse_depth * there_.epipole[i];
+    }
+    if (!(q[2] > 1e-6f)) return false;
+    const float u = q[0] / q[2], v = q[1] / q[2];
+    if (!(u >= kMargin && v >= kMargin && u < there_.width - kMargin &&
+          v < there_.height - kMargin)) {
+      return false;
+    }
+    cell_x = static_cast<int>(u);
+    cell_y = static_cast<int>(v);
+    // Inverse depth is linear over the pixels of both views: differentiate where one goes to the
+    // other, as in ask.inl.
+    const float at_x = x + 0.5f, at_y = y + 0.5f;
+    const auto along = [&](const float* d) {
+      return p.gradient_x * (d[0] - at_x * d[2]) + p.gradient_y * (d[1] - at_y * d[2]) +
+             p.inverse_depth * d[2];
+    };
+    const float slope = 1 - along(back_.epipole);
+    if (!(slope > 1e-3f)) return false;
+    plane.gx = along(back_.column0) / slope;
+    plane.gy = along(back_.column1) / slope;
+    plane.w = p.inverse_depth / q[2];
+    plane = plane.at(cell_x + 0.5f - u, cell_y + 0.5f - v);
+    return true;
+  }
+
+ private:
+  Passage there_, back_;
+};
+
+/// The accepted patches of neighbours at the rejected cells that show them; the nearest wins.
+std::vector<Plane> offers_across(const ck_patch_map& reference, const ck_patch_map* neighbors,
+                                 size_t count) {
+  const size_t width = static_cast<size_t>(reference.view.width);
+  std::vector<Plane> offers(width * reference.view.height);
+  for (size_t n = 0; n < count; ++n) {
+    const ck_patch_map& neighbor = neighbors[n];
+    const Transfer transfer(neighbor, reference);
+    for (int y = 0; y < neighbor.view.height; ++y) {
+      for (int x = 0; x < neighbor.view.width; ++x) {
+        const size_t from = static_cast<size_t>(y) * neighbor.view.width + x;
+        if (!neighbor.states[from]) continue;
+        int to_x, to_y;
+        Plane plane;
+        if (!transfer.carry(neighbor.patches[from], x, y, to_x, to_y, plane)) continue;
+        const size_t to = to_y * width + to_x;
+        if (!reference.states[to] && plane.w > offers[to].w) offers[to] = plane;
+      }
+    }
+  }
+  return offers;
+}
+
+/// Fills the rejected cells of a view: first from other views, then from the good cells beside
+/// them.
+class Completion {
+ public:
+  Completion(const ck_patch_map& reference, const Comparison& comparison,
+             const std::vector<Plane>& offers, const ck_patch_options& options)
+      : comparison_(comparison),
+        kernels_(kernels(options.instructions)),
+        offers_(offers),
+        steps_(options.refinement_steps),
+        grid_(reference.view.width, reference.view.height),
+        is_good_(reference.states, reference.states + grid_.planes.size()) {
+    grid_.read(reference.patches);
+  }
+
+  /// Visits the rejected cells that have an offer or a good cell before them.
+  void sweep(bool is_forward, const ck_control* control, double from, double to) {
+    const int rows = grid_.height - 2 * kMargin, columns = grid_.width - 2 * kMargin;
+    for (int row = 0; row < rows; ++row) {
+      step(control, from + (to - from) * row / rows);
+      const int y = is_forward ? kMargin + row : grid_.height - 1 - kMargin - row;
+      for (int column = 0; column < columns; ++column) {
+        const int x = is_forward ? kMargin + column : grid_.width - 1 - kMargin - column;
+        if (!is_good_[grid_.index(x, y)]) visit(x, y, is_forward ? -1 : 1, is_forward);
+      }
+    }
+  }
+
+  const Grid& grid() const { return grid_; }
+
+ private:
+  void visit(int x, int y, int direction, bool takes_offers) {
+    const size_t cell = grid_.index(x, y);
+    const size_t beside = grid_.index(x + direction, y), above = grid_.index(x, y + direction);
+    const bool has_offer = takes_offers && offers_[cell].w > 0;
+    if (!has_offer && !is_good_[beside] && !is_good_[above]) return;
+    const Plane plane = grid_.planes[cell];
+    const float cost = grid_.costs[cell];
+    PatchOptimiser pixel(grid_, comparison_, kernels_, x, y);
+    const auto step_back = static_cast<float>(-direction);
+    bool is_new = has_offer && pixel.offer_different(offers_[cell]);
+    if (is_good_[beside]) is_new |= pixel.offer_different(grid_.planes[beside].at(step_back, 0));
+    if (is_good_[above]) is_new |= pixel.offer_different(grid_.planes[above].at(0, step_back));
+    if (is_new) {
+      pixel.refine(steps_);
+      is_good_[cell] = grid_.costs[cell] < kWeakCost;
+    } else {
+      grid_.planes[cell] = plane;
+      grid_.costs[cell] = cost;
+    }
+  }
+
+  const Comparison& comparison_;
+  const Kernels& kernels_;
+  const std::vector<Plane>& offers_;
+  const int steps_;
+  Grid grid_;
+  std::vector<uint8_t> is_good_;
+};
+
+void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch_map* neighbors,
+              size_t count, const ck_patch_options& options, const ck_control* control) {
+  const auto offers = offers_across(reference, neighbors, count);
+  DepthRange range;
+  for (size_t i = 0; i < offers.size(); ++i) {
+    range.include(offers[i].w);
+    if (reference.states[i]) range.include(reference.patches[i].inverse_depth);
+  }
+  if (range.is_empty()) {
+    std::copy(reference.patches, reference.patches + offers.size(), completed);
+    return;
+  }
+  std::vector<ck_patch_view> sources;
+  for (size_t i = 0; i < count; ++i) sources.push_back(neighbors[i].view);
+  const Pyramids pyramids(reference.view, sources.data(), count, 1);
+  const Comparison comparison = pyramids.compare(0, range, 1.1f, options);
+  Completion completion(reference, comparison, offers, options);
+  completion.sweep(true, control, 0, 0.5);
+  completion.sweep(false, control, 0.5, 1);
+  completion.grid().write(completed);
+}
+
+}  // namespace
+}  // namespace ck::patches
+
+ck_status ck_patches_complete(ck_patch* completed, const ck_patch_map* reference,
+                              const ck_patch_map* neighbors, size_t neighbor_count,
+                              const ck_patch_options* options, const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck::patches;
+    ck::require(completed && reference && reference->states && options &&
+                    (neighbors || neighbor_count == 0),
+                "missing argument");
+    ck::require(neighbor_count <= kMaxSources, "at most 8 neighbours");
+    for (size_t i = 0; i < neighbor_count; ++i) ck::require(neighbors[i].states, "no states");
+    complete(completed, *reference, neighbors, neighbor_count, *options, control);
+  });
+}

@@ -1,0 +1,37 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdlib>
+
+#include "ck_patches.h"
+
+float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height) {
+  constexpr int kBins = 256, kBlack = 4, kWhite = 251;
+  constexpr float kRounding = 0.29f, kLargest = 8;
+  // Few photos have no texture anywhere: what is found counts some of it.
+  constexpr float kShare = 0.6f;
+  // The tenth of a normal distribution that is nearest to 0 lies within 0.1257 deviations; the
+  // mask's gain is 6.
+  constexpr float kQuantile = 0.1f, kDeviation = 6 * 0.1257f;
+  std::array<size_t, kBins> counts{};
+  size_t total = 0;
+  const ptrdiff_t w = width;
+  for (int y = 1; y + 1 < height; y += 2) {
+    const uint8_t* p = luma + y * w;
+    for (int x = 1; x + 1 < w; x += 2) {
+      if (p[x] < kBlack || p[x] > kWhite) continue;
+      const int corners = p[x - w - 1] + p[x - w + 1] + p[x + w - 1] + p[x + w + 1];
+      const int sides = p[x - w] + p[x - 1] + p[x + 1] + p[x + w];
+      ++counts[std::min(kBins - 1, std::abs(corners - 2 * sides + 4 * p[x]))];
+      ++total;
+    }
+  }
+  const auto wanted = static_cast<size_t>(kQuantile * static_cast<float>(total));
+  size_t below = 0;
+  int bin = 0;
+  while (bin + 1 < kBins && below + counts[bin] <= wanted) below += counts[bin++];
+  const float part = counts[bin] ? static_cast<float>(wanted - below) / counts[bin] : 0;
+  // Bin 0 holds half as wide an interval as the others.
+  const float edge = bin == 0 ? 0.5f * part : bin - 0.5f + part;
+  return std::clamp(kShare * edge / kDeviation, kRounding, kLargest);
+}

@@ -1,0 +1,98 @@
+#include <algorithm>
+
+#include "core/guard.h"
+#include "patches/comparison.h"
+#include "patches/expand.h"
+
+namespace ck::patches {
+namespace {
+
+/// What coarse patches say about the finer ones that take their place.
+class Parents {
+ public:
+  explicit Parents(const ck_patch_map& map) : map_(map), grid_(map.view.width, map.view.height) {
+    grid_.read(map.patches);
+    for (const Plane& plane : grid_.planes) range_.include(plane.w);
+  }
+
+  /// The finer patches, with the sources that each is to be compared with.
+  Grid children(int width, int height) const {
+    Grid fine = refine_grid(grid_, width, height);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; x += 2) {
+        const uint8_t sources =
+            sources_at(std::min(x / 2, grid_.width - 1), std::min(y / 2, grid_.height - 1));
+        for (int i = x; i < std::min(x + 2, width); ++i) set(fine, fine.index(i, y), sources);
+      }
+    }
+    return fine;
+  }
+
+  const DepthRange& range() const { return range_; }
+
+ private:
+  /// The neighbours that agree with the accepted patches around, for only they see the surface; all
+  /// of them where that are too few to tell. None where the filter rejected all patches around and
+  /// none of them looks promising: nothing that would stand can grow from those.
+  uint8_t sources_at(int x, int y) const {
+    constexpr float kPromising = 0.3f;
+    constexpr int kEnough = 3;
+    bool is_promising = false;
+    unsigned agreeing = 0;
+    for (int j = std::max(0, y - 1); j <= std::min(grid_.height - 1, y + 1); ++j) {
+      for (int i = std::max(0, x - 1); i <= std::min(grid_.width - 1, x + 1); ++i) {
+        const size_t cell = grid_.index(i, j);
+        if (map_.states[cell]) agreeing |= map_.visibility[cell];
+        is_promising |= map_.states[cell] != 0 || grid_.costs[cell] < kPromising;
+      }
+    }
+    if (!is_promising) return 0;
+    return __builtin_popcount(agreeing) < kEnough ? kAllSources : static_cast<uint8_t>(agreeing);
+  }
+
+  static void set(Grid& fine, size_t cell, uint8_t sources) {
+    fine.sources[cell] = sources;
+    if (sources) return;
+    fine.planes[cell] = Plane();
+    fine.costs[cell] = kNoPatch;
+  }
+
+  const ck_patch_map& map_;
+  Grid grid_;
+  DepthRange range_;
+};
+
+Grid refine(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,
+            const ck_patch_map& coarse, const ck_patch_options& options,
+            const ck_control* control) {
+  const Parents parents(coarse);
+  Grid grid = parents.children(reference.width, reference.height);
+  if (parents.range().is_empty()) return grid;
+  const Pyramids pyramids(reference, sources, count, 1);
+  Sweep sweep;
+  sweep.refinement_steps = options.refinement_steps;
+  sweep.may_inherit = true;
+  expand(grid, pyramids.compare(0, parents.range(), 1.5f, options), kernels(options.instructions),
+         sweep, control, 0, 1);
+  return grid;
+}
+
+}  // namespace
+}  // namespace ck::patches
+
+ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
+                            const ck_patch_view* sources, size_t source_count,
+                            const ck_patch_map* coarse, const ck_patch_options* options,
+                            const ck_control* control) {
+  return ck::guarded([&] {
+    using namespace ck::patches;
+    ck::require(patches && reference && sources && coarse && coarse->states && coarse->visibility &&
+                    options,
+                "missing argument");
+    check_views(*reference, source_count);
+    ck::require(
+        coarse->view.width == reference->width / 2 && coarse->view.height == reference->height / 2,
+        "the coarse patches are not of half the resolution");
+    refine(*reference, sources, source_count, *coarse, *options, control).write(patches);
+  });
+}
