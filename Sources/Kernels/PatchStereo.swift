@@ -128,6 +128,8 @@ package enum PatchStereo {
     package var refinementSteps = 2
     /// Grey levels at which the bilateral weight is one half.
     package var bilateralContrast: Float = 6
+    /// Patches follow the surface instead of facing the camera.
+    package var estimatesNormals = true
     package var seed: UInt32 = 1
     /// Of the inner loops; results differ by rounding only.
     package var instructions = Instructions.automatic
@@ -268,7 +270,8 @@ extension PatchStereo.Options {
     ck_patch_options(
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
-      bilateral_contrast: bilateralContrast, seed: seed, instructions: instructions.raw)
+      bilateral_contrast: bilateralContrast, is_frontal: estimatesNormals ? 0 : 1, seed: seed,
+      instructions: instructions.raw)
   }
 }
 

@@ -12,6 +12,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var knownDistances: [KnownDistance] = []
   /// How poses are found.
   package var mappingMethod = MappingMethod.automatic
+  /// The dense stage; its resolution follows the detail level.
+  package var pointCloudGeneration = PointCloudGeneration.Options()
   /// Where intermediate results are left; nil leaves none.
   package var checkpointDirectory: URL?
   /// Threads of all stages. Results do not depend on it.

@@ -107,6 +107,12 @@ package final class ReconstructionPipeline {
     return result
   }
 
+  private var denseOptions: PointCloudGeneration.Options {
+    var options = configuration.pointCloudGeneration
+    options.maximumPixelsPerView = finestViewPixels
+    return options
+  }
+
   /// Makes the oriented, coloured cloud at `specification`'s resolution or the finest planned.
   package func densify(for specification: DetailSpecification) throws -> PointCloud {
     plan(for: [specification])
@@ -114,7 +120,7 @@ package final class ReconstructionPipeline {
     let (_, images) = try input()
     let reconstruction = try align()
     let result = try run(.pointCloudGeneration) { context in
-      let cloud = try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
+      let cloud = try PointCloudGeneration(options: denseOptions)
         .run(reconstruction, images: images, folder: checkpoint?.views, context)
       CloudMetrics().run(cloud, reconstruction, context.notes)
       return cloud
@@ -136,7 +142,7 @@ package final class ReconstructionPipeline {
       guard let folder = checkpoint?.views else {
         throw KernelError.invalidArgument("a share of the views needs a checkpoint directory")
       }
-      try PointCloudGeneration(options: .init(maximumPixelsPerView: finestViewPixels))
+      try PointCloudGeneration(options: denseOptions)
         .run(share, of: reconstruction, images: images, folder: folder, context)
     }
   }

@@ -55,6 +55,8 @@ typedef struct {
   int32_t refinement_steps;
   /// Grey levels at which the bilateral weight is one half.
   float bilateral_contrast;
+  /// Patches face the camera instead of following the surface.
+  int32_t is_frontal;
   /// The same seed gives the same patches.
   uint32_t seed;
   /// Of the inner loops. Results differ by rounding only.

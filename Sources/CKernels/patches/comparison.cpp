@@ -49,6 +49,7 @@ Comparison Pyramids::compare(int level, const DepthRange& range, float margin,
   c.height = image.height;
   c.luma = image.luma.data();
   c.bilateral_contrast = options.bilateral_contrast;
+  c.is_frontal = options.is_frontal != 0;
   // Averaging 2 × 2 pixels halves the noise.
   const double noise = reference_.noise * scale;
   c.noise_variance = static_cast<float>(noise * noise);

@@ -49,7 +49,9 @@ struct Comparison {
   int width = 0, height = 0;
   const uint8_t* luma = nullptr;
   Warps warps;
-  float bilateral_contrast = 10;
+  float bilateral_contrast = 6;
+  /// Planes have no gradient.
+  bool is_frontal = false;
   /// Variance of the photos' noise.
   float noise_variance = 1;
   /// Inverse depths between which a patch may lie.

@@ -21,7 +21,8 @@ PatchOptimiser::PatchOptimiser(Grid& grid, const Comparison& comparison, const K
   if (inherited_.plane.w > 0) offer(inherited_.plane);
 }
 
-bool PatchOptimiser::offer(const Plane& plane) {
+bool PatchOptimiser::offer(const Plane& offered) {
+  const Plane plane = comparison_.is_frontal ? Plane{offered.w, 0, 0} : offered;
   if (!is_plausible(comparison_, x_, y_, plane)) return false;
   Samples& samples = samples_[1 - current_];
   const float cost = kernels_.score(reference_, comparison_, x_, y_, plane, sources_, samples);
@@ -71,6 +72,7 @@ void PatchOptimiser::refine(int steps) {
   for (int i = 0; i < steps && samples_[current_].voters; ++i) {
     Plane next;
     if (!kernels_.step(reference_, samples_[current_], plane_, next)) return;
+    if (comparison_.is_frontal) next = {next.w, 0, 0};
     if (motion_to(next) < kClose) {
       if (is_plausible(comparison_, x_, y_, next)) plane_ = next;
       return;

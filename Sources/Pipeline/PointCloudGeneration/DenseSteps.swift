@@ -93,9 +93,12 @@ struct DenseSteps {
       try coarseMap(.coarse, states: .coarseStates, index, in: maps)
     }
     try forEach(.completed, context) { [self] index, control in
-      let completed = try PatchStereo.complete(
-        try map(index), neighbors: try views.views[index].sources.map(map),
-        options: options.patches, control: control)
+      let own = try map(index)
+      let completed =
+        options.expandsAcrossViews
+        ? try PatchStereo.complete(
+          own, neighbors: try views.views[index].sources.map(map), options: options.patches,
+          control: control) : own
       try workspace.write(completed.patchBytes, views.key(.completed, index))
     }
     notePeaks(maps, context.notes)

@@ -91,7 +91,9 @@ extension DenseViews {
       view.points.forEach { fingerprint.add($0) }
     }
     let coarseStates = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
-    let completed = chain(coarseStates, views)
+    let completed = chain(coarseStates, views) { fingerprint, _ in
+      fingerprint.add(options.expandsAcrossViews ? 1 : 0)
+    }
     let patches = chain(completed, views)
     let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
     let clouds = chain(states, views) { fingerprint, view in

@@ -17,6 +17,8 @@ package struct PointCloudGeneration {
     package var filter = PatchStereo.FilterOptions()
     /// Of the patches at half the resolution, where smaller islands may grow.
     package var coarseFilter = PatchStereo.FilterOptions(minimumIsland: 10)
+    /// Whether coarse patches go from view to view and into holes.
+    package var expandsAcrossViews = true
     /// Share of the photos' pixels below which the cloud is called sparse in a warning.
     package var sparseRatio = 0.05
     /// Bytes of views and patches that are kept in memory although nobody works on them.

@@ -81,6 +81,12 @@
     @Option(
       name: .long,
       help: ArgumentHelp(
+        "Leave a step out, to see what it is worth.", valueName: "step", visibility: .hidden))
+    var without: [Ablation] = []
+
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
         "Make the patches of a share of the views only.", valueName: "number/count"))
     var job: JobArgument?
 
@@ -109,6 +115,7 @@
       var configuration = PipelineConfiguration()
       configuration.checkpointDirectory = target
       if let threads = arguments.threads { configuration.threadCount = threads }
+      without.forEach { $0.apply(to: &configuration.pointCloudGeneration) }
       let flag = CancellationFlag()
       let interrupts = InterruptHandler { flag.cancel() }
       let listener = PipelineListener(
@@ -140,6 +147,27 @@
         (1...count).contains(number)
       else { return nil }
       share = PointCloudGeneration.Share(index: number - 1, of: count)
+    }
+  }
+
+  /// A step of the dense stage that can be left out.
+  enum Ablation: String, CaseIterable, ExpressibleByArgument {
+    case expansionAcrossViews = "expansion-across-views"
+    case normals
+    case filter
+    case coarseToFine = "coarse-to-fine"
+
+    func apply(to options: inout PointCloudGeneration.Options) {
+      switch self {
+      case .expansionAcrossViews: options.expandsAcrossViews = false
+      case .normals: options.patches.estimatesNormals = false
+      case .coarseToFine: options.patches.levelCount = 1
+      case .filter:
+        options.filter.minimumAgreeingViews = 0
+        options.filter.contradictionThreshold = 1e9
+        options.filter.fringePasses = 0
+        options.filter.minimumIsland = 0
+      }
     }
   }
 
