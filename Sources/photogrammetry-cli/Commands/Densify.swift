@@ -46,13 +46,13 @@
           stored upside down doesn't tell and must be turned first.
 
         DETAIL LEVELS (at most so many pixels of a photo are used)
-          preview 0.25, reduced 0.5, medium 1, full 2, raw 4 megapixels
+          preview 0.08, reduced 0.18, medium 0.5, full 2, raw 4 megapixels
 
         JOBS
           --job 2/8 makes the patches of every eighth view, from the second on,
-          in <output>/dense/views/, which is nine tenths of the work, and stops.
-          Jobs may run one after the other or at once, also on several machines
-          that share <output>. Then the same command without --job makes the
+          in <output>/dense/views/, which is most of the work, and stops. Jobs
+          may run one after the other or at once, also on several machines that
+          share <output>; what all need they make between them. Then the same command without --job makes the
           cloud.
 
         Exit codes: 0 the cloud was written, 1 the photos give none with these cameras, 2 the \
