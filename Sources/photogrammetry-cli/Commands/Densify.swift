@@ -52,8 +52,8 @@
           --job 2/8 makes the patches of every eighth view, from the second on,
           in <output>/dense/views/, which is most of the work, and stops. Jobs
           may run one after the other or at once, also on several machines that
-          share <output>; what all need they make between them. Then the same command without --job makes the
-          cloud.
+          share <output>; what all need they make between them. Then the same
+          command without --job makes the cloud.
 
         Exit codes: 0 the cloud was written, 1 the photos give none with these cameras, 2 the \
         command line can't be carried out, 130 interrupted.
