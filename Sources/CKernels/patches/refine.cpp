@@ -18,11 +18,13 @@ class Parents {
   /// The finer patches, with the sources that each is to be compared with.
   Grid children(int width, int height) const {
     Grid fine = refine_grid(grid_, width, height);
-    for (int y = 0; y < height; ++y) {
+    for (int y = 0; y < height; y += 2) {
       for (int x = 0; x < width; x += 2) {
         const uint8_t sources =
             sources_at(std::min(x / 2, grid_.width - 1), std::min(y / 2, grid_.height - 1));
-        for (int i = x; i < std::min(x + 2, width); ++i) set(fine, fine.index(i, y), sources);
+        for (int j = y; j < std::min(y + 2, height); ++j) {
+          for (int i = x; i < std::min(x + 2, width); ++i) set(fine, fine.index(i, j), sources);
+        }
       }
     }
     return fine;
@@ -32,7 +34,7 @@ class Parents {
 
  private:
   /// The neighbours that agree with the accepted patches around, for only they see the surface; all
-  /// of them where that are too few to tell. None where the filter rejected all patches around and
+  /// of them where those are too few to tell. None where the filter rejected all patches around and
   /// none of them looks promising: nothing that would stand can grow from those.
   uint8_t sources_at(int x, int y) const {
     constexpr float kPromising = 0.3f;

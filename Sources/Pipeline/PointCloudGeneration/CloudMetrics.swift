@@ -128,10 +128,10 @@ private struct PlaceGrid {
     }
   }
 
-  /// Nil where the point is too far away to number its cell.
+  /// Nil where the point is too far away to number its cell, or not a number.
   private func cell(of point: SIMD3<Float>) -> SIMD3<Int32>? {
     let scaled = (point * inverseCell).rounded(.down)
-    guard scaled.max() < 1e9, scaled.min() > -1e9 else { return nil }
+    guard (0..<3).allSatisfy({ abs(scaled[$0]) < 1e9 }) else { return nil }
     return SIMD3<Int32>(scaled)
   }
 }

@@ -50,4 +50,13 @@ import Testing
     #expect(values.sparseCoverage == 0)
     CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
   }
+
+  @Test func pointsThatAreNoPlaceAreLeftOut() {
+    var broken = cloud
+    broken.positions[0] = [.nan, .infinity, 0]
+    broken.positions[1] = [-1e30, 0, 0]
+    let values = CloudMetrics().run(
+      broken, reconstruction([[0.5, 0.5, 0.2], [.nan, 0, 0]], .arbitrary), StageNotes())
+    #expect(values.sparseCoverage == 0.5)
+  }
 }
