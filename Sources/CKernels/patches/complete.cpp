@@ -80,58 +80,65 @@ class Completion {
  public:
   Completion(const ck_patch_map& reference, const Comparison& comparison,
              const std::vector<Plane>& offers, const ck_patch_options& options)
-      : comparison_(comparison),
-        kernels_(kernels(options.instructions)),
-        offers_(offers),
+      : offers_(offers),
         steps_(options.refinement_steps),
         grid_(reference.view.width, reference.view.height),
-        is_good_(reference.states, reference.states + grid_.planes.size()) {
+        is_good_(reference.states, reference.states + grid_.planes.size()),
+        optimiser_(grid_, comparison, kernels(options.instructions)) {
     grid_.read(reference.patches);
   }
 
   /// Visits the rejected cells that have an offer or a good cell before them.
   void sweep(bool is_forward, const ck_control* control, double from, double to) {
-    const int rows = grid_.height - 2 * kMargin, columns = grid_.width - 2 * kMargin;
-    for (int row = 0; row < rows; ++row) {
-      step(control, from + (to - from) * row / rows);
-      const int y = is_forward ? kMargin + row : grid_.height - 1 - kMargin - row;
-      for (int column = 0; column < columns; ++column) {
-        const int x = is_forward ? kMargin + column : grid_.width - 1 - kMargin - column;
-        if (!is_good_[grid_.index(x, y)]) visit(x, y, is_forward ? -1 : 1, is_forward);
-      }
-    }
+    const int back = is_forward ? -1 : 1;
+    Wavefront(grid_.width, grid_.height, is_forward)
+        .run(control, from, to, [&](Cell* cells, int count) {
+          const auto end = std::remove_if(cells, cells + count, [&](const Cell& cell) {
+            return is_good(cell) || !(has_offer(cell, is_forward) || is_good(cell, back, 0) ||
+                                      is_good(cell, 0, back));
+          });
+          if (end > cells) visit(cells, static_cast<int>(end - cells), back, is_forward);
+        });
   }
 
   const Grid& grid() const { return grid_; }
 
  private:
-  void visit(int x, int y, int direction, bool takes_offers) {
-    const size_t cell = grid_.index(x, y);
-    const size_t beside = grid_.index(x + direction, y), above = grid_.index(x, y + direction);
-    const bool has_offer = takes_offers && offers_[cell].w > 0;
-    if (!has_offer && !is_good_[beside] && !is_good_[above]) return;
-    const Plane plane = grid_.planes[cell];
-    const float cost = grid_.costs[cell];
-    PatchOptimiser pixel(grid_, comparison_, kernels_, x, y);
-    const auto step_back = static_cast<float>(-direction);
-    bool is_new = has_offer && pixel.offer_different(offers_[cell]);
-    if (is_good_[beside]) is_new |= pixel.offer_different(grid_.planes[beside].at(step_back, 0));
-    if (is_good_[above]) is_new |= pixel.offer_different(grid_.planes[above].at(0, step_back));
-    if (is_new) {
-      pixel.refine(steps_);
-      is_good_[cell] = grid_.costs[cell] < kWeakCost;
-    } else {
-      grid_.planes[cell] = plane;
-      grid_.costs[cell] = cost;
+  bool is_good(const Cell& cell, int dx = 0, int dy = 0) const {
+    return is_good_[grid_.index(cell.x + dx, cell.y + dy)] != 0;
+  }
+
+  bool has_offer(const Cell& cell, bool takes_offers) const {
+    return takes_offers && offers_[grid_.index(cell.x, cell.y)].w > 0;
+  }
+
+  void visit(const Cell* cells, int count, int back, bool takes_offers) {
+    optimiser_.start(cells, count);
+    if (takes_offers) {
+      optimiser_.offer_different(
+          [&](const Cell& cell) { return offers_[grid_.index(cell.x, cell.y)]; });
+    }
+    optimiser_.offer_different([&](const Cell& cell) { return good_plane(cell, back, 0); });
+    optimiser_.offer_different([&](const Cell& cell) { return good_plane(cell, 0, back); });
+    optimiser_.refine(steps_, true);
+    for (const Candidate& pixel : optimiser_) {
+      if (!pixel.is_new) continue;
+      const size_t cell = grid_.index(pixel.cell.x, pixel.cell.y);
+      grid_.planes[cell] = pixel.plane;
+      grid_.costs[cell] = pixel.cost;
+      is_good_[cell] = pixel.cost < kWeakCost;
     }
   }
 
-  const Comparison& comparison_;
-  const Kernels& kernels_;
+  Plane good_plane(const Cell& cell, int dx, int dy) const {
+    return is_good(cell, dx, dy) ? grid_.plane_from(cell, dx, dy) : Plane();
+  }
+
   const std::vector<Plane>& offers_;
   const int steps_;
   Grid grid_;
   std::vector<uint8_t> is_good_;
+  PatchOptimiser optimiser_;
 };
 
 void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch_map* neighbors,

@@ -8,27 +8,21 @@ namespace ck::patches {
 
 void expand(Grid& grid, const Comparison& comparison, const Kernels& kernels, const Sweep& sweep,
             const ck_control* control, double progress_from, double progress_to) {
-  const int rows = grid.height - 2 * kMargin, columns = grid.width - 2 * kMargin;
-  const int direction = sweep.is_forward ? -1 : 1;
-  for (int row = 0; row < rows; ++row) {
-    step(control, progress_from + (progress_to - progress_from) * row / rows);
-    const int y = sweep.is_forward ? kMargin + row : grid.height - 1 - kMargin - row;
-    for (int column = 0; column < columns; ++column) {
-      const int x = sweep.is_forward ? kMargin + column : grid.width - 1 - kMargin - column;
-      if (!grid.sources[grid.index(x, y)]) continue;
-      PatchOptimiser pixel(grid, comparison, kernels, x, y);
-      const Plane& beside = grid.planes[grid.index(x + direction, y)];
-      const Plane& above = grid.planes[grid.index(x, y + direction)];
-      const auto step_back = static_cast<float>(-direction);
-      if (beside.w > 0) pixel.offer_different(beside.at(step_back, 0));
-      if (above.w > 0) pixel.offer_different(above.at(0, step_back));
-      if (!pixel.is_empty()) {
-        pixel.perturb(sweep.perturbations, sweep.seed);
-        pixel.refine(sweep.refinement_steps);
-      }
-      if (sweep.may_inherit) pixel.settle();
-    }
-  }
+  PatchOptimiser optimiser(grid, comparison, kernels);
+  const Wavefront wavefront(grid.width, grid.height, sweep.is_forward);
+  const int back = sweep.is_forward ? -1 : 1;
+  wavefront.run(control, progress_from, progress_to, [&](Cell* cells, int count) {
+    const auto end = std::remove_if(cells, cells + count, [&](const Cell& cell) {
+      return !grid.sources[grid.index(cell.x, cell.y)];
+    });
+    optimiser.start(cells, static_cast<int>(end - cells));
+    optimiser.offer_different([&](const Cell& cell) { return grid.plane_from(cell, back, 0); });
+    optimiser.offer_different([&](const Cell& cell) { return grid.plane_from(cell, 0, back); });
+    optimiser.perturb(sweep.perturbations, sweep.seed);
+    optimiser.refine(sweep.refinement_steps, false);
+    if (sweep.may_inherit) optimiser.settle();
+    optimiser.finish();
+  });
 }
 
 Grid refine_grid(const Grid& coarse, int width, int height) {

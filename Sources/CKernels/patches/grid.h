@@ -18,8 +18,17 @@ constexpr float kWeakCost = 0.4f;
 /// All sources, a bit each.
 constexpr uint8_t kAllSources = 0xff;
 
+/// The most pixels that are optimised at once: enough to hide what each waits for, few enough for
+/// the nearest cache.
+constexpr int kWaveSize = 8;
+
 /// The cost of no patch.
 constexpr float kNoPatch = 2;
+
+/// A pixel of a grid.
+struct Cell {
+  int x, y;
+};
 
 /// The patches of one reference view at one resolution.
 struct Grid {
@@ -39,6 +48,12 @@ struct Grid {
         sources(static_cast<size_t>(w) * h, kAllSources) {}
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * width + x; }
+
+  /// The plane of the cell (dx, dy) away, seen from this one; no plane where that has none.
+  Plane plane_from(const Cell& cell, int dx, int dy) const {
+    const Plane& plane = planes[index(cell.x + dx, cell.y + dy)];
+    return plane.w > 0 ? plane.at(static_cast<float>(-dx), static_cast<float>(-dy)) : Plane();
+  }
 
   void read(const ck_patch* patches);
   void write(ck_patch* patches) const;
@@ -77,25 +92,35 @@ struct alignas(64) ReferencePatch {
 
 /// What the sources show where a plane puts the patch: computed with the score, used by the step.
 ///
-/// Sources stand in slots, four a group; a vector holds a row of four texels for each of a group.
+/// Sources stand in eight slots, four a group; a vector holds a row of four texels for each of a
+/// group.
 struct alignas(64) Samples {
   /// Grey values by row.
   float values[2][4][16];
-  float mean[2][16], inverse_deviation[2][16];
+  float mean[8], inverse_deviation[8];
   /// Motion of the patch with inverse depth, in pixels of the reference.
-  float motion_x[2][16], motion_y[2][16];
+  float motion_x[8], motion_y[8];
   int group_count = 0;
   /// The slots of the sources that see the patch well, a bit each: they move it.
   unsigned voters = 0;
 };
 
+/// A plane to be scored for a pixel, and its cost: the mean of the best two sources' 1 − ZNCC.
+struct Trial {
+  const ReferencePatch* patch;
+  Samples* samples;
+  Plane plane;
+  Cell cell;
+  /// A bit mask of the sources to compare with.
+  unsigned sources;
+  float cost;
+};
+
 /// The inner loops, compiled for each instruction set.
 struct Kernels {
-  void (*prepare)(ReferencePatch& patch, const Comparison& comparison, int x, int y);
-  /// `sources` is a bit mask of the sources to compare with.
-  /// The mean of the best two sources' 1 − ZNCC.
-  float (*score)(const ReferencePatch& patch, const Comparison& comparison, int x, int y,
-                 const Plane& plane, unsigned sources, Samples& samples);
+  void (*prepare)(ReferencePatch& patch, const Comparison& comparison, const Cell& cell);
+  /// Scores at most `kWaveSize` planes of different pixels.
+  void (*score)(const Comparison& comparison, Trial* trials, int count);
   /// One Gauss–Newton step on inverse depth and gradient over the voters, which were scored at
   /// `plane`. False where they do not determine one.
   bool (*step)(const ReferencePatch& patch, const Samples& samples, const Plane& plane,

@@ -6,78 +6,147 @@
 
 namespace ck::patches {
 
-PatchOptimiser::PatchOptimiser(Grid& grid, const Comparison& comparison, const Kernels& kernels,
-                               int x, int y)
-    : comparison_(comparison),
-      kernels_(kernels),
-      x_(x),
-      y_(y),
-      plane_(grid.planes[grid.index(x, y)]),
-      cost_(grid.costs[grid.index(x, y)]),
-      sources_(grid.sources[grid.index(x, y)]),
-      inherited_{plane_, cost_} {
-  kernels.prepare(reference_, comparison, x, y);
-  cost_ = kNoPatch;
-  if (inherited_.plane.w > 0) offer(inherited_.plane);
-}
-
-bool PatchOptimiser::offer(const Plane& offered) {
-  const Plane plane = comparison_.is_frontal ? Plane{offered.w, 0, 0} : offered;
-  if (!is_plausible(comparison_, x_, y_, plane)) return false;
-  Samples& samples = samples_[1 - current_];
-  const float cost = kernels_.score(reference_, comparison_, x_, y_, plane, sources_, samples);
-  if (!(cost < cost_)) return false;
-  cost_ = cost;
-  plane_ = plane;
-  current_ = 1 - current_;
-  return true;
-}
-
-float PatchOptimiser::motion_to(const Plane& plane) const {
+float PatchOptimiser::motion(const Plane& from, const Plane& to) const {
   constexpr float kReach = 2;  // the patch's outermost texels
-  const float slope = std::fabs(plane.gx - plane_.gx) + std::fabs(plane.gy - plane_.gy);
-  return (std::fabs(plane.w - plane_.w) + kReach * slope) * comparison_.motion;
+  const float slope = std::fabs(to.gx - from.gx) + std::fabs(to.gy - from.gy);
+  return (std::fabs(to.w - from.w) + kReach * slope) * comparison_.motion;
 }
 
-bool PatchOptimiser::offer_different(const Plane& plane) {
+void PatchOptimiser::add(Trials& trials, int i, const Plane& offered) {
+  Candidate& pixel = pixels_[i];
+  const Plane plane = comparison_.is_frontal ? Plane{offered.w, 0, 0} : offered;
+  const int n = trials.count;
+  trials.trials[n] = {
+      &pixel.reference, &pixel.samples[1 - pixel.current], plane, pixel.cell, pixel.sources,
+      kNoPatch};
+  trials.pixels[n] = i;
+  trials.count += is_plausible(comparison_, pixel.cell.x, pixel.cell.y, plane);
+}
+
+void PatchOptimiser::start(const Cell* cells, int count) {
+  count_ = count;
+  Trials trials;
+  for (int i = 0; i < count; ++i) {
+    const size_t cell = grid_.index(cells[i].x, cells[i].y);
+    Candidate& pixel = pixels_[i];
+    pixel.cell = cells[i];
+    pixel.plane = grid_.planes[cell];
+    pixel.cost = kNoPatch;
+    pixel.sources = grid_.sources[cell];
+    pixel.inherited = {pixel.plane, grid_.costs[cell]};
+    pixel.current = 0;
+    pixel.samples[0].voters = 0;
+    kernels_.prepare(pixel.reference, comparison_, cells[i]);
+    add(trials, i, pixel.plane);
+  }
+  run(trials);
+  for (int i = 0; i < count; ++i) pixels_[i].is_new = false;
+}
+
+void PatchOptimiser::run(Trials& trials) {
+  kernels_.score(comparison_, trials.trials, trials.count);
+  int taken = 0;
+  for (int n = 0; n < trials.count; ++n) {
+    const Trial& trial = trials.trials[n];
+    Candidate& pixel = pixels_[trials.pixels[n]];
+    const bool is_better = trial.cost < pixel.cost;
+    pixel.cost = is_better ? trial.cost : pixel.cost;
+    pixel.plane.w = is_better ? trial.plane.w : pixel.plane.w;
+    pixel.plane.gx = is_better ? trial.plane.gx : pixel.plane.gx;
+    pixel.plane.gy = is_better ? trial.plane.gy : pixel.plane.gy;
+    pixel.current ^= is_better;
+    pixel.is_new |= is_better;
+    trials.pixels[taken] = trials.pixels[n];
+    taken += is_better;
+  }
+  trials.count = taken;
+}
+
+void PatchOptimiser::offer_each(const Plane* planes) {
   constexpr float kSame = 0.4f;  // Gauss–Newton gets there by itself.
-  return (is_empty() || motion_to(plane) > kSame) && offer(plane);
+  Trials trials;
+  for (int i = 0; i < count_; ++i) {
+    const Candidate& pixel = pixels_[i];
+    if (pixel.is_empty() || motion(pixel.plane, planes[i]) > kSame) add(trials, i, planes[i]);
+  }
+  run(trials);
 }
 
 void PatchOptimiser::settle() {
   constexpr float kDistinct = 0.95f;  // deviation over noise of about 3
   constexpr float kMargin = 0.1f;
-  const bool is_weak = reference_.confidence < kDistinct;
-  if (inherited_.plane.w > 0 && is_weak && inherited_.cost + kMargin < cost_) {
-    plane_ = inherited_.plane;
-    cost_ = inherited_.cost;
-    if (cost_ < kWeakCost) cost_ = kWeakCost + 0.25f * cost_;
+  for (int i = 0; i < count_; ++i) {
+    Candidate& pixel = pixels_[i];
+    const auto& inherited = pixel.inherited;
+    const bool is_weak = pixel.reference.confidence < kDistinct;
+    if (inherited.plane.w > 0 && is_weak && inherited.cost + kMargin < pixel.cost) {
+      pixel.plane = inherited.plane;
+      pixel.cost = inherited.cost;
+      if (pixel.cost < kWeakCost) pixel.cost = kWeakCost + 0.25f * pixel.cost;
+    }
+  }
+}
+
+void PatchOptimiser::finish() {
+  for (const Candidate& pixel : *this) {
+    const size_t cell = grid_.index(pixel.cell.x, pixel.cell.y);
+    grid_.planes[cell] = pixel.plane;
+    grid_.costs[cell] = pixel.cost;
   }
 }
 
 void PatchOptimiser::perturb(int count, uint32_t seed) {
-  const uint64_t place = uint64_t{static_cast<uint32_t>(y_)} << 32 | static_cast<uint32_t>(x_);
-  Random random(Random::mixed(seed) ^ place);
+  for (int i = 0; i < count_; ++i) {
+    const Cell& cell = pixels_[i].cell;
+    const uint64_t place =
+        uint64_t{static_cast<uint32_t>(cell.y)} << 32 | static_cast<uint32_t>(cell.x);
+    pixels_[i].random = Random(Random::mixed(seed) ^ place);
+  }
   float range = 1;
-  for (int i = 0; i < count; ++i, range *= 0.5f) {
+  for (int round = 0; round < count; ++round, range *= 0.5f) {
     const float depth = 0.02f * range, slant = 0.7f * range;
-    offer({plane_.w * (1 + depth * random.symmetric()),
-           plane_.gx + plane_.w * slant / comparison_.fx * random.symmetric(),
-           plane_.gy + plane_.w * slant / comparison_.fy * random.symmetric()});
+    Trials trials;
+    for (int i = 0; i < count_; ++i) {
+      if (pixels_[i].is_empty()) continue;
+      const Plane& plane = pixels_[i].plane;
+      Random& random = pixels_[i].random;
+      add(trials, i,
+          {plane.w * (1 + depth * random.symmetric()),
+           plane.gx + plane.w * slant / comparison_.fx * random.symmetric(),
+           plane.gy + plane.w * slant / comparison_.fy * random.symmetric()});
+    }
+    run(trials);
   }
 }
 
-void PatchOptimiser::refine(int steps) {
+void PatchOptimiser::refine(int steps, bool only_new) {
   constexpr float kClose = 0.2f;  // So near the optimum a step need not be verified.
-  for (int i = 0; i < steps && samples_[current_].voters; ++i) {
-    Plane next;
-    if (!kernels_.step(reference_, samples_[current_], plane_, next)) return;
-    if (comparison_.is_frontal) next = {next.w, 0, 0};
-    if (motion_to(next) < kClose) {
-      if (is_plausible(comparison_, x_, y_, next)) plane_ = next;
-      return;
+  Trials moving;
+  for (int i = 0; i < count_; ++i) {
+    if (pixels_[i].is_new || !only_new) moving.pixels[moving.count++] = i;
+  }
+  for (int round = 0; round < steps && moving.count > 0; ++round) {
+    Trials trials;
+    Plane next[kWaveSize];
+    bool is_determined[kWaveSize];
+    for (int n = 0; n < moving.count; ++n) {
+      const Candidate& pixel = pixels_[moving.pixels[n]];
+      const Samples& samples = pixel.samples[pixel.current];
+      is_determined[n] =
+          samples.voters && kernels_.step(pixel.reference, samples, pixel.plane, next[n]);
     }
-    if (!offer(next)) return;
+    for (int n = 0; n < moving.count; ++n) {
+      if (!is_determined[n]) continue;
+      Candidate& pixel = pixels_[moving.pixels[n]];
+      if (comparison_.is_frontal) next[n] = {next[n].w, 0, 0};
+      if (motion(pixel.plane, next[n]) >= kClose) {
+        add(trials, moving.pixels[n], next[n]);
+      } else if (is_plausible(comparison_, pixel.cell.x, pixel.cell.y, next[n])) {
+        pixel.plane = next[n];
+      }
+    }
+    run(trials);
+    moving = trials;
   }
 }
 

@@ -36,6 +36,8 @@ CK_INLINE F8 load8(const float* p) {
   return v;
 }
 
+CK_INLINE void store8(float* p, const F8& v) { __builtin_memcpy(p, &v, sizeof v); }
+
 CK_INLINE F8 absolute(const F8& v) { return __builtin_elementwise_abs(v); }
 
 /// Where a patch lies in each source: its centre and the affine map of the offsets.
@@ -81,11 +83,17 @@ CK_INLINE F16 row(const float* values, int j) {
   return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
 }
 
-/// In all lanes of a source the sum of its four.
-CK_INLINE F16 sum_by_source(const F16& v) {
-  const F16 a =
-      v + __builtin_shufflevector(v, v, 1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
-  return a + __builtin_shufflevector(a, a, 2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
+/// Of each source the sum of its four lanes.
+CK_INLINE F4 sum_by_source(const F16& v) {
+  const F8 pairs = v.even + v.odd;
+  return pairs.even + pairs.odd;
+}
+
+/// The value of each of four sources in all of its lanes.
+CK_INLINE F16 by_source(const float* values) {
+  F4 v;
+  __builtin_memcpy(&v, values, sizeof v);
+  return __builtin_shufflevector(v, v, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
 }
 
 /// Sums over the sources.
@@ -113,55 +121,104 @@ struct Slots {
 };
 constexpr Slots kSourcesOf;
 
+/// The sources that see a patch, by slot.
+struct Sources {
+  const uint8_t* of_slot;
+  int count;
+};
+
 /// The patch in four sources.
 struct Quad {
   F16 u, v, bx, by;
   I16 offset, stride;
 };
 
-CK_INLINE Quad quad(const Warps& t, const Footprints& f, const I16& lanes) {
+CK_INLINE Quad quad(const Warps& t, const Footprints& f, const uint8_t* sources) {
+  const Lanes lanes = lanes_of(sources);
   Quad q;
   q.u = spread(f.u, lanes) - 0.5f + kDx * spread(f.ax, lanes);
   q.v = spread(f.v, lanes) - 0.5f + kDx * spread(f.ay, lanes);
   q.bx = spread(f.bx, lanes);
   q.by = spread(f.by, lanes);
-  I8 offset, stride;
+  F8 offset, stride;
   __builtin_memcpy(&offset, t.offset, sizeof offset);
   __builtin_memcpy(&stride, t.stride, sizeof stride);
-  q.offset = __builtin_bit_cast(I16, spread(__builtin_bit_cast(F8, offset), lanes));
-  q.stride = __builtin_bit_cast(I16, spread(__builtin_bit_cast(F8, stride), lanes));
+  q.offset = __builtin_bit_cast(I16, spread(offset, lanes));
+  q.stride = __builtin_bit_cast(I16, spread(stride, lanes));
   return q;
 }
 
+/// What the sources show at the texels of a patch, and where between four pixels each lies.
+struct Texels {
+  I16 words[kRows];
+  F16 ru[kRows], rv[kRows];
+};
+
+CK_INLINE void fetch(const Warps& t, const Quad& q, Texels& texels) {
+  for (int j = 0; j < kRows; ++j) {
+    const float dy = kOffset[j];
+    const F16 u = q.u + dy * q.bx, v = q.v + dy * q.by;
+    const I16 iu = __builtin_convertvector(u, I16), iv = __builtin_convertvector(v, I16);
+    texels.ru[j] = u - __builtin_convertvector(iu, F16);
+    texels.rv[j] = v - __builtin_convertvector(iv, F16);
+    gather(texels.words[j], t.texels.data(), iv * q.stride + (iu + q.offset));
+  }
+}
+
 /// The grey values of four sources at a row of texels, bilinearly.
-CK_INLINE F16 sample(const Warps& t, const Quad& q, float dy) {
-  const F16 u = q.u + dy * q.bx, v = q.v + dy * q.by;
-  const I16 iu = __builtin_convertvector(u, I16), iv = __builtin_convertvector(v, I16);
-  const F16 ru = u - __builtin_convertvector(iu, F16), rv = v - __builtin_convertvector(iv, F16);
-  I16 word;
-  gather(word, t.texels.data(), iv * q.stride + (iu + q.offset));
+CK_INLINE F16 sample(const Texels& texels, int j) {
+  const I16 word = texels.words[j];
   const F16 p00 = __builtin_convertvector(word & 255, F16);
   const F16 p10 = __builtin_convertvector((word >> 8) & 255, F16);
   const F16 p01 = __builtin_convertvector((word >> 16) & 255, F16);
   const F16 p11 = __builtin_convertvector((word >> 24) & 255, F16);
-  const F16 upper = p00 + ru * (p10 - p00), lower = p01 + ru * (p11 - p01);
-  return upper + rv * (lower - upper);
+  const F16 upper = p00 + texels.ru[j] * (p10 - p00), lower = p01 + texels.ru[j] * (p11 - p01);
+  return upper + texels.rv[j] * (lower - upper);
 }
 
-void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
-  const uint8_t* center = c.luma + static_cast<ptrdiff_t>(y) * c.width + x;
-  float grey[kTexels], gx[kTexels], gy[kTexels];
-  constexpr int kStep[4] = {-2, -1, 1, 2};
+/// Four rows of eight pixels: of each those three before a pixel, itself twice and three after it.
+typedef uint8_t B32 __attribute__((ext_vector_type(32)));
+
+CK_INLINE B32 rows_around(const uint8_t* pixel, ptrdiff_t width, const int (&rows)[kRows]) {
+  typedef uint32_t U8 __attribute__((ext_vector_type(8)));
+  U8 halves;
   for (int j = 0; j < kRows; ++j) {
-    const uint8_t* row = center + static_cast<ptrdiff_t>(kStep[j]) * c.width;
-    for (int i = 0; i < 4; ++i) {
-      const uint8_t* p = row + kStep[i];
-      grey[4 * j + i] = p[0];
-      gx[4 * j + i] = 0.5f * (p[1] - p[-1]);
-      gy[4 * j + i] = 0.5f * (p[c.width] - p[-c.width]);
-    }
+    const uint8_t* p = pixel + rows[j] * width;
+    uint32_t left, right;
+    __builtin_memcpy(&left, p - 3, sizeof left);
+    __builtin_memcpy(&right, p, sizeof right);
+    halves[2 * j] = left;
+    halves[2 * j + 1] = right;
   }
-  const F16 value = load(grey);
+  return __builtin_bit_cast(B32, halves);
+}
+
+/// The texels −2, −1, 1 and 2 of four rows.
+CK_INLINE F16 texels_of(const B32& v) {
+  return __builtin_convertvector(
+      __builtin_shufflevector(v, v, 1, 2, 5, 6, 9, 10, 13, 14, 17, 18, 21, 22, 25, 26, 29, 30),
+      F16);
+}
+
+/// Those before them, and after them.
+CK_INLINE F16 texels_before(const B32& v) {
+  return __builtin_convertvector(
+      __builtin_shufflevector(v, v, 0, 1, 4, 5, 8, 9, 12, 13, 16, 17, 20, 21, 24, 25, 28, 29),
+      F16);
+}
+
+CK_INLINE F16 texels_after(const B32& v) {
+  return __builtin_convertvector(
+      __builtin_shufflevector(v, v, 2, 3, 6, 7, 10, 11, 14, 15, 18, 19, 22, 23, 26, 27, 30, 31),
+      F16);
+}
+
+void prepare(ReferencePatch& patch, const Comparison& c, const Cell& cell) {
+  const uint8_t* center = c.luma + static_cast<ptrdiff_t>(cell.y) * c.width + cell.x;
+  const B32 rows = rows_around(center, c.width, {-2, -1, 1, 2});
+  const B32 above = rows_around(center, c.width, {-3, -2, 0, 1});
+  const B32 below = rows_around(center, c.width, {-1, 0, 2, 3});
+  const F16 value = texels_of(rows);
   const F16 contrast = (value - static_cast<float>(*center)) * (1 / c.bilateral_contrast);
   F16 weight = 1.0f / (1.0f + contrast * contrast);
   weight = weight * kProximity;
@@ -173,8 +230,8 @@ void prepare(ReferencePatch& patch, const Comparison& c, int x, int y) {
   store(patch.weight, weight);
   store(patch.value, centered * scale);
   store(patch.weighted, weight * centered * scale);
-  store(patch.gradient_x, load(gx) * scale);
-  store(patch.gradient_y, load(gy) * scale);
+  store(patch.gradient_x, 0.5f * (texels_after(rows) - texels_before(rows)) * scale);
+  store(patch.gradient_y, 0.5f * (texels_of(below) - texels_of(above)) * scale);
 }
 
 /// The two lowest of some costs.
@@ -188,58 +245,92 @@ CK_INLINE Lowest lowest(const F4& c) {
   return {std::min(low, low2), std::min(std::max(low, low2), std::min(high, high2))};
 }
 
-float score(const ReferencePatch& patch, const Comparison& c, int x, int y, const Plane& plane,
-            unsigned sources, Samples& samples) {
-  Footprints f;
-  locate(c.warps, x, y, plane, f);
-  const unsigned valid = mask(f.is_valid) & sources;
-  samples.voters = 0;
-  if (!valid) return kNoPatch;
-  const int count = __builtin_popcount(valid);
-  const uint8_t* of_slot = kSourcesOf.sources[valid];
-  typedef uint8_t B8 __attribute__((ext_vector_type(8)));
-  B8 bytes;
-  __builtin_memcpy(&bytes, of_slot, sizeof bytes);
-  const I8 slots = __builtin_convertvector(bytes, I8);
-  const I16 slot = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-  samples.group_count = count > kSlots ? 2 : 1;
-  F4 costs[2] = {2, 2};
-  for (int g = 0; g < samples.group_count; ++g) {
-    const F4 four = __builtin_bit_cast(F4, g == 0 ? slots.lo : slots.hi);
-    const I16 lanes = __builtin_bit_cast(
-        I16, __builtin_shufflevector(four, four, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3));
-    const Quad q = quad(c.warps, f, lanes);
-    F16 mean = 0, square = 0, covariance = 0;
-    for (int j = 0; j < kRows; ++j) {
-      const F16 value = sample(c.warps, q, kOffset[j]);
-      const F16 weighted_value = row(patch.weight, j) * value;
-      mean += weighted_value;
-      square += weighted_value * value;
-      covariance += row(patch.weighted, j) * value;
-      store(samples.values[g][j], value);
-    }
-    mean = sum_by_source(mean);
-    const F16 variance =
-        __builtin_elementwise_max(sum_by_source(square) - mean * mean, F16(0)) + c.noise_variance;
-    const F16 inverse_deviation = 1.0f / __builtin_elementwise_sqrt(variance);
-    const F16 cost = 1.0f - sum_by_source(covariance) * inverse_deviation * patch.confidence;
-    const F16 known = slot < count - kSlots * g ? cost : F16(2);
-    costs[g] = __builtin_shufflevector(known, known, 0, 4, 8, 12);
-    store(samples.mean[g], mean);
-    store(samples.inverse_deviation[g], inverse_deviation);
-    store(samples.motion_x[g], spread(f.motion_x, lanes));
-    store(samples.motion_y[g], spread(f.motion_y, lanes));
+/// Four of the sources of a trial, which are sampled together.
+struct Group {
+  int trial, index;
+};
+
+/// Weighted sums over the patch in each slot.
+struct Moments {
+  F4 mean[2], square[2], covariance[2];
+};
+
+CK_INLINE F8 join(const F4 (&groups)[2]) {
+  return __builtin_shufflevector(groups[0], groups[1], 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+CK_INLINE void measure(const ReferencePatch& patch, const Texels& texels, int g, Samples& samples,
+                       Moments& moments) {
+  F16 mean = 0, square = 0, covariance = 0;
+  for (int j = 0; j < kRows; ++j) {
+    const F16 value = sample(texels, j);
+    const F16 weighted_value = row(patch.weight, j) * value;
+    mean += weighted_value;
+    square += weighted_value * value;
+    covariance += row(patch.weighted, j) * value;
+    store(samples.values[g][j], value);
   }
-  Lowest low = lowest(costs[0]);
-  if (samples.group_count > 1) {
-    const Lowest more = lowest(costs[1]);
-    low = {std::min(low.first, more.first),
-           std::min(std::max(low.first, more.first), std::min(low.second, more.second))};
-  }
+  moments.mean[g] = sum_by_source(mean);
+  moments.square[g] = sum_by_source(square);
+  moments.covariance[g] = sum_by_source(covariance);
+}
+
+/// The trial's cost, and who votes.
+CK_INLINE void conclude(const Comparison& c, Trial& trial, int count, const Moments& moments) {
+  const F8 mean = join(moments.mean), square = join(moments.square);
+  const F8 variance = __builtin_elementwise_max(square - mean * mean, F8(0)) + c.noise_variance;
+  const F8 inverse_deviation = 1.0f / __builtin_elementwise_sqrt(variance);
+  const F8 cost =
+      1.0f - join(moments.covariance) * inverse_deviation * trial.patch->confidence;
+  // Free slots cost as much as no patch, those of a free group even more.
+  F8 free = kNoPatch;
+  free.hi = count > kSlots ? kNoPatch : std::numeric_limits<float>::infinity();
+  const I8 slot = {0, 1, 2, 3, 4, 5, 6, 7};
+  const F8 costs = slot < count ? cost : free;
+  const Lowest one = lowest(costs.lo), more = lowest(costs.hi);
+  const float first = std::min(one.first, more.first);
+  const float second =
+      std::min(std::max(one.first, more.first), std::min(one.second, more.second));
+  trial.cost = c.warps.count == 1 ? first : 0.5f * (first + second);
+  Samples& samples = *trial.samples;
+  store8(samples.mean, mean);
+  store8(samples.inverse_deviation, inverse_deviation);
   // Those that see the patch much worse than the best one, for what is in front of it, don't vote.
-  const F8 all = __builtin_shufflevector(costs[0], costs[1], 0, 1, 2, 3, 4, 5, 6, 7);
-  samples.voters = mask(all < std::min(1.0f, 1.5f * low.first + 0.05f));
-  return c.warps.count == 1 ? low.first : 0.5f * (low.first + low.second);
+  samples.voters = mask(costs < std::min(1.0f, 1.5f * first + 0.05f));
+  samples.group_count = (count + kSlots - 1) / kSlots;
+}
+
+/// Does each step for all planes before the next, so that the processor always has planes to work on
+/// while one waits for its texels or for a quotient.
+void score(const Comparison& c, Trial* trials, int count) {
+  Footprints footprints[kWaveSize];
+  Sources sources[kWaveSize];
+  Group groups[2 * kWaveSize];
+  Texels texels[2 * kWaveSize];
+  Moments moments[kWaveSize];
+  int group_count = 0;
+  for (int i = 0; i < count; ++i) {
+    const Trial& trial = trials[i];
+    locate(c.warps, trial.cell.x, trial.cell.y, trial.plane, footprints[i]);
+    const unsigned valid = mask(footprints[i].is_valid) & trial.sources;
+    sources[i] = {kSourcesOf.sources[valid], __builtin_popcount(valid)};
+    store8(trial.samples->motion_x, permute(footprints[i].motion_x, sources[i].of_slot));
+    store8(trial.samples->motion_y, permute(footprints[i].motion_y, sources[i].of_slot));
+    for (int g = 0; g < 2; ++g) {
+      groups[group_count] = {i, g};
+      group_count += sources[i].count > kSlots * g;
+    }
+    moments[i] = {};
+  }
+  for (int k = 0; k < group_count; ++k) {
+    const auto [i, g] = groups[k];
+    fetch(c.warps, quad(c.warps, footprints[i], sources[i].of_slot + kSlots * g), texels[k]);
+  }
+  for (int k = 0; k < group_count; ++k) {
+    const auto [i, g] = groups[k];
+    measure(*trials[i].patch, texels[k], g, *trials[i].samples, moments[i]);
+  }
+  for (int i = 0; i < count; ++i) conclude(c, trials[i], sources[i].count, moments[i]);
 }
 
 bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plane, Plane& result) {
@@ -248,9 +339,10 @@ bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plan
   for (int g = 0; g < samples.group_count; ++g) {
     const I16 is_used = (bit & static_cast<int>(samples.voters >> kSlots * g)) != 0;
     const F16 share = is_used ? F16(1) : F16(0);
-    const F16 mean = load(samples.mean[g]);
-    const F16 inverse_deviation = load(samples.inverse_deviation[g]);
-    const F16 motion_x = load(samples.motion_x[g]), motion_y = load(samples.motion_y[g]);
+    const F16 mean = by_source(samples.mean + kSlots * g);
+    const F16 inverse_deviation = by_source(samples.inverse_deviation + kSlots * g);
+    const F16 motion_x = by_source(samples.motion_x + kSlots * g);
+    const F16 motion_y = by_source(samples.motion_y + kSlots * g);
     for (int j = 0; j < kRows; ++j) {
       const F16 residual =
           (load(samples.values[g][j]) - mean) * inverse_deviation - row(patch.value, j);

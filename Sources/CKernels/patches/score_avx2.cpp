@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/vectors.h"
 #include "patches/grid.h"
@@ -22,15 +23,33 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
   __builtin_memcpy(&out, lanes, sizeof lanes);
 }
 
-inline __attribute__((always_inline)) F16 spread(const F8& values, const I16& lanes) {
+/// The lanes of eight sources that go to 16 lanes, four each of four sources.
+struct Lanes {
+  __m256i lo, hi;
+};
+
+inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) {
+  const __m128i each = _mm_set_epi8(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+  const __m128i bytes = _mm_shuffle_epi8(_mm_loadu_si32(sources), each);
+  return {_mm256_cvtepu8_epi32(bytes), _mm256_cvtepu8_epi32(_mm_srli_si128(bytes, 8))};
+}
+
+inline __attribute__((always_inline)) F16 spread(const F8& values, const Lanes& lanes) {
   __m256 from, to[2];
-  __m256i index[2];
   __builtin_memcpy(&from, &values, sizeof from);
-  __builtin_memcpy(index, &lanes, sizeof index);
-  to[0] = _mm256_permutevar8x32_ps(from, index[0]);
-  to[1] = _mm256_permutevar8x32_ps(from, index[1]);
+  to[0] = _mm256_permutevar8x32_ps(from, lanes.lo);
+  to[1] = _mm256_permutevar8x32_ps(from, lanes.hi);
   F16 out;
   __builtin_memcpy(&out, to, sizeof out);
+  return out;
+}
+
+inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t* sources) {
+  __m256 from;
+  __builtin_memcpy(&from, &values, sizeof from);
+  const __m256 to = _mm256_permutevar8x32_ps(from, _mm256_cvtepu8_epi32(_mm_loadu_si64(sources)));
+  F8 out;
+  __builtin_memcpy(&out, &to, sizeof out);
   return out;
 }
 

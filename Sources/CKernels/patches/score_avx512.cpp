@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/vectors.h"
 #include "patches/grid.h"
@@ -21,13 +22,30 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
   __builtin_memcpy(&out, &lanes, sizeof lanes);
 }
 
-inline __attribute__((always_inline)) F16 spread(const F8& values, const I16& lanes) {
+/// The lanes of eight sources that go to 16 lanes, four each of four sources.
+using Lanes = __m512i;
+
+inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) {
+  __m128i bytes = _mm_loadu_si32(sources);
+  const __m128i each = _mm_set_epi8(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+  return _mm512_cvtepu8_epi32(_mm_shuffle_epi8(bytes, each));
+}
+
+inline __attribute__((always_inline)) F16 spread(const F8& values, const Lanes& lanes) {
   __m256 from;
-  __m512i index;
   __builtin_memcpy(&from, &values, sizeof from);
-  __builtin_memcpy(&index, &lanes, sizeof index);
-  const __m512 to = _mm512_permutexvar_ps(index, _mm512_castps256_ps512(from));
+  const __m512 to = _mm512_permutexvar_ps(lanes, _mm512_broadcast_f32x8(from));
   F16 out;
+  __builtin_memcpy(&out, &to, sizeof out);
+  return out;
+}
+
+inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t* sources) {
+  __m256 from;
+  __builtin_memcpy(&from, &values, sizeof from);
+  const __m256i lanes = _mm256_cvtepu8_epi32(_mm_loadu_si64(sources));
+  const __m256 to = _mm256_permutevar8x32_ps(from, lanes);
+  F8 out;
   __builtin_memcpy(&out, &to, sizeof out);
   return out;
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/vectors.h"
 #include "patches/grid.h"
@@ -13,9 +14,27 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
   for (int i = 0; i < 16; ++i) out[i] = static_cast<int32_t>(base[index[i]]);
 }
 
-inline __attribute__((always_inline)) F16 spread(const F8& values, const I16& lanes) {
+/// The lanes of eight sources that go to 16 lanes, four each of four sources.
+using Lanes = const uint8_t*;
+
+inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) { return sources; }
+
+inline __attribute__((always_inline)) F16 spread(const F8& values, Lanes lanes) {
+  float from[8];
+  __builtin_memcpy(from, &values, sizeof from);
   F16 out;
-  for (int i = 0; i < 16; ++i) out[i] = values[lanes[i]];
+  out.lo.lo = from[lanes[0]];
+  out.lo.hi = from[lanes[1]];
+  out.hi.lo = from[lanes[2]];
+  out.hi.hi = from[lanes[3]];
+  return out;
+}
+
+inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t* sources) {
+  float from[8];
+  __builtin_memcpy(from, &values, sizeof from);
+  F8 out;
+  for (int i = 0; i < 8; ++i) out[i] = from[sources[i]];
   return out;
 }
 
