@@ -34,20 +34,46 @@ CK_INLINE I16 are_parallel(const Agreement& a, const F16& x, float y, const F16&
   return (dot > 0) & (dot * dot >= lengths * a.squared_cosine);
 }
 
+/// Where a vector of the reference's patches lies in the neighbour.
+struct Places {
+  F16 x, qz, inverse_z, u, v;
+  /// The neighbour's cells, of its border for what lies outside.
+  I16 iu, iv, cell;
+};
+
+CK_INLINE Places locate(const Passage& t, const Row& row, int start) {
+  const F16 w = load(&row.w[start]);
+  const auto y = static_cast<float>(row.y);
+  const F16 kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+  Places p;
+  p.x = kLane + static_cast<float>(start);
+  const F16 qx = t.base[0] + y * t.column1[0] + p.x * t.column0[0] + w * t.epipole[0];
+  const F16 qy = t.base[1] + y * t.column1[1] + p.x * t.column0[1] + w * t.epipole[1];
+  p.qz = t.base[2] + y * t.column1[2] + p.x * t.column0[2] + w * t.epipole[2];
+  p.inverse_z = 1.0f / p.qz;
+  p.u = qx * p.inverse_z;
+  p.v = qy * p.inverse_z;
+  const auto width = static_cast<float>(t.width), height = static_cast<float>(t.height);
+  p.iu = __builtin_convertvector(clamped(p.u, 0, width - 1), I16);
+  p.iv = __builtin_convertvector(clamped(p.v, 0, height - 1), I16);
+  p.cell = p.iv * t.width + p.iu;
+  return p;
+}
+
+/// Fetches what `ask_vector` will need: a row of patches crosses the neighbour's rows, where the
+/// processor does not look ahead by itself.
+CK_INLINE void prefetch(const Passage& t, const Row& row, int start) {
+  const I16 cell = locate(t, row, start).cell;
+  constexpr int kPatchesOfLine = 64 / sizeof(ck_patch);
+  for (int i = 0; i < 16; i += kPatchesOfLine) __builtin_prefetch(t.patches + cell[i]);
+}
+
 void ask_vector(const Passage& t, const Agreement& a, const Row& row, Replies& replies, int start) {
   const F16 w = load(&row.w[start]), gx = load(&row.gx[start]), gy = load(&row.gy[start]);
   const auto y = static_cast<float>(row.y);
-  const F16 kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-  const F16 x = kLane + static_cast<float>(start);
-  const F16 qx = t.base[0] + y * t.column1[0] + x * t.column0[0] + w * t.epipole[0];
-  const F16 qy = t.base[1] + y * t.column1[1] + x * t.column0[1] + w * t.epipole[1];
-  const F16 qz = t.base[2] + y * t.column1[2] + x * t.column0[2] + w * t.epipole[2];
-  const F16 inverse_z = 1.0f / qz, u = qx * inverse_z, v = qy * inverse_z;
+  const auto [x, qz, inverse_z, u, v, iu, iv, cell] = locate(t, row, start);
   const auto width = static_cast<float>(t.width), height = static_cast<float>(t.height);
   I16 known = (w > 0) & (qz > 1e-6f) & (u >= 0) & (v >= 0) & (u < width) & (v < height);
-  const I16 iu = __builtin_convertvector(clamped(u, 0, width - 1), I16);
-  const I16 iv = __builtin_convertvector(clamped(v, 0, height - 1), I16);
-  const I16 cell = iv * t.width + iu;
   // The neighbour's plane p: its inverse depth and gradient, at the very pixel.
   F16 pw, pu, pv, cost;
   gather(pw, &t.patches->inverse_depth, cell);
@@ -89,7 +115,9 @@ void ask_vector(const Passage& t, const Agreement& a, const Row& row, Replies& r
 }
 
 void ask(const Passage& passage, const Agreement& agreement, const Row& row, Replies& replies) {
+  constexpr int kAhead = 64;
   for (int start = 0; start < row.width; start += 16) {
+    if (start + kAhead < row.width) prefetch(passage, row, start + kAhead);
     const F16 w = load(&row.w[start]);
     if (__builtin_reduce_max(w) > 0) {
       ask_vector(passage, agreement, row, replies, start);
