@@ -128,6 +128,8 @@ package enum PatchStereo {
     package var refinementSteps = 2
     /// Grey levels at which the bilateral weight is one half.
     package var bilateralContrast: Float = 6
+    /// Views offer each other their patches.
+    package var expandsAcrossViews = true
     /// Patches follow the surface instead of facing the camera.
     package var estimatesNormals = true
     package var seed: UInt32 = 1
@@ -156,7 +158,7 @@ package enum PatchStereo {
     /// Relative distance behind a patch at which another view sees through it.
     package var contradictionThreshold: Float = 0.01
     /// How often pixels that look like their rejected neighbours are peeled off the border.
-    package var fringePasses = 2
+    package var fringePasses = 1
     /// Grey levels that make a pixel half like another.
     package var fringeContrast: Float = 10
     /// Connected patches fewer than this are removed.
@@ -227,8 +229,9 @@ package enum PatchStereo {
   }
 
   /// Expands patches across views and into holes: the patches of `map` with better ones, taken from
-  /// its neighbours and from those beside them, where the filter rejected them. Call once the map and
-  /// all its neighbours are filtered; the filter has to judge the result anew.
+  /// its neighbours and from those beside them, where the filter rejected them; near edges of the
+  /// surface they are made anew, of the texels on their side. Call once the map and all its neighbours
+  /// are filtered; the filter has to judge the result anew.
   package static func complete(
     _ map: PatchMap, neighbors: [PatchMap], options: Options, control: KernelControl
   ) throws -> PatchMap {
@@ -270,8 +273,8 @@ extension PatchStereo.Options {
     ck_patch_options(
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
-      bilateral_contrast: bilateralContrast, is_frontal: estimatesNormals ? 0 : 1, seed: seed,
-      instructions: instructions.raw)
+      bilateral_contrast: bilateralContrast, expands_across_views: expandsAcrossViews ? 1 : 0,
+      is_frontal: estimatesNormals ? 0 : 1, seed: seed, instructions: instructions.raw)
   }
 }
 

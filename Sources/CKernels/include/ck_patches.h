@@ -55,6 +55,8 @@ typedef struct {
   int32_t refinement_steps;
   /// Grey levels at which the bilateral weight is one half.
   float bilateral_contrast;
+  /// Views offer each other their patches.
+  int32_t expands_across_views;
   /// Patches face the camera instead of following the surface.
   int32_t is_frontal;
   /// The same seed gives the same patches.
@@ -138,7 +140,8 @@ ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch
 
 /// Expands patches across views and into holes: offers the accepted patches of the neighbours, and
 /// those beside a cell, to the cells of `reference` that the filter rejected, and optimises what is
-/// better than what they had (Furukawa and Ponce, PAMI 2010, section 3.2).
+/// better than what they had (Furukawa and Ponce, PAMI 2010, section 3.2). Near edges of the surface
+/// patches are made anew, of the texels that lie on their side of the edge by the patches there.
 ///
 /// All maps have states; `completed` holds `width × height` patches, for the filter to judge. Runs
 /// on one thread.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "core/guard.h"
@@ -74,13 +75,14 @@ std::vector<Plane> offers_across(const ck_patch_map& reference, const ck_patch_m
   return offers;
 }
 
-/// Fills the rejected cells of a view: first from other views, then from the good cells beside
-/// them.
+/// Grows the accepted patches of a view into its rejected cells, and makes those beside an edge of
+/// the surface anew, of the texels that lie on their side of it.
 class Completion {
  public:
   Completion(const ck_patch_map& reference, const Comparison& comparison,
              const std::vector<Plane>& offers, const ck_patch_options& options)
-      : offers_(offers),
+      : comparison_(comparison),
+        offers_(offers),
         steps_(options.refinement_steps),
         grid_(reference.view.width, reference.view.height),
         is_good_(reference.states, reference.states + grid_.planes.size()),
@@ -88,52 +90,121 @@ class Completion {
     grid_.read(reference.patches);
   }
 
-  /// Visits the rejected cells that have an offer or a good cell before them.
+  /// Visits the rejected cells that have an offer or a good cell before them; forward the good ones
+  /// at edges, too.
   void sweep(bool is_forward, const ck_control* control, double from, double to) {
     const int back = is_forward ? -1 : 1;
     Wavefront(grid_.width, grid_.height, is_forward)
         .run(control, from, to, [&](Cell* cells, int count) {
           const auto end = std::remove_if(cells, cells + count, [&](const Cell& cell) {
-            return is_good(cell) || !(has_offer(cell, is_forward) || is_good(cell, back, 0) ||
-                                      is_good(cell, 0, back));
+            if (is_good(cell)) return !is_forward || !is_edge(cell);
+            const bool has_offer = is_forward && offers_[grid_.index(cell.x, cell.y)].w > 0;
+            return !has_offer && !is_good(cell, back, 0) && !is_good(cell, 0, back);
           });
-          if (end > cells) visit(cells, static_cast<int>(end - cells), back, is_forward);
+          if (end > cells) visit(cells, static_cast<int>(end - cells), is_forward);
         });
   }
 
   const Grid& grid() const { return grid_; }
 
  private:
+  /// The best that was found for a cell.
+  struct Found {
+    Plane plane;
+    float cost = kNoPatch;
+    bool is_new = false;
+  };
+
   bool is_good(const Cell& cell, int dx = 0, int dy = 0) const {
     return is_good_[grid_.index(cell.x + dx, cell.y + dy)] != 0;
-  }
-
-  bool has_offer(const Cell& cell, bool takes_offers) const {
-    return takes_offers && offers_[grid_.index(cell.x, cell.y)].w > 0;
-  }
-
-  void visit(const Cell* cells, int count, int back, bool takes_offers) {
-    optimiser_.start(cells, count);
-    if (takes_offers) {
-      optimiser_.offer_different(
-          [&](const Cell& cell) { return offers_[grid_.index(cell.x, cell.y)]; });
-    }
-    optimiser_.offer_different([&](const Cell& cell) { return good_plane(cell, back, 0); });
-    optimiser_.offer_different([&](const Cell& cell) { return good_plane(cell, 0, back); });
-    optimiser_.refine(steps_, true);
-    for (const Candidate& pixel : optimiser_) {
-      if (!pixel.is_new) continue;
-      const size_t cell = grid_.index(pixel.cell.x, pixel.cell.y);
-      grid_.planes[cell] = pixel.plane;
-      grid_.costs[cell] = pixel.cost;
-      is_good_[cell] = pixel.cost < kWeakCost;
-    }
   }
 
   Plane good_plane(const Cell& cell, int dx, int dy) const {
     return is_good(cell, dx, dy) ? grid_.plane_from(cell, dx, dy) : Plane();
   }
 
+  void visit(const Cell* cells, int count, bool is_forward) {
+    const int back = is_forward ? -1 : 1;
+    Found found[kWaveSize];
+    for (int i = 0; i < count; ++i) {
+      // What is made of other texels than before can't be compared with what was there.
+      if (!is_good(cells[i])) found[i].cost = grid_.costs[grid_.index(cells[i].x, cells[i].y)];
+    }
+    attempt(cells, count, found, [&](const Cell& cell) {
+      if (is_good(cell)) return good_plane(cell, 0, 0);
+      return is_forward ? offers_[grid_.index(cell.x, cell.y)] : Plane();
+    });
+    attempt(cells, count, found, [&](const Cell& cell) { return good_plane(cell, back, 0); });
+    attempt(cells, count, found, [&](const Cell& cell) { return good_plane(cell, 0, back); });
+    for (int i = 0; i < count; ++i) {
+      if (!found[i].is_new) continue;
+      const size_t cell = grid_.index(cells[i].x, cells[i].y);
+      grid_.planes[cell] = found[i].plane;
+      grid_.costs[cell] = found[i].cost;
+      is_good_[cell] = is_good_[cell] || found[i].cost < kWeakCost;
+    }
+  }
+
+  /// Optimises each cell's patch from the plane `propose(const Cell&)`, unless that is where the
+  /// best one came from.
+  template <typename Propose>
+  void attempt(const Cell* cells, int count, Found* found, const Propose& propose) {
+    constexpr float kSame = 0.4f;  // pixels; Gauss–Newton gets there by itself
+    Cell tried[kWaveSize];
+    Plane planes[kWaveSize];
+    float support[kWaveSize][kTexels];
+    Found* results[kWaveSize];
+    int n = 0;
+    for (int i = 0; i < count; ++i) {
+      planes[n] = propose(cells[i]);
+      if (!(planes[n].w > 0)) continue;
+      if (found[i].is_new && distance(found[i].plane, planes[n]) < kSame) continue;
+      weigh(cells[i], planes[n], support[n]);
+      tried[n] = cells[i];
+      results[n++] = &found[i];
+    }
+    optimiser_.start(tried, planes, support, n);
+    optimiser_.refine(steps_, false);
+    for (int i = 0; i < n; ++i) {
+      const Candidate& pixel = optimiser_.begin()[i];
+      if (pixel.cost < results[i]->cost) *results[i] = {pixel.plane, pixel.cost, true};
+    }
+  }
+
+  /// How far two planes at a pixel are from each other, in pixels of a source.
+  float distance(const Plane& a, const Plane& b) const {
+    return std::fabs(a.w - b.w) * comparison_.motion;
+  }
+
+  /// True where a good patch near by lies on another surface.
+  bool is_edge(const Cell& at) const {
+    constexpr int kNear[4][2] = {{-2, -2}, {2, -2}, {-2, 2}, {2, 2}};
+    const Plane& plane = grid_.planes[grid_.index(at.x, at.y)];
+    for (const int* d : kNear) {
+      const size_t cell = grid_.index(at.x + d[0], at.y + d[1]);
+      const Plane there = plane.at(static_cast<float>(d[0]), static_cast<float>(d[1]));
+      if (is_good_[cell] && distance(grid_.planes[cell], there) > kApart) return true;
+    }
+    return false;
+  }
+
+  /// How much each texel of a patch belongs to its surface: little where a good patch lies on
+  /// another one, one half where nothing is known.
+  void weigh(const Cell& at, const Plane& plane, float* weights) const {
+    for (const int dy : kTexelOffsets) {
+      for (const int dx : kTexelOffsets) {
+        const size_t cell = grid_.index(at.x + dx, at.y + dy);
+        const Plane there = plane.at(static_cast<float>(dx), static_cast<float>(dy));
+        const float apart = distance(grid_.planes[cell], there) / kApart;
+        *weights++ = is_good_[cell] ? 1 / (1 + apart * apart * apart * apart) : 0.5f;
+      }
+    }
+  }
+
+  /// Pixels of a source between the patches of two surfaces.
+  static constexpr float kApart = 1;
+
+  const Comparison& comparison_;
   const std::vector<Plane>& offers_;
   const int steps_;
   Grid grid_;
@@ -143,7 +214,7 @@ class Completion {
 
 void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch_map* neighbors,
               size_t count, const ck_patch_options& options, const ck_control* control) {
-  const auto offers = offers_across(reference, neighbors, count);
+  const auto offers = offers_across(reference, neighbors, options.expands_across_views ? count : 0);
   DepthRange range;
   for (size_t i = 0; i < offers.size(); ++i) {
     range.include(offers[i].w);
@@ -158,8 +229,8 @@ void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch
   const Pyramids pyramids(reference.view, sources.data(), count, 1);
   const Comparison comparison = pyramids.compare(0, range, 1.1f, options);
   Completion completion(reference, comparison, offers, options);
-  completion.sweep(true, control, 0, 0.5);
-  completion.sweep(false, control, 0.5, 1);
+  completion.sweep(true, control, 0, 0.7);
+  completion.sweep(false, control, 0.7, 1);
   completion.grid().write(completed);
 }
 

@@ -118,7 +118,9 @@ struct Trial {
 
 /// The inner loops, compiled for each instruction set.
 struct Kernels {
-  void (*prepare)(ReferencePatch& patch, const Comparison& comparison, const Cell& cell);
+  /// `support` says how much each texel counts besides, null for all alike.
+  void (*prepare)(ReferencePatch& patch, const Comparison& comparison, const Cell& cell,
+                  const float* support);
   /// Scores at most `kWaveSize` planes of different pixels.
   void (*score)(const Comparison& comparison, Trial* trials, int count);
   /// One Gauss–Newton step on inverse depth and gradient over the voters, which were scored at

@@ -24,19 +24,26 @@ void PatchOptimiser::add(Trials& trials, int i, const Plane& offered) {
 }
 
 void PatchOptimiser::start(const Cell* cells, int count) {
+  Plane planes[kWaveSize];
+  for (int i = 0; i < count; ++i) planes[i] = grid_.planes[grid_.index(cells[i].x, cells[i].y)];
+  start(cells, planes, nullptr, count);
+}
+
+void PatchOptimiser::start(const Cell* cells, const Plane* planes, const float (*support)[kTexels],
+                           int count) {
   count_ = count;
   Trials trials;
   for (int i = 0; i < count; ++i) {
     const size_t cell = grid_.index(cells[i].x, cells[i].y);
     Candidate& pixel = pixels_[i];
     pixel.cell = cells[i];
-    pixel.plane = grid_.planes[cell];
+    pixel.plane = planes[i];
     pixel.cost = kNoPatch;
     pixel.sources = grid_.sources[cell];
-    pixel.inherited = {pixel.plane, grid_.costs[cell]};
+    pixel.inherited = {grid_.planes[cell], grid_.costs[cell]};
     pixel.current = 0;
     pixel.samples[0].voters = 0;
-    kernels_.prepare(pixel.reference, comparison_, cells[i]);
+    kernels_.prepare(pixel.reference, comparison_, cells[i], support ? support[i] : nullptr);
     add(trials, i, pixel.plane);
   }
   run(trials);

@@ -40,6 +40,10 @@ class PatchOptimiser {
   /// Takes up the pixels and scores the planes that the grid holds.
   void start(const Cell* cells, int count);
 
+  /// Takes up the pixels and scores a plane of each. `support` says how much the texels count, null
+  /// for all alike.
+  void start(const Cell* cells, const Plane* planes, const float (*support)[kTexels], int count);
+
   /// Offers each pixel the plane `propose(const Cell&)`, unless that is the best one so far but for
   /// a fraction of a pixel. A plane without inverse depth is no offer.
   template <typename Propose>

@@ -213,7 +213,7 @@ CK_INLINE F16 texels_after(const B32& v) {
       F16);
 }
 
-void prepare(ReferencePatch& patch, const Comparison& c, const Cell& cell) {
+void prepare(ReferencePatch& patch, const Comparison& c, const Cell& cell, const float* support) {
   const uint8_t* center = c.luma + static_cast<ptrdiff_t>(cell.y) * c.width + cell.x;
   const B32 rows = rows_around(center, c.width, {-2, -1, 1, 2});
   const B32 above = rows_around(center, c.width, {-3, -2, 0, 1});
@@ -222,6 +222,7 @@ void prepare(ReferencePatch& patch, const Comparison& c, const Cell& cell) {
   const F16 contrast = (value - static_cast<float>(*center)) * (1 / c.bilateral_contrast);
   F16 weight = 1.0f / (1.0f + contrast * contrast);
   weight = weight * kProximity;
+  if (support) weight = weight * load(support);
   weight = weight * (1 / sum(weight));
   const F16 centered = value - sum(weight * value);
   const float variance = sum(weight * centered * centered);

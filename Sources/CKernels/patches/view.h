@@ -10,8 +10,9 @@ namespace ck::patches {
 
 /// Views that a reference is compared with at most.
 constexpr int kMaxSources = 8;
-/// Texels of a patch: 4 × 4 at offsets −2, −1, 1, 2 pixels of the reference.
+/// Texels of a patch: 4 × 4 pixels of the reference at these offsets.
 constexpr int kTexels = 16;
+constexpr int kTexelOffsets[4] = {-2, -1, 1, 2};
 /// Pixels at the border that have no patch: the largest offset plus one for gradients.
 constexpr int kMargin = 3;
 

@@ -48,9 +48,9 @@ extension PatchWorkspace.Step {
   fileprivate var bytesPerPixel: Int {
     switch self {
     case .view: 3
-    case .coarse, .completed: 4
-    case .patches, .cloud: 16
-    case .coarseStates, .states: 1
+    case .coarse: 4
+    case .patches, .completed, .cloud: 16
+    case .states, .completedStates: 1
     }
   }
 }

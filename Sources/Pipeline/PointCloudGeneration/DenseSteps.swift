@@ -33,10 +33,10 @@ struct DenseSteps {
     var parts = Progress(plan, context)
     try makeViews(reconstruction, images, parts.next(.view))
     try makeCoarsePatches(parts.next(.coarse))
-    try filterCoarsePatches(parts.next(.coarseStates))
-    try complete(parts.next(.completed))
     try refine(parts.next(.patches))
-    try filter(parts.next(.states))
+    try filter(.patches, to: .states, parts.next(.states))
+    try complete(parts.next(.completed))
+    try filter(.completed, to: .completedStates, parts.next(.completedStates))
     try fuse(parts.next(.cloud))
   }
 
@@ -72,47 +72,15 @@ struct DenseSteps {
     }
   }
 
-  /// Marks the coarse patches that enough sources confirm.
-  private func filterCoarsePatches(_ context: StageContext) throws {
-    let maps = makeMaps()
-    try forEach(.coarseStates, context) { [self] index, control in
-      let map = try coarseMap(.coarse, index, in: maps)
-      try PatchStereo.filter(
-        map,
-        neighbors: try views.views[index].sources.map { try coarseMap(.coarse, $0, in: maps) },
-        options: options.coarseFilter, control: control)
-      try workspace.write(
-        UnsafeRawBufferPointer(map.stateBytes), views.key(.coarseStates, index))
-    }
-  }
-
-  /// Expands coarse patches across views and into holes.
-  private func complete(_ context: StageContext) throws {
-    let maps = makeMaps()
-    let map = { @Sendable [self] (index: Int) in
-      try coarseMap(.coarse, states: .coarseStates, index, in: maps)
-    }
-    try forEach(.completed, context) { [self] index, control in
-      let own = try map(index)
-      let completed =
-        options.expandsAcrossViews
-        ? try PatchStereo.complete(
-          own, neighbors: try views.views[index].sources.map(map), options: options.patches,
-          control: control) : own
-      try workspace.write(completed.patchBytes, views.key(.completed, index))
-    }
-    notePeaks(maps, context.notes)
-  }
-
   /// Makes the patches at the view's resolution, each by the sources that its coarse patch is
   /// visible in.
   private func refine(_ context: StageContext) throws {
     let maps = makeMaps()
     try forEach(.patches, context) { [self] index, control in
       let sources = views.views[index].sources
-      let coarse = try coarseMap(.completed, index, in: maps)
+      let coarse = try coarseMap(index, in: maps)
       try PatchStereo.filter(
-        coarse, neighbors: try sources.map { try coarseMap(.completed, $0, in: maps) },
+        coarse, neighbors: try sources.map { try coarseMap($0, in: maps) },
         options: options.coarseFilter, tellsVisibility: true,
         control: control.part(from: 0, to: 0.05))
       let map = PatchMap(view: try photo(index))
@@ -125,15 +93,35 @@ struct DenseSteps {
   }
 
   /// Marks the patches that enough sources confirm.
-  private func filter(_ context: StageContext) throws {
+  private func filter(
+    _ patches: PatchWorkspace.Step, to states: PatchWorkspace.Step, _ context: StageContext
+  ) throws {
     let maps = makeMaps()
-    try forEach(.states, context) { [self] index, control in
-      let map = try self.map(index, in: maps)
+    try forEach(states, context) { [self] index, control in
+      let map = try self.map(patches, index, in: maps)
       try PatchStereo.filter(
-        map, neighbors: try views.views[index].sources.map { try self.map($0, in: maps) },
+        map,
+        neighbors: try views.views[index].sources.map { try self.map(patches, $0, in: maps) },
         options: options.filter, control: control)
-      try workspace.write(
-        UnsafeRawBufferPointer(map.stateBytes), views.key(.states, index))
+      try workspace.write(UnsafeRawBufferPointer(map.stateBytes), views.key(states, index))
+    }
+    notePeaks(maps, context.notes)
+  }
+
+  /// Expands patches across views and into holes, and makes those at edges anew.
+  private func complete(_ context: StageContext) throws {
+    let maps = makeMaps()
+    let map = { @Sendable [self] (index: Int) in
+      try self.map(.patches, states: .states, index, in: maps)
+    }
+    try forEach(.completed, context) { [self] index, control in
+      let own = try map(index)
+      let completed =
+        options.completes
+        ? try PatchStereo.complete(
+          own, neighbors: try views.views[index].sources.map(map), options: options.patches,
+          control: control) : own
+      try workspace.write(completed.patchBytes, views.key(.completed, index))
     }
     notePeaks(maps, context.notes)
   }
@@ -141,12 +129,15 @@ struct DenseSteps {
   /// Makes each view's points of the cloud.
   private func fuse(_ context: StageContext) throws {
     let maps = makeMaps()
+    let map = { @Sendable [self] (index: Int) in
+      try self.map(.completed, states: .completedStates, index, in: maps)
+    }
     try forEach(.cloud, context) { [self] index, control in
-      let map = try filteredMap(index, in: maps)
+      let own = try map(index)
       let cloud = try PatchStereo.fuse(
-        map, neighbors: try views.views[index].sources.map { try filteredMap($0, in: maps) },
-        options: options.filter, control: control)
-      let accepted = withUnsafeBytes(of: UInt64(map.acceptedCount)) { Array($0) }
+        own, neighbors: try views.views[index].sources.map(map), options: options.filter,
+        control: control)
+      let accepted = withUnsafeBytes(of: UInt64(own.acceptedCount)) { Array($0) }
       try (accepted + cloud.encoded()).withUnsafeBytes {
         try workspace.write($0, views.key(.cloud, index))
       }
@@ -219,32 +210,23 @@ extension DenseSteps {
         / max(1, PatchMap.bytesPerPixel * views.largestPixelCount))
   }
 
-  /// A view's patches at half the resolution as a step left them, with those that another accepted.
-  private func coarseMap(
-    _ step: PatchWorkspace.Step, states: PatchWorkspace.Step? = nil, _ index: Int,
+  /// A view's patches at half the resolution.
+  private func coarseMap(_ index: Int, in maps: SharedValues<PatchMap>) throws -> PatchMap {
+    try maps.value(index) {
+      try PatchMap(view: try half(index)) { try read(views.key(.coarse, index), into: $0) }
+    }
+  }
+
+  /// A view's patches as a step left them, with those that another accepted.
+  private func map(
+    _ patches: PatchWorkspace.Step, states: PatchWorkspace.Step? = nil, _ index: Int,
     in maps: SharedValues<PatchMap>
   ) throws -> PatchMap {
     try maps.value(index) {
-      let map = try PatchMap(view: try half(index)) { try read(views.key(step, index), into: $0) }
-      if let states { try read(views.key(states, index), into: map.stateBytes) }
-      return map
-    }
-  }
-
-  /// A view's patches as the last step left them.
-  private func map(_ index: Int, in maps: SharedValues<PatchMap>) throws -> PatchMap {
-    try maps.value(index) {
-      try PatchMap(view: try photo(index)) { try read(views.key(.patches, index), into: $0) }
-    }
-  }
-
-  /// A view's patches with what became of them in the filter.
-  private func filteredMap(_ index: Int, in maps: SharedValues<PatchMap>) throws -> PatchMap {
-    try maps.value(index) {
       let map = try PatchMap(view: try photo(index)) {
-        try read(views.key(.patches, index), into: $0)
+        try read(views.key(patches, index), into: $0)
       }
-      try read(views.key(.states, index), into: map.stateBytes)
+      if let states { try read(views.key(states, index), into: map.stateBytes) }
       return map
     }
   }
@@ -272,8 +254,8 @@ extension DenseSteps {
 
     /// Usual shares of the time.
     private static let costs: [(PatchWorkspace.Step, Double)] = [
-      (.view, 0.03), (.coarse, 0.2), (.coarseStates, 0.03), (.completed, 0.03),
-      (.patches, 0.5), (.states, 0.12), (.cloud, 0.09),
+      (.view, 0.03), (.coarse, 0.14), (.patches, 0.4), (.states, 0.09), (.completed, 0.16),
+      (.completedStates, 0.09), (.cloud, 0.09),
     ]
 
     init(_ plan: DensePlan, _ context: StageContext) {

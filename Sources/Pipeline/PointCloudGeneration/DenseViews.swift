@@ -51,7 +51,7 @@ struct DenseViews: Sendable {
   /// What a view's file of a step must be.
   func key(_ step: PatchWorkspace.Step, _ index: Int) -> PatchWorkspace.Key {
     let view = views[index]
-    let divisor = [.coarse, .coarseStates, .completed].contains(step) ? 2 : 1
+    let divisor = step == .coarse ? 2 : 1
     return PatchWorkspace.Key(
       step: step, photo: view.photo, width: view.camera.width / divisor,
       height: view.camera.height / divisor,
@@ -90,21 +90,21 @@ extension DenseViews {
       fingerprint.add(view.points.count)
       view.points.forEach { fingerprint.add($0) }
     }
-    let coarseStates = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
-    let completed = chain(coarseStates, views) { fingerprint, _ in
-      fingerprint.add(options.expandsAcrossViews ? 1 : 0)
-    }
-    let patches = chain(completed, views)
+    let patches = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
     let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
-    let clouds = chain(states, views) { fingerprint, view in
+    let completed = chain(states, views) { fingerprint, _ in
+      fingerprint.add(options.completes ? 1 : 0)
+    }
+    let completedStates = chain(completed, views)
+    let clouds = chain(completedStates, views) { fingerprint, view in
       // Points name the photos that see them.
       for photo in [view.photo] + view.sources.map({ views[$0].photo }) {
         fingerprint.add(photo.index)
       }
     }
     return [
-      .view: photos, .coarse: coarse, .coarseStates: coarseStates, .completed: completed,
-      .patches: patches, .states: states, .cloud: clouds,
+      .view: photos, .coarse: coarse, .patches: patches, .states: states, .completed: completed,
+      .completedStates: completedStates, .cloud: clouds,
     ]
   }
 

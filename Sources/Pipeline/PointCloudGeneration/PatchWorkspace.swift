@@ -6,13 +6,13 @@ import SceneModel
 /// A folder with what the dense stage has made of each view so far, a file a view and step.
 ///
 /// ```
-/// 0012.view          the photo without distortion, RGB
-/// 0012.coarse        its patches at half the resolution
-/// 0012.coarseStates  which of them passed the filter
-/// 0012.completed     the same with what neighbours know of the others
-/// 0012.patches       the patches at the view's resolution
-/// 0012.states        which of them passed the filter
-/// 0012.cloud         its points of the fused cloud
+/// 0012.view             the photo without distortion, RGB
+/// 0012.coarse           its patches at half the resolution
+/// 0012.patches          the patches at the view's resolution
+/// 0012.states           which of them passed the filter
+/// 0012.completed        the same with what grew into the others and was made anew at edges
+/// 0012.completedStates  which of those passed the filter
+/// 0012.cloud            its points of the fused cloud
 /// ```
 /// A file is there whole or not at all, and holds the fingerprint of all that it was made from: one
 /// that is cut off, damaged, or of other photos, cameras, options or another program counts as
@@ -21,18 +21,18 @@ import SceneModel
 final class PatchWorkspace: Sendable {
   /// A step whose results are kept, in the order in which they are made.
   enum Step: String, CaseIterable, Sendable {
-    case view, coarse, coarseStates, completed, patches, states, cloud
+    case view, coarse, patches, states, completed, completedStates, cloud
 
     /// The steps whose files, of a view and its sources, it reads.
     var inputs: [Step] {
       switch self {
       case .view: []
       case .coarse: [.view]
-      case .coarseStates: [.view, .coarse]
-      case .completed: [.view, .coarse, .coarseStates]
-      case .patches: [.view, .completed]
+      case .patches: [.view, .coarse]
       case .states: [.view, .patches]
-      case .cloud: [.view, .patches, .states]
+      case .completed: [.view, .patches, .states]
+      case .completedStates: [.view, .completed]
+      case .cloud: [.view, .completed, .completedStates]
       }
     }
   }

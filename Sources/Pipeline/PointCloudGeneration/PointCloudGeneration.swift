@@ -17,8 +17,8 @@ package struct PointCloudGeneration {
     package var filter = PatchStereo.FilterOptions()
     /// Of the patches at half the resolution, where smaller islands may grow.
     package var coarseFilter = PatchStereo.FilterOptions(minimumIsland: 10)
-    /// Whether coarse patches go from view to view and into holes.
-    package var expandsAcrossViews = true
+    /// Whether patches grow into what the filter rejected, and are made anew at edges.
+    package var completes = true
     /// Share of the photos' pixels below which the cloud is called sparse in a warning.
     package var sparseRatio = 0.05
     /// Bytes of views and patches that are kept in memory although nobody works on them.
@@ -75,7 +75,7 @@ package struct PointCloudGeneration {
   }
 
   /// Makes the patches of a share of the views, with what they need of other views, and leaves all in
-  /// `folder`. That is eight tenths of the work: once all shares are made, by processes at the same
+  /// `folder`. That is two thirds of the work: once all shares are made, by processes at the same
   /// time or one after the other, `run` needs little more. Jobs at the same time share the coarse
   /// patches of all views between them.
   package func run(

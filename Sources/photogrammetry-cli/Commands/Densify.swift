@@ -152,6 +152,7 @@
 
   /// A step of the dense stage that can be left out.
   enum Ablation: String, CaseIterable, ExpressibleByArgument {
+    case completion
     case expansionAcrossViews = "expansion-across-views"
     case normals
     case filter
@@ -159,7 +160,8 @@
 
     func apply(to options: inout PointCloudGeneration.Options) {
       switch self {
-      case .expansionAcrossViews: options.expandsAcrossViews = false
+      case .completion: options.completes = false
+      case .expansionAcrossViews: options.patches.expandsAcrossViews = false
       case .normals: options.patches.estimatesNormals = false
       case .coarseToFine: options.patches.levelCount = 1
       case .filter:

@@ -37,7 +37,7 @@ import Testing
     #expect(
       try names(folder.url)
         == (0..<4).flatMap { view in
-          ["cloud", "coarse", "coarseStates", "completed", "patches", "states", "view"]
+          ["cloud", "coarse", "completed", "completedStates", "patches", "states", "view"]
             .map { "000\(view).\($0)" }
         })
     let notes = StageNotes()
