@@ -142,7 +142,7 @@ package enum PatchStereo {
   /// Which patches are kept and how they are joined.
   package struct FilterOptions: Hashable, Codable, Sendable {
     /// Largest 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm.
-    package var photometricThreshold: Float = 0.4
+    package var photometricThreshold: Float = 0.5
     /// Largest 1 − ZNCC of a patch; between the two thresholds, where texture is weak, one more view
     /// must agree.
     package var weakTextureThreshold: Float = 0.6

@@ -6,6 +6,7 @@
 #include "patches/ask.h"
 #include "patches/comparison.h"
 #include "patches/optimise.h"
+#include "patches/smooth.h"
 
 namespace ck::patches {
 namespace {
@@ -105,7 +106,7 @@ class Completion {
         });
   }
 
-  const Grid& grid() const { return grid_; }
+  Grid& grid() { return grid_; }
 
  private:
   /// The best that was found for a cell.
@@ -231,6 +232,7 @@ void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch
   Completion completion(reference, comparison, offers, options);
   completion.sweep(true, control, 0, 0.7);
   completion.sweep(false, control, 0.7, 1);
+  smooth(completion.grid(), comparison);
   completion.grid().write(completed);
 }
 

@@ -12,7 +12,8 @@ struct Plane {
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
-/// The least that a patch of weak texture costs, so that the filter asks one more view about it.
+/// The least that a patch of weak texture costs: nothing grows from it into holes, and the filter
+/// asks one more view about the worst.
 constexpr float kWeakCost = 0.4f;
 
 /// All sources, a bit each.

@@ -5,6 +5,7 @@
 #include "patches/comparison.h"
 #include "patches/expand.h"
 #include "patches/seed.h"
+#include "patches/smooth.h"
 
 namespace ck::patches {
 namespace {
@@ -53,6 +54,7 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
              progress + (end - progress) * (i + 1) / sweeps);
     }
     progress = end;
+    if (level == 0) smooth(grid, comparison);
   }
   return grid;
 }

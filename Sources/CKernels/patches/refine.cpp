@@ -3,6 +3,7 @@
 #include "core/guard.h"
 #include "patches/comparison.h"
 #include "patches/expand.h"
+#include "patches/smooth.h"
 
 namespace ck::patches {
 namespace {
@@ -71,11 +72,12 @@ Grid refine(const ck_patch_view& reference, const ck_patch_view* sources, size_t
   Grid grid = parents.children(reference.width, reference.height);
   if (parents.range().is_empty()) return grid;
   const Pyramids pyramids(reference, sources, count, 1);
+  const Comparison comparison = pyramids.compare(0, parents.range(), 1.5f, options);
   Sweep sweep;
   sweep.refinement_steps = options.refinement_steps;
   sweep.may_inherit = true;
-  expand(grid, pyramids.compare(0, parents.range(), 1.5f, options), kernels(options.instructions),
-         sweep, control, 0, 1);
+  expand(grid, comparison, kernels(options.instructions), sweep, control, 0, 1);
+  smooth(grid, comparison);
   return grid;
 }
 

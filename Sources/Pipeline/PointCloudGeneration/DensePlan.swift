@@ -48,9 +48,9 @@ extension PatchWorkspace.Step {
   fileprivate var bytesPerPixel: Int {
     switch self {
     case .view: 3
-    case .coarse: 4
+    case .coarse, .coarseCompleted: 4
     case .patches, .completed, .cloud: 16
-    case .states, .completedStates: 1
+    case .coarseStates, .states, .completedStates: 1
     }
   }
 }

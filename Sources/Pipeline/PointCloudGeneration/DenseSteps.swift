@@ -33,10 +33,12 @@ struct DenseSteps {
     var parts = Progress(plan, context)
     try makeViews(reconstruction, images, parts.next(.view))
     try makeCoarsePatches(parts.next(.coarse))
+    try filter(.coarse, options.coarseFilter, to: .coarseStates, parts.next(.coarseStates))
+    try complete(.coarse, .coarseStates, to: .coarseCompleted, parts.next(.coarseCompleted))
     try refine(parts.next(.patches))
-    try filter(.patches, to: .states, parts.next(.states))
-    try complete(parts.next(.completed))
-    try filter(.completed, to: .completedStates, parts.next(.completedStates))
+    try filter(.patches, options.filter, to: .states, parts.next(.states))
+    try complete(.patches, .states, to: .completed, parts.next(.completed))
+    try filter(.completed, options.filter, to: .completedStates, parts.next(.completedStates))
     try fuse(parts.next(.cloud))
   }
 
@@ -76,13 +78,13 @@ struct DenseSteps {
   /// visible in.
   private func refine(_ context: StageContext) throws {
     let maps = makeMaps()
+    let coarseMap = { @Sendable [self] (index: Int) in try map(index, .coarseCompleted, in: maps) }
     try forEach(.patches, context) { [self] index, control in
       let sources = views.views[index].sources
-      let coarse = try coarseMap(index, in: maps)
+      let coarse = try coarseMap(index)
       try PatchStereo.filter(
-        coarse, neighbors: try sources.map { try coarseMap($0, in: maps) },
-        options: options.coarseFilter, tellsVisibility: true,
-        control: control.part(from: 0, to: 0.05))
+        coarse, neighbors: try sources.map(coarseMap), options: options.coarseFilter,
+        tellsVisibility: true, control: control.part(from: 0, to: 0.05))
       let map = PatchMap(view: try photo(index))
       try PatchStereo.refine(
         map, from: coarse, sources: try sources.map(photo), options: options.patches,
@@ -94,34 +96,38 @@ struct DenseSteps {
 
   /// Marks the patches that enough sources confirm.
   private func filter(
-    _ patches: PatchWorkspace.Step, to states: PatchWorkspace.Step, _ context: StageContext
+    _ patches: PatchWorkspace.Step, _ options: PatchStereo.FilterOptions,
+    to states: PatchWorkspace.Step, _ context: StageContext
   ) throws {
     let maps = makeMaps()
+    let map = { @Sendable [self] (index: Int) in try self.map(index, patches, in: maps) }
     try forEach(states, context) { [self] index, control in
-      let map = try self.map(patches, index, in: maps)
+      let own = try map(index)
       try PatchStereo.filter(
-        map,
-        neighbors: try views.views[index].sources.map { try self.map(patches, $0, in: maps) },
-        options: options.filter, control: control)
-      try workspace.write(UnsafeRawBufferPointer(map.stateBytes), views.key(states, index))
+        own, neighbors: try views.views[index].sources.map(map), options: options,
+        control: control)
+      try workspace.write(UnsafeRawBufferPointer(own.stateBytes), views.key(states, index))
     }
     notePeaks(maps, context.notes)
   }
 
   /// Expands patches across views and into holes, and makes those at edges anew.
-  private func complete(_ context: StageContext) throws {
+  private func complete(
+    _ patches: PatchWorkspace.Step, _ states: PatchWorkspace.Step,
+    to completed: PatchWorkspace.Step, _ context: StageContext
+  ) throws {
     let maps = makeMaps()
     let map = { @Sendable [self] (index: Int) in
-      try self.map(.patches, states: .states, index, in: maps)
+      try self.map(index, patches, states, in: maps)
     }
-    try forEach(.completed, context) { [self] index, control in
+    try forEach(completed, context) { [self] index, control in
       let own = try map(index)
-      let completed =
+      let result =
         options.completes
         ? try PatchStereo.complete(
           own, neighbors: try views.views[index].sources.map(map), options: options.patches,
           control: control) : own
-      try workspace.write(completed.patchBytes, views.key(.completed, index))
+      try workspace.write(result.patchBytes, views.key(completed, index))
     }
     notePeaks(maps, context.notes)
   }
@@ -130,7 +136,7 @@ struct DenseSteps {
   private func fuse(_ context: StageContext) throws {
     let maps = makeMaps()
     let map = { @Sendable [self] (index: Int) in
-      try self.map(.completed, states: .completedStates, index, in: maps)
+      try self.map(index, .completed, .completedStates, in: maps)
     }
     try forEach(.cloud, context) { [self] index, control in
       let own = try map(index)
@@ -210,22 +216,14 @@ extension DenseSteps {
         / max(1, PatchMap.bytesPerPixel * views.largestPixelCount))
   }
 
-  /// A view's patches at half the resolution.
-  private func coarseMap(_ index: Int, in maps: SharedValues<PatchMap>) throws -> PatchMap {
-    try maps.value(index) {
-      try PatchMap(view: try half(index)) { try read(views.key(.coarse, index), into: $0) }
-    }
-  }
-
   /// A view's patches as a step left them, with those that another accepted.
   private func map(
-    _ patches: PatchWorkspace.Step, states: PatchWorkspace.Step? = nil, _ index: Int,
+    _ index: Int, _ patches: PatchWorkspace.Step, _ states: PatchWorkspace.Step? = nil,
     in maps: SharedValues<PatchMap>
   ) throws -> PatchMap {
     try maps.value(index) {
-      let map = try PatchMap(view: try photo(index)) {
-        try read(views.key(patches, index), into: $0)
-      }
+      let view = patches.isCoarse ? try half(index) : try photo(index)
+      let map = try PatchMap(view: view) { try read(views.key(patches, index), into: $0) }
       if let states { try read(views.key(states, index), into: map.stateBytes) }
       return map
     }
@@ -254,8 +252,9 @@ extension DenseSteps {
 
     /// Usual shares of the time.
     private static let costs: [(PatchWorkspace.Step, Double)] = [
-      (.view, 0.03), (.coarse, 0.14), (.patches, 0.4), (.states, 0.09), (.completed, 0.16),
-      (.completedStates, 0.09), (.cloud, 0.09),
+      (.view, 0.03), (.coarse, 0.13), (.coarseStates, 0.02), (.coarseCompleted, 0.06),
+      (.patches, 0.35), (.states, 0.08), (.completed, 0.17), (.completedStates, 0.08),
+      (.cloud, 0.08),
     ]
 
     init(_ plan: DensePlan, _ context: StageContext) {

@@ -51,7 +51,7 @@ struct DenseViews: Sendable {
   /// What a view's file of a step must be.
   func key(_ step: PatchWorkspace.Step, _ index: Int) -> PatchWorkspace.Key {
     let view = views[index]
-    let divisor = step == .coarse ? 2 : 1
+    let divisor = step.isCoarse ? 2 : 1
     return PatchWorkspace.Key(
       step: step, photo: view.photo, width: view.camera.width / divisor,
       height: view.camera.height / divisor,
@@ -90,11 +90,14 @@ extension DenseViews {
       fingerprint.add(view.points.count)
       view.points.forEach { fingerprint.add($0) }
     }
-    let patches = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
-    let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
-    let completed = chain(states, views) { fingerprint, _ in
-      fingerprint.add(options.completes ? 1 : 0)
+    let coarseStates = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
+    let completes = options.completes ? 1 : 0
+    let coarseCompleted = chain(coarseStates, views) { fingerprint, _ in
+      fingerprint.add(completes)
     }
+    let patches = chain(coarseCompleted, views)
+    let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
+    let completed = chain(states, views) { fingerprint, _ in fingerprint.add(completes) }
     let completedStates = chain(completed, views)
     let clouds = chain(completedStates, views) { fingerprint, view in
       // Points name the photos that see them.
@@ -103,8 +106,9 @@ extension DenseViews {
       }
     }
     return [
-      .view: photos, .coarse: coarse, .patches: patches, .states: states, .completed: completed,
-      .completedStates: completedStates, .cloud: clouds,
+      .view: photos, .coarse: coarse, .coarseStates: coarseStates,
+      .coarseCompleted: coarseCompleted, .patches: patches, .states: states,
+      .completed: completed, .completedStates: completedStates, .cloud: clouds,
     ]
   }
 

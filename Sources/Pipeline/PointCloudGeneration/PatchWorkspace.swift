@@ -8,9 +8,11 @@ import SceneModel
 /// ```
 /// 0012.view             the photo without distortion, RGB
 /// 0012.coarse           its patches at half the resolution
+/// 0012.coarseStates     which of them passed the filter
+/// 0012.coarseCompleted  the same with what grew into the others and was made anew at edges
 /// 0012.patches          the patches at the view's resolution
 /// 0012.states           which of them passed the filter
-/// 0012.completed        the same with what grew into the others and was made anew at edges
+/// 0012.completed        the same, completed as the coarse ones
 /// 0012.completedStates  which of those passed the filter
 /// 0012.cloud            its points of the fused cloud
 /// ```
@@ -21,14 +23,19 @@ import SceneModel
 final class PatchWorkspace: Sendable {
   /// A step whose results are kept, in the order in which they are made.
   enum Step: String, CaseIterable, Sendable {
-    case view, coarse, patches, states, completed, completedStates, cloud
+    case view, coarse, coarseStates, coarseCompleted, patches, states, completed, completedStates, cloud
+
+    /// At half the view's resolution.
+    var isCoarse: Bool { self == .coarse || self == .coarseStates || self == .coarseCompleted }
 
     /// The steps whose files, of a view and its sources, it reads.
     var inputs: [Step] {
       switch self {
       case .view: []
       case .coarse: [.view]
-      case .patches: [.view, .coarse]
+      case .coarseStates: [.view, .coarse]
+      case .coarseCompleted: [.view, .coarse, .coarseStates]
+      case .patches: [.view, .coarseCompleted]
       case .states: [.view, .patches]
       case .completed: [.view, .patches, .states]
       case .completedStates: [.view, .completed]
