@@ -140,8 +140,9 @@ ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch
 
 /// Expands patches across views and into holes: offers the accepted patches of the neighbours, and
 /// those beside a cell, to the cells of `reference` that the filter rejected, and optimises what is
-/// better than what they had (Furukawa and Ponce, PAMI 2010, section 3.2). Near edges of the surface
-/// patches are made anew, of the texels that lie on their side of the edge by the patches there.
+/// better than what they had (Furukawa and Ponce, PAMI 2010, section 3.2). Near edges of the
+/// surface patches are made anew, of the texels that lie on their side of the edge by the patches
+/// there. In the end patches are averaged with those around, the more the less texture says.
 ///
 /// All maps have states; `completed` holds `width × height` patches, for the filter to judge. Runs
 /// on one thread.

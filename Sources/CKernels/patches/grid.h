@@ -12,8 +12,7 @@ struct Plane {
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
-/// The least that a patch of weak texture costs: nothing grows from it into holes, and the filter
-/// asks one more view about the worst.
+/// The least that a patch of weak texture costs: nothing grows from it into holes.
 constexpr float kWeakCost = 0.4f;
 
 /// All sources, a bit each.

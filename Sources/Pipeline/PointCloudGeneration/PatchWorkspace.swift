@@ -23,7 +23,10 @@ import SceneModel
 final class PatchWorkspace: Sendable {
   /// A step whose results are kept, in the order in which they are made.
   enum Step: String, CaseIterable, Sendable {
-    case view, coarse, coarseStates, coarseCompleted, patches, states, completed, completedStates, cloud
+    case view
+    case coarse, coarseStates, coarseCompleted
+    case patches, states, completed, completedStates
+    case cloud
 
     /// At half the view's resolution.
     var isCoarse: Bool { self == .coarse || self == .coarseStates || self == .coarseCompleted }

@@ -34,15 +34,10 @@ import Testing
     let folder = try TemporaryFolder()
     let first = try run(in: folder.url).encoded()
     #expect(try run(in: nil).encoded() == first)
+    let steps = PatchWorkspace.Step.allCases.map(\.rawValue).sorted()
+    #expect(steps.count == 9)
     #expect(
-      try names(folder.url)
-        == (0..<4).flatMap { view in
-          [
-            "cloud", "coarse", "coarseCompleted", "coarseStates", "completed", "completedStates",
-            "patches", "states", "view",
-          ]
-            .map { "000\(view).\($0)" }
-        })
+      try names(folder.url) == (0..<4).flatMap { view in steps.map { "000\(view).\($0)" } })
     let notes = StageNotes()
     #expect(try run(in: folder.url, notes: notes).encoded() == first)
     #expect(reused(notes) == 4)
