@@ -154,17 +154,23 @@ import Testing
     #expect(Self.depthError(alone, Self.scene, view: 2).share == 0)
   }
 
-  @Test func completionMovesAcceptedPatchesLittle() throws {
-    let maps = try Self.maps(Self.scene)
-    try Self.filter(maps)
+  /// The filtered patches of the third view, and what completion makes of them.
+  static func completed() throws -> (map: PatchMap, completed: PatchMap) {
+    let maps = try maps(scene)
+    try filter(maps)
     let completed = try PatchStereo.complete(
-      maps[2], neighbors: Self.others(maps, 2), options: PatchStereo.Options(),
+      maps[2], neighbors: others(maps, 2), options: PatchStereo.Options(),
       control: KernelControl())
+    return (maps[2], completed)
+  }
+
+  @Test func completionMovesAcceptedPatchesLittle() throws {
+    let (map, completed) = try Self.completed()
     var (accepted, moved, rejected, changed) = (0, 0, 0, 0)
     for y in 0..<120 {
       for x in 0..<160 {
-        let (before, after) = (maps[2][x, y], completed[x, y])
-        if maps[2].isAccepted(x, y) {
+        let (before, after) = (map[x, y], completed[x, y])
+        if map.isAccepted(x, y) {
           accepted += 1
           moved += abs(after.inverseDepth / before.inverseDepth - 1) > 0.005 ? 1 : 0
         } else {
@@ -179,17 +185,13 @@ import Testing
 
   /// Beside the outline of the ball, where a patch sees the ball and the floor behind it.
   @Test func completionMakesEdgesSharper() throws {
-    let maps = try Self.maps(Self.scene)
-    try Self.filter(maps)
-    let completed = try PatchStereo.complete(
-      maps[2], neighbors: Self.others(maps, 2), options: PatchStereo.Options(),
-      control: KernelControl())
+    let (map, completed) = try Self.completed()
     let edges = Self.edgePixels(Self.scene, view: 2)
     #expect(edges.count > 200)
     let right = { (map: PatchMap) in
       edges.filter { abs(1 / Double(map[$0.x, $0.y].inverseDepth) / $0.depth - 1) < 0.01 }.count
     }
-    let (before, after) = (right(maps[2]), right(completed))
+    let (before, after) = (right(map), right(completed))
     #expect(after > before + edges.count / 50)
   }
 

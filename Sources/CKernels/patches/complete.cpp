@@ -128,7 +128,8 @@ class Completion {
     const int back = is_forward ? -1 : 1;
     Found found[kWaveSize];
     for (int i = 0; i < count; ++i) {
-      // What is made of other texels than before can't be compared with what was there.
+      // A rejected patch has to be beaten; a good one at an edge, made of texels of both sides, has
+      // not.
       if (!is_good(cells[i])) found[i].cost = grid_.costs[grid_.index(cells[i].x, cells[i].y)];
     }
     attempt(cells, count, found, [&](const Cell& cell) {

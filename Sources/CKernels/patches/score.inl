@@ -9,7 +9,6 @@ namespace {
 // A vector of 16 lanes holds one row of four texels for each of four sources.
 constexpr int kSlots = 4;
 constexpr int kRows = 4;
-constexpr float kOffset[4] = {-2, -1, 1, 2};
 const F16 kDx = {-2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2};
 
 /// A Gaussian of two pixels: what is near the centre says most about it.
@@ -156,7 +155,7 @@ struct Texels {
 
 CK_INLINE void fetch(const Warps& t, const Quad& q, Texels& texels) {
   for (int j = 0; j < kRows; ++j) {
-    const float dy = kOffset[j];
+    const auto dy = static_cast<float>(kTexelOffsets[j]);
     const F16 u = q.u + dy * q.bx, v = q.v + dy * q.by;
     const I16 iu = __builtin_convertvector(u, I16), iv = __builtin_convertvector(v, I16);
     texels.ru[j] = u - __builtin_convertvector(iu, F16);
@@ -350,7 +349,7 @@ bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plan
       const F16 slope = row(patch.gradient_x, j) * motion_x + row(patch.gradient_y, j) * motion_y;
       const F16 weighted = share * row(patch.weight, j) * slope;
       const F16 square = weighted * slope, product = weighted * residual;
-      const float dy = kOffset[j];
+      const auto dy = static_cast<float>(kTexelOffsets[j]);
       squares += square;
       squares_y += dy * square;
       squares_yy += dy * dy * square;

@@ -76,8 +76,8 @@ package struct PointCloudGeneration {
 
   /// Makes the patches of a share of the views, with what they need of other views, and leaves all in
   /// `folder`. That is two thirds of the work: once all shares are made, by processes at the same
-  /// time or one after the other, `run` needs little more. Jobs at the same time share the coarse
-  /// patches of all views between them.
+  /// time or one after the other, `run` completes and fuses them. Jobs at the same time share the
+  /// coarse patches of all views between them.
   package func run(
     _ share: Share, of reconstruction: Reconstruction, images: ImageStore, folder: URL,
     _ context: StageContext

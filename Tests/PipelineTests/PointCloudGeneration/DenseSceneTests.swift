@@ -44,7 +44,7 @@ import Testing
   /// A tenth of the contrast, and less in some regions: less is found, and hardly worse.
   @Test func lowTexture() throws {
     let (rich, low) = (try Self.rich.get(), try Self.scores(.lowTexture))
-    #expect(low.thresholds[0].precision > 0.89)
+    #expect(low.thresholds[0].precision > 0.9)
     #expect(low.thresholds[1].precision > 0.98)
     #expect(low.thresholds[0].recall > 0.81 * rich.thresholds[0].recall)
     #expect(low.thresholds[1].recall > 0.88 * rich.thresholds[1].recall)

@@ -67,6 +67,23 @@ import Testing
     #expect(reused(notes) == 1)
   }
 
+  @Test func damagedCompletionIsMadeAnew() throws {
+    let folder = try TemporaryFolder()
+    let first = try run(in: folder.url).encoded()
+    for name in try names(folder.url) where name.hasSuffix(".cloud") {
+      try FileManager.default.removeItem(at: folder.url.appendingPathComponent(name))
+    }
+    let file = folder.url.appendingPathComponent("0001.completed")
+    var flipped = [UInt8](try Data(contentsOf: file))
+    flipped[5000] ^= 1
+    try folder.write(flipped, as: "0001.completed")
+    try folder.write([], as: "0002.completedStates")
+    let notes = StageNotes()
+    #expect(try run(in: folder.url, notes: notes).encoded() == first)
+    #expect(try [UInt8](Data(contentsOf: file)) != flipped)
+    #expect(reused(notes) == 4)
+  }
+
   @Test func finishedCloudsNeedNothingElse() throws {
     let folder = try TemporaryFolder()
     let first = try run(in: folder.url).encoded()
