@@ -86,9 +86,12 @@ class Completion {
         offers_(offers),
         steps_(options.refinement_steps),
         grid_(reference.view.width, reference.view.height),
-        is_good_(reference.states, reference.states + grid_.planes.size()),
+        is_good_(grid_.planes.size()),
+        is_edge_(grid_.planes.size()),
         optimiser_(grid_, comparison, kernels(options.instructions)) {
     grid_.read(reference.patches);
+    for (size_t i = 0; i < is_good_.size(); ++i) is_good_[i] = reference.states[i] != 0;
+    mark_edges();
   }
 
   /// Visits the rejected cells that have an offer or a good cell before them; forward the good ones
@@ -98,7 +101,7 @@ class Completion {
     Wavefront(grid_.width, grid_.height, is_forward)
         .run(control, from, to, [&](Cell* cells, int count) {
           const auto end = std::remove_if(cells, cells + count, [&](const Cell& cell) {
-            if (is_good(cell)) return !is_forward || !is_edge(cell);
+            if (is_good(cell)) return !is_forward || !is_edge_[grid_.index(cell.x, cell.y)];
             const bool has_offer = is_forward && offers_[grid_.index(cell.x, cell.y)].w > 0;
             return !has_offer && !is_good(cell, back, 0) && !is_good(cell, 0, back);
           });
@@ -178,16 +181,25 @@ class Completion {
     return std::fabs(a.w - b.w) * comparison_.motion;
   }
 
-  /// True where a good patch near by lies on another surface.
-  bool is_edge(const Cell& at) const {
+  /// Marks the good cells that have a good patch of another surface near by.
+  void mark_edges() {
     constexpr int kNear[4][2] = {{-2, -2}, {2, -2}, {-2, 2}, {2, 2}};
-    const Plane& plane = grid_.planes[grid_.index(at.x, at.y)];
-    for (const int* d : kNear) {
-      const size_t cell = grid_.index(at.x + d[0], at.y + d[1]);
-      const Plane there = plane.at(static_cast<float>(d[0]), static_cast<float>(d[1]));
-      if (is_good_[cell] && distance(grid_.planes[cell], there) > kApart) return true;
+    for (int y = kMargin; y < grid_.height - kMargin; ++y) {
+      for (const auto& [dx, dy] : kNear) {
+        for (int x = kMargin; x < grid_.width - kMargin; ++x) {
+          const size_t here = grid_.index(x, y), there = grid_.index(x + dx, y + dy);
+          const bool apart = are_apart(grid_.planes[here], grid_.planes[there], dx, dy);
+          is_edge_[here] |= is_good_[here] & is_good_[there] & apart;
+        }
+      }
     }
-    return false;
+  }
+
+  /// True where neither of two patches continues the other, (dx, dy) away from it. A single one
+  /// that does not is tilted by noise.
+  bool are_apart(const Plane& here, const Plane& there, int dx, int dy) const {
+    const auto x = static_cast<float>(dx), y = static_cast<float>(dy);
+    return distance(here.at(x, y), there) > kApart && distance(there.at(-x, -y), here) > kApart;
   }
 
   /// How much each texel of a patch belongs to its surface: little where a good patch lies on
@@ -211,6 +223,8 @@ class Completion {
   const int steps_;
   Grid grid_;
   std::vector<uint8_t> is_good_;
+  /// Good patches beside another surface, to be made anew.
+  std::vector<uint8_t> is_edge_;
   PatchOptimiser optimiser_;
 };
 
