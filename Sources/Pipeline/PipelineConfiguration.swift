@@ -16,6 +16,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var pointCloudGeneration = PointCloudGeneration.Options()
   /// Where intermediate results are left; nil leaves none.
   package var checkpointDirectory: URL?
+  /// A PNG file that shows each model from several sides; nil draws none.
+  package var previewFile: URL?
   /// Threads of all stages. Results do not depend on it.
   package var threadCount: Int = ProcessInfo.processInfo.activeProcessorCount
   /// Bytes that decoded photos may take.

@@ -180,12 +180,19 @@ package final class ReconstructionPipeline {
     }
   }
 
-  /// Makes a model and writes it: a `.usdz` file, or a folder with OBJ, USDA and textures.
+  /// Makes a model and writes it: a `.usdz` file, or a folder with OBJ, USDA and textures; and draws
+  /// it, where the configuration says so.
   package func writeModel(_ specification: DetailSpecification, to url: URL) throws {
     let model = try model(for: specification)
+    let cameras = try align().poses.compactMap { $0 }
     try run(.optimization) { context in
+      let end = configuration.previewFile == nil ? 1 : 0.7
       try ModelExport(options: .init(textureFormat: specification.textureFormat))
-        .run(model, to: url, context)
+        .run(model, to: url, context.part(from: 0, to: end))
+      if let file = configuration.previewFile {
+        try ModelPreview().write(
+          model, cameras: cameras, to: file, context.part(from: end, to: 1))
+      }
     }
     try writeReport()
   }

@@ -6,6 +6,8 @@ package struct EngineOptions: Equatable, Sendable {
   package var threadCount = ProcessInfo.processInfo.activeProcessorCount
   /// Distances in the scene that were measured; they give the scale. Photos are named by their files.
   package var knownDistances: [KnownDistance] = []
+  /// A PNG file that shows the model from several sides; nil draws none.
+  package var previewFile: URL?
   /// Suffixes of model files that are accepted besides `usdz`, for instance `glb` and `ply`.
   package var additionalFileFormats: Set<String> = []
 

@@ -84,6 +84,7 @@ extension PipelineConfiguration {
     checkpointDirectory = configuration.checkpointDirectory
     threadCount = options.threadCount
     knownDistances = options.knownDistances
+    previewFile = options.previewFile
     maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
     maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
     // The machine's memory and not what is free of it: runs must not differ.

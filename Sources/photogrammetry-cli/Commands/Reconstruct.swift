@@ -19,6 +19,8 @@ struct Reconstruct: AsyncParsableCommand {
             One file for AR Quick Look, at the 'reduced' level.
         photogrammetry-cli photos/ model.usdz -d medium --checkpoint-directory work/
             More detail; sparse/, dense/, mesh/ and report.json stay in work/.
+        photogrammetry-cli photos/ model.usdz --preview model.png
+            A picture of the model from eight sides besides.
         photogrammetry-cli photos/ model/ --poses poses.json --point-cloud points.ply
             A folder with OBJ, MTL, USDA and textures, and what else is known.
         photogrammetry-cli facade/ facade.usdz --no-object-masking -o sequential
@@ -64,6 +66,8 @@ struct Reconstruct: AsyncParsableCommand {
   @Option(
     name: .long, help: ArgumentHelp("Write the coloured points as PLY.", valueName: "file.ply"))
   var pointCloud: String?
+
+  @OptionGroup var preview: PreviewArguments
 
   @Flag(name: .long, help: "Keep the surroundings instead of isolating the object.")
   var noObjectMasking = false

@@ -14,6 +14,7 @@ struct ReconstructionJob {
   private let posesURL: URL?
   private let pointCloudURL: URL?
   private let reportURL: URL?
+  private let previewURL: URL?
   private let checkpointURL: URL?
   private let logger = Logger(label: "photogrammetry-cli")
 
@@ -30,6 +31,7 @@ struct ReconstructionJob {
     posesURL = try url(arguments.poses)
     pointCloudURL = try url(arguments.pointCloud)
     reportURL = try url(arguments.engine.report)
+    previewURL = try arguments.preview.file()
     checkpointURL = try arguments.checkpointDirectory.map { path in
       let url = URL(fileURLWithPath: path, isDirectory: true)
       try ModelOutput.checkWritable(url)
@@ -45,6 +47,7 @@ struct ReconstructionJob {
     ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
     let session = try PhotogrammetrySession(input: input, configuration: configuration)
     try arguments.engine.configure(session, photos: input)
+    try arguments.preview.configure(session)
     // The session is safe to cancel from any thread.
     nonisolated(unsafe) let cancellable = session
     let interrupts = InterruptHandler { cancellable.cancel() }
@@ -110,6 +113,7 @@ struct ReconstructionJob {
     switch result {
     case .modelFile(let url):
       reporter.wrote("model", url.relativePath)
+      if let previewURL { reporter.wrote("preview", previewURL.relativePath) }
     case .poses(let poses):
       guard let posesURL else { return }
       try AtomicFile.write(try PosesFile(poses).encoded(), to: posesURL)

@@ -42,6 +42,31 @@ import RealityKit
     }
   }
 
+  /// A picture of the model.
+  struct PreviewArguments: ParsableArguments {
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "Draw the model from eight sides into one picture.", valueName: "file.png"))
+    var preview: String?
+
+    /// The file to write; throws a `CommandFailure` where that can't be.
+    func file() throws -> URL? {
+      guard let preview else { return nil }
+      guard (preview as NSString).pathExtension.lowercased() == "png" else {
+        throw CommandFailure.usage(
+          "The preview \(preview) would be a PNG picture. Name a .png file.")
+      }
+      let url = URL(fileURLWithPath: preview, isDirectory: false)
+      try ModelOutput.checkWritable(url)
+      return url
+    }
+
+    func configure(_ session: PhotogrammetrySession) throws {
+      session.engineOptions.previewFile = try file()
+    }
+  }
+
   /// What only our engine can do.
   struct EngineArguments: ParsableArguments {
     /// How the scale is told, as a section of help.
@@ -119,6 +144,12 @@ import RealityKit
     }
   }
 #else
+  /// Apple's engine draws no pictures.
+  struct PreviewArguments: ParsableArguments {
+    func file() throws -> URL? { nil }
+    func configure(_ session: PhotogrammetrySession) throws {}
+  }
+
   /// Apple's engine has no options beyond its configuration.
   struct EngineArguments: ParsableArguments {
     static let scaleHelp = ""

@@ -1,0 +1,175 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Viewpoints from which all of a model is seen, at one scale: all around its upright axis, or before
+/// the side that the photos saw where they saw one side only.
+///
+/// An azimuth counts from +z towards +x, an elevation from the horizon upwards.
+struct Turntable: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    var viewCount = 8
+    /// About the angle that a picture spans.
+    var fieldOfViewDegrees = 30.0
+    /// Free space around the model, as a share of a picture's longer side.
+    var margin = 0.04
+    /// The shorter side of a picture at least, as a share of the longer one.
+    var minimumAspect = 0.3
+    /// Elevation where there are no photos.
+    var elevationDegrees = 20.0
+    /// The photos' own elevation is kept within these.
+    var minimumElevationDegrees = 10.0
+    var maximumElevationDegrees = 50.0
+    /// Photos whose horizontal directions have a mean longer than this, 0…1, saw one side: 0.64 is
+    /// half a circle.
+    var oneSidedConcentration = 0.6
+    /// Viewpoints before one side span twice this angle at least and at most.
+    var minimumReachDegrees = 40.0
+    var maximumReachDegrees = 80.0
+    /// Share of the photos that this angle covers.
+    var reachShare = 0.8
+  }
+
+  /// A direction to look from, in radians.
+  struct Direction: Hashable, Sendable {
+    var azimuth: Double
+    var elevation: Double
+  }
+
+  var options = Options()
+
+  /// What all pictures are taken with, and from where.
+  struct Viewpoints: Sendable {
+    var camera: Camera
+    /// `cameraFromWorld`; none where there is nothing to see.
+    var poses: [RigidTransform]
+  }
+
+  /// Viewpoints that see every position within the margins of pictures as wide and high as it takes,
+  /// whose longer side has `side` pixels. `cameras` are the poses of the photos.
+  func viewpoints(
+    of positions: [SIMD3<Float>], cameras: [RigidTransform], side: Int, _ control: KernelControl
+  ) throws -> Viewpoints {
+    guard let bounds = Mesh(positions: positions).bounds else {
+      return Viewpoints(camera: camera(framing: (.zero, .zero), side), poses: [])
+    }
+    let center = (SIMD3<Double>(bounds.min) + SIMD3<Double>(bounds.max)) / 2
+    let rotations = directions(cameras).map(Self.rotation)
+    let distances = try control.part(from: 0, to: 0.5).parallelMap(rotations.count) { index in
+      leastDistance(of: positions, around: center, rotations[index])
+    }
+    let distance = distances.max() ?? 1
+    let poses = rotations.map { rotation in
+      RigidTransform(rotation: rotation, translation: [0, 0, distance] - rotation * center)
+    }
+    let outlines = try control.part(from: 0.5, to: 1).parallelMap(poses.count) { index in
+      Self.outline(of: positions, from: poses[index])
+    }
+    let outline = outlines.reduce(outlines.first ?? (.zero, .zero)) {
+      (pointwiseMin($0.low, $1.low), pointwiseMax($0.high, $1.high))
+    }
+    return Viewpoints(camera: camera(framing: outline, side), poses: poses)
+  }
+
+  /// A corner and the opposite one at depth 1.
+  private typealias Outline = (low: SIMD2<Double>, high: SIMD2<Double>)
+
+  /// The rectangle that holds all positions in a picture.
+  private static func outline(
+    of positions: [SIMD3<Float>], from pose: RigidTransform
+  ) -> Outline {
+    let (matrix, t) = (pose.rotation.matrix, pose.translation)
+    var low = SIMD2<Double>(repeating: .infinity)
+    var high = -low
+    for position in positions {
+      let p = SIMD3<Double>(position)
+      let place =
+        SIMD2(matrix.row0.dot(p) + t.x, matrix.row1.dot(p) + t.y) / (matrix.row2.dot(p) + t.z)
+      low = pointwiseMin(low, place)
+      high = pointwiseMax(high, place)
+    }
+    return (low, high)
+  }
+
+  private func camera(framing outline: Outline, _ side: Int) -> Camera {
+    let extent = outline.high - outline.low
+    let longer = max(extent.x, extent.y)
+    let focal = Double(side) * (1 - 2 * options.margin) / (longer > 0 ? longer : 1)
+    func pixels(_ extent: Double) -> Int {
+      let share = max(extent * focal / Double(side) + 2 * options.margin, options.minimumAspect)
+      return max(1, min(side, Int((share * Double(side)).rounded(.up))))
+    }
+    let (width, height) = (pixels(extent.x), pixels(extent.y))
+    let middle = (outline.low + outline.high) / 2 * focal
+    return Camera(
+      width: width, height: height, focalLength: [focal, focal],
+      principalPoint: SIMD2(Double(width), Double(height)) / 2 - middle)
+  }
+
+  /// Where the viewers are, seen from the model.
+  func directions(_ cameras: [RigidTransform]) -> [Direction] {
+    let sights = cameras.map { -($0.rotation.conjugate * SIMD3<Double>(0, 0, 1)) }
+    let elevation = medianElevation(sights)
+    let count = Double(options.viewCount)
+    if let side = seenSide(sights) {
+      let step = options.viewCount > 1 ? 2 * side.reach / (count - 1) : 0
+      return (0..<options.viewCount).map {
+        Direction(azimuth: side.azimuth - side.reach + Double($0) * step, elevation: elevation)
+      }
+    }
+    return (0..<options.viewCount).map {
+      Direction(azimuth: 2 * .pi * Double($0) / count, elevation: elevation)
+    }
+  }
+
+  /// The middle of the photos' elevations.
+  private func medianElevation(_ sights: [SIMD3<Double>]) -> Double {
+    let elevations = sights.map { asin(min(max($0.y, -1), 1)) }.sorted()
+    let middle = elevations.isEmpty ? nil : elevations[elevations.count / 2] * 180 / .pi
+    let degrees = middle.map {
+      min(max($0, options.minimumElevationDegrees), options.maximumElevationDegrees)
+    }
+    return (degrees ?? options.elevationDegrees) * .pi / 180
+  }
+
+  /// The side that the photos saw; nil where they went around, or looked down.
+  private func seenSide(_ sights: [SIMD3<Double>]) -> (azimuth: Double, reach: Double)? {
+    let flat = sights.map { SIMD2($0.x, $0.z) }
+    let sum = flat.reduce(SIMD2<Double>.zero, +)
+    let lengths = flat.reduce(0) { $0 + $1.length }
+    // Of photos from above the horizontal part says nothing.
+    guard lengths > 0.2 * Double(flat.count), sum.length > options.oneSidedConcentration * lengths
+    else { return nil }
+    let azimuth = atan2(sum.x, sum.y)
+    let offsets = flat.map { abs(remainder(atan2($0.x, $0.y) - azimuth, 2 * .pi)) }.sorted()
+    let reach = offsets[Int(options.reachShare * Double(offsets.count - 1))] * 180 / .pi
+    let degrees = min(max(reach, options.minimumReachDegrees), options.maximumReachDegrees)
+    return (azimuth, degrees * .pi / 180)
+  }
+
+  /// The rotation of a camera, upright, that looks at the model from a direction.
+  private static func rotation(_ direction: Direction) -> Quaternion {
+    let (a, e) = (direction.azimuth, direction.elevation)
+    let forward = -SIMD3(cos(e) * sin(a), sin(e), cos(e) * cos(a))
+    let right = forward.cross([0, 1, 0]).normalized
+    return Quaternion(Matrix3(rows: right, forward.cross(right), forward))
+  }
+
+  /// The least distance from the centre from which no position is outside the field of view.
+  private func leastDistance(
+    of positions: [SIMD3<Float>], around center: SIMD3<Double>, _ rotation: Quaternion
+  ) -> Double {
+    let matrix = rotation.matrix
+    let spread = 1 / tan(options.fieldOfViewDegrees * .pi / 360)
+    var (distance, radius) = (0.0, 0.0)
+    for position in positions {
+      let p = SIMD3<Double>(position) - center
+      let (x, y, z) = (matrix.row0.dot(p), matrix.row1.dot(p), matrix.row2.dot(p))
+      distance = max(distance, max(abs(x), abs(y)) * spread - z)
+      radius = max(radius, p.squaredLength)
+    }
+    // From closer, a needle that points at the viewer would touch the eye.
+    let nearest = 2 * radius.squareRoot()
+    return max(distance, nearest > 0 ? nearest : 1)
+  }
+}
