@@ -1,5 +1,6 @@
 import Formats
 import Foundation
+import Kernels
 import SceneModel
 
 /// The intermediate results of a run as files that other tools read, in the model's frame.
@@ -9,6 +10,7 @@ import SceneModel
 /// dense/points.ply                        oriented, coloured patches
 /// dense/views/                            what the dense stage has made of each view, to go on with
 /// mesh/surface.ply                        before simplification
+/// mesh/surface.json                       what it was made of
 /// report.json
 /// ```
 /// Every file is written whole or not at all.
@@ -30,9 +32,35 @@ struct Checkpoint {
   /// The folder of `PatchWorkspace`.
   var views: URL { directory.appendingPathComponent("dense/views", isDirectory: true) }
 
-  func write(_ surface: Mesh) throws {
-    try PLY.write(surface, to: try folder("mesh").appendingPathComponent("surface.ply"))
+  /// Where COLMAP's text files are.
+  var sparse: URL { directory.appendingPathComponent("sparse", isDirectory: true) }
+  var surface: URL { directory.appendingPathComponent("mesh/surface.ply") }
+  var record: URL { directory.appendingPathComponent("mesh/surface.json") }
+
+  /// Tells whether cameras and poses are the same; nil where there are none.
+  var sparseHash: String? {
+    var fingerprint = Fingerprint()
+    for name in ["cameras.txt", "images.txt"] {
+      let file = sparse.appendingPathComponent(name)
+      guard let content = FileManager.default.contents(atPath: file.path) else { return nil }
+      fingerprint.add(content)
+    }
+    return SurfaceRecord.text(fingerprint.value)
   }
+
+  func write(_ mesh: Mesh) throws {
+    _ = try folder("mesh")
+    try PLY.write(mesh, to: surface)
+  }
+
+  /// Writes what the surface was made of; after the surface, so that one without is of a run that was
+  /// stopped.
+  func write(_ content: SurfaceRecord) throws {
+    try AtomicFile.write(try content.encoded(), to: record)
+  }
+
+  /// Takes the record away before its surface changes.
+  func removeRecord() { try? FileManager.default.removeItem(at: record) }
 
   func write(_ report: RunReport) throws {
     try FileManager.default.createDirectory(at: directory, withIntermediateDirectories: true)

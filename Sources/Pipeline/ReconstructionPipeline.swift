@@ -14,6 +14,7 @@ package final class ReconstructionPipeline {
 
   private let folder: URL
   private let knownCameras: KnownCameras?
+  private let saved: SavedRun?
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
   private var finestViewPixels = 0
@@ -32,6 +33,22 @@ package final class ReconstructionPipeline {
   ) {
     self.folder = folder
     self.knownCameras = knownCameras
+    saved = nil
+    self.configuration = configuration
+    self.flag = flag
+    self.onEvent = onEvent
+    report = RunReport(configuration: configuration)
+  }
+
+  /// Makes models of the surface that an earlier run made; nothing that comes before is made again.
+  package init(
+    _ saved: SavedRun, configuration: PipelineConfiguration,
+    flag: CancellationFlag = CancellationFlag(),
+    onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
+  ) {
+    folder = saved.photoFolder
+    knownCameras = nil
+    self.saved = saved
     self.configuration = configuration
     self.flag = flag
     self.onEvent = onEvent
@@ -47,6 +64,7 @@ package final class ReconstructionPipeline {
   package func ingest() throws -> IngestedPhotos {
     if let ingested { return ingested }
     let result = try run(.preProcessing) { context in
+      if let saved { return try SavedPhotos().run(saved, context) }
       var options = PhotoIngestion.Options()
       options.memoryBudget = configuration.imageMemory
       options.maximumPhotos = configuration.maximumPhotos
@@ -70,7 +88,7 @@ package final class ReconstructionPipeline {
   /// that are known.
   package func align() throws -> Reconstruction {
     if let reconstruction { return reconstruction }
-    let result = try knownCameras.map(adopt) ?? findCameras()
+    let result = try saved.map(reuse) ?? knownCameras.map(adopt) ?? findCameras()
     reconstruction = result
     return result
   }
@@ -103,6 +121,12 @@ package final class ReconstructionPipeline {
       return (result, assigned.missing)
     }
     report.photos += missing.map { .init(name: $0, status: .missing, reason: nil) }
+    describe(result)
+    return result
+  }
+
+  private func reuse(_ saved: SavedRun) throws -> Reconstruction {
+    let result = saved.reconstruction(of: try ingest())
     describe(result)
     return result
   }
@@ -151,6 +175,7 @@ package final class ReconstructionPipeline {
   package func surface(for specification: DetailSpecification) throws -> Mesh {
     plan(for: [specification])
     if let surface, surface.viewPixels >= finestViewPixels { return surface.value }
+    if let saved { return reuseSurface(saved) }
     let reconstruction = try align()
     let cloud = try densify(for: specification)
     let result = try run(.meshGeneration) { context in
@@ -158,9 +183,34 @@ package final class ReconstructionPipeline {
       options.isolatesObject = configuration.isObjectMaskingEnabled
       return try MeshGeneration(options).run(cloud, reconstruction, context)
     }
-    try checkpoint?.write(result)
     surface = (finestViewPixels, result)
+    try save(result, of: reconstruction)
     return result
+  }
+
+  private func save(_ surface: Mesh, of reconstruction: Reconstruction) throws {
+    guard let checkpoint else { return }
+    checkpoint.removeRecord()
+    try checkpoint.write(surface)
+    guard let sparseHash = checkpoint.sparseHash else { return }
+    try checkpoint.write(
+      SurfaceRecord(
+        reconstruction, of: try ingest(), in: folder, viewPixels: finestViewPixels,
+        sparseHash: sparseHash))
+  }
+
+  private func reuseSurface(_ saved: SavedRun) -> Mesh {
+    func megapixels(_ pixels: Int) -> String { "\(Double(pixels / 10_000) / 100) MP" }
+    let (had, wanted) = (saved.record.viewPixels, finestViewPixels)
+    if had < wanted {
+      let sentence =
+        "The surface was made from views of \(megapixels(had)), not \(megapixels(wanted)) as for "
+        + "this level, and has no more detail than that. Run the photos again at this level for more."
+      report.warnings.append(sentence)
+      onEvent(.warning(sentence))
+    }
+    surface = (wanted, saved.surface)
+    return saved.surface
   }
 
   /// Simplifies the surface to the budget and textures it.

@@ -7,11 +7,13 @@ import Testing
 
 @Suite struct HelpTests {
   /// Compares with the files in Snapshots; write them anew with RECORD_SNAPSHOTS=1.
-  @Test(arguments: ["photogrammetry-cli", "reconstruct", "align", "densify", "inspect", "evaluate"])
+  @Test(arguments: [
+    "photogrammetry-cli", "reconstruct", "align", "densify", "export", "inspect", "evaluate",
+  ])
   func helpIsAsItWas(_ name: String) throws {
     let commands: [String: any ParsableCommand.Type] = [
       "reconstruct": Reconstruct.self, "align": Align.self, "densify": Densify.self,
-      "inspect": Inspect.self, "evaluate": Evaluate.self,
+      "export": Export.self, "inspect": Inspect.self, "evaluate": Evaluate.self,
     ]
     let help =
       commands[name].map { PhotogrammetryCLI.helpMessage(for: $0, columns: 80) }

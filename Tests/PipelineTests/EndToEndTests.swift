@@ -42,6 +42,17 @@ import Testing
       #expect(FileManager.default.fileExists(atPath: file.path), "\(name) is missing")
     }
     #expect(try Data(contentsOf: output).prefix(4) == Data([0x50, 0x4b, 3, 4]))
+    try theSavedRunGivesTheSameModel(folder.url, output)
+  }
+
+  private func theSavedRunGivesTheSameModel(_ folder: URL, _ output: URL) throws {
+    let saved = try SavedRun(checkpoint: folder.appendingPathComponent("checkpoint"))
+    let pipeline = ReconstructionPipeline(saved, configuration: PipelineConfiguration())
+    let again = folder.appendingPathComponent("again.usdz")
+    try pipeline.writeModel(DetailSpecification(.preview), to: again)
+    #expect(try Data(contentsOf: again) == Data(contentsOf: output))
+    let stages = pipeline.report.stages.map(\.name)
+    #expect(stages == ["preProcessing", "textureMapping", "optimization"])
   }
 
   @Test func threadsDoNotChangeTheFile() throws {

@@ -1,0 +1,161 @@
+import Formats
+import Foundation
+import SceneModel
+
+/// What an earlier run left in its checkpoint directory: enough for more models of the same surface.
+///
+/// Numbers come back from the files bit for bit, so that a model of the same level is the same.
+package struct SavedRun: Sendable {
+  /// Its photos have names, sizes and cameras; the files are still to be looked at.
+  package let reconstruction: Reconstruction
+  package let surface: Mesh
+  package let record: SurfaceRecord
+  /// Where the photos are now.
+  package let photoFolder: URL
+
+  /// Reads the directory; `photos` names their folder where they have moved. Throws `SavedRunError`.
+  package init(checkpoint directory: URL, photos: URL? = nil) throws {
+    let checkpoint = Checkpoint(directory: directory)
+    try Self.checkPresence(checkpoint)
+    record = try Self.record(checkpoint)
+    photoFolder = photos ?? URL(fileURLWithPath: record.photoFolder, isDirectory: true)
+    guard checkpoint.sparseHash == record.sparseHash else {
+      throw SavedRunError.mixed(directory: directory.path)
+    }
+    do {
+      reconstruction = try COLMAPText.read(checkpoint.sparse, images: photoFolder)
+      surface = try PLY.readMesh(checkpoint.surface)
+    } catch FormatError.malformed(let path, let reason) {
+      throw SavedRunError.damaged(path: path, reason: reason)
+    } catch FormatError.unreadable(let path, let reason) {
+      throw SavedRunError.damaged(path: path, reason: reason)
+    }
+    guard reconstruction.photos.map(\.name) == record.photos.map(\.name) else {
+      throw SavedRunError.mixed(directory: directory.path)
+    }
+    try checkSurface(checkpoint.surface)
+    try checkPhotos()
+  }
+
+  private static func checkPresence(_ checkpoint: Checkpoint) throws {
+    let files = FileManager.default
+    var isDirectory: ObjCBool = false
+    let path = checkpoint.directory.path
+    guard files.fileExists(atPath: path, isDirectory: &isDirectory), isDirectory.boolValue else {
+      throw SavedRunError.noDirectory(path: path)
+    }
+    let poses = checkpoint.sparse.appendingPathComponent("images.txt")
+    guard files.fileExists(atPath: poses.path) else {
+      throw SavedRunError.noCheckpoint(directory: path)
+    }
+    guard files.fileExists(atPath: checkpoint.surface.path) else {
+      throw SavedRunError.unfinished(directory: path)
+    }
+    guard files.fileExists(atPath: checkpoint.record.path) else {
+      throw SavedRunError.noRecord(path: checkpoint.record.path)
+    }
+  }
+
+  private static func record(_ checkpoint: Checkpoint) throws -> SurfaceRecord {
+    struct Version: Decodable { var format: Int }
+    let path = checkpoint.record.path
+    guard let data = FileManager.default.contents(atPath: path) else {
+      throw SavedRunError.damaged(path: path, reason: "it can't be read")
+    }
+    guard let version = try? JSONDecoder().decode(Version.self, from: data) else {
+      throw SavedRunError.damaged(path: path, reason: "it is no JSON of ours")
+    }
+    guard version.format == SurfaceRecord.currentFormat else {
+      throw SavedRunError.otherVersion(path: path, format: version.format)
+    }
+    do {
+      return try JSONDecoder().decode(SurfaceRecord.self, from: data)
+    } catch {
+      throw SavedRunError.damaged(path: path, reason: "entries are missing")
+    }
+  }
+
+  private func checkSurface(_ url: URL) throws {
+    guard !surface.triangles.isEmpty else {
+      throw SavedRunError.damaged(path: url.path, reason: "it has no triangles")
+    }
+    guard surface.normals.allSatisfy({ $0.squaredLength.isFinite }) else {
+      throw SavedRunError.damaged(path: url.path, reason: "a normal is not finite")
+    }
+  }
+
+  private func checkPhotos() throws {
+    let files = FileManager.default
+    guard files.fileExists(atPath: photoFolder.path) else {
+      throw SavedRunError.noPhotos(folder: photoFolder.path)
+    }
+    let missing = record.photos.map(\.name).filter {
+      !files.fileExists(atPath: photoFolder.appendingPathComponent($0).path)
+    }
+    guard missing.isEmpty else {
+      throw SavedRunError.missingPhotos(folder: photoFolder.path, names: missing)
+    }
+  }
+}
+
+/// Why no more models can be made from a checkpoint directory: a sentence and a remedy.
+package enum SavedRunError: LocalizedError, Equatable, Sendable {
+  case noDirectory(path: String)
+  case noCheckpoint(directory: String)
+  case unfinished(directory: String)
+  case noRecord(path: String)
+  case otherVersion(path: String, format: Int)
+  /// The cameras and the surface are not of one run.
+  case mixed(directory: String)
+  case damaged(path: String, reason: String)
+  case noPhotos(folder: String)
+  case missingPhotos(folder: String, names: [String])
+  case changedPhotos(folder: String, names: [String])
+
+  package var errorDescription: String? {
+    switch self {
+    case .noDirectory(let path):
+      "The folder \(path) does not exist."
+    case .noCheckpoint(let directory):
+      "\(directory) holds no checkpoint: there is no sparse/images.txt in it."
+    case .unfinished(let directory):
+      "The run in \(directory) has not come to its surface: there is no mesh/surface.ply."
+    case .noRecord(let path):
+      "\(path) is missing: the run was stopped, or made by an earlier version of this program."
+    case .otherVersion(let path, let format):
+      "\(path) was written by another version of this program: its format is \(format), not "
+        + "\(SurfaceRecord.currentFormat)."
+    case .mixed(let directory):
+      "The cameras in \(directory)/sparse are not those that \(directory)/mesh was made with."
+    case .damaged(let path, let reason):
+      "\(path) can't be used: \(reason)."
+    case .noPhotos(let folder):
+      "The photos are gone: the folder \(folder) does not exist."
+    case .missingPhotos(let folder, let names):
+      "Photos are missing in \(folder): \(Self.list(names))."
+    case .changedPhotos(let folder, let names):
+      "Photos in \(folder) have changed since the run: \(Self.list(names))."
+    }
+  }
+
+  package var recoverySuggestion: String? {
+    switch self {
+    case .noDirectory, .noCheckpoint:
+      "Name the folder that a run was given as --checkpoint-directory."
+    case .unfinished:
+      "Run the photos again with the same --checkpoint-directory; the dense stage goes on where it "
+        + "stopped."
+    case .noRecord, .otherVersion, .mixed, .damaged:
+      "Run the photos again with the same --checkpoint-directory."
+    case .noPhotos, .missingPhotos:
+      "Name the folder that they are in now with --photos."
+    case .changedPhotos:
+      "Name the folder with the originals with --photos, or run the photos again."
+    }
+  }
+
+  private static func list(_ names: [String]) -> String {
+    let shown = names.prefix(5).joined(separator: ", ")
+    return names.count > 5 ? "\(shown) and \(names.count - 5) more" : shown
+  }
+}

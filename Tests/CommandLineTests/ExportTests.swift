@@ -1,0 +1,94 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+@testable import photogrammetry_cli
+
+@Suite struct ExportTests {
+  private let temporary: TemporaryFolder
+
+  init() throws { temporary = try TemporaryFolder() }
+
+  private var folder: URL { temporary.url }
+
+  /// Leaves what a finished run of photos of a ball leaves.
+  private func makeCheckpoint() throws {
+    let scene = SphereScene(viewCount: 8, imageSize: 320) { p in
+      SIMD3(140 + 90 * sin(19 * p.x), 120 + 60 * sin(31 * p.z), 100 + 50 * sin(25 * p.y))
+    }
+    for (index, image) in scene.images.enumerated() {
+      try temporary.write(
+        try ImageCodec.encodeJPEG(image, quality: 0.95), as: "photos/p\(index).jpg")
+    }
+    let photos = folder.appendingPathComponent("photos", isDirectory: true)
+    let ingested = try PhotoIngestion().run(folder: photos, StageContext())
+    var reconstruction = scene.reconstruction
+    reconstruction.photos = ingested.photos
+    for index in reconstruction.photos.indices { reconstruction.photos[index].camera = ID(0) }
+    let work = folder.appendingPathComponent("work", isDirectory: true)
+    try FileManager.default.createDirectory(at: work, withIntermediateDirectories: true)
+    let checkpoint = Checkpoint(directory: work)
+    try checkpoint.write(reconstruction)
+    try checkpoint.write(SyntheticMesh.sphere(subdivisions: 4))
+    try checkpoint.write(
+      SurfaceRecord(
+        reconstruction, of: ingested, in: photos, viewPixels: 80_000,
+        sparseHash: try #require(checkpoint.sparseHash)))
+  }
+
+  private func expectFailure(
+    _ arguments: [String], code: Int32, mentioning words: [String]
+  ) throws {
+    let run = try CommandProcess.run(["export"] + arguments, in: folder)
+    #expect(run.exitCode == code, "\(run.errors)")
+    #expect(run.output.isEmpty)
+    for word in words { #expect(run.errors.contains(word), "\(run.errors)") }
+    #expect(!FileManager.default.fileExists(atPath: folder.path + "/m.usdz"))
+  }
+
+  @Test func aModelAndItsPictureAreWritten() throws {
+    try makeCheckpoint()
+    let run = try CommandProcess.run(
+      ["export", "work", "m.usdz", "-d", "reduced", "--preview", "m.png", "--report", "r.json"],
+      in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    #expect(run.output == "m.usdz\nm.png\n")
+    #expect(run.errors.contains("0.08 MP") && run.errors.contains("Done in"), "\(run.errors)")
+    let sheet = try ImageCodec.decode(
+      [UInt8](try Data(contentsOf: folder.appendingPathComponent("m.png"))))
+    #expect(max(sheet.width / 4, sheet.height / 2) == 480)
+    let report = try JSONDecoder().decode(
+      RunReport.self, from: Data(contentsOf: folder.appendingPathComponent("r.json")))
+    #expect(report.stages.map(\.name) == ["preProcessing", "textureMapping", "optimization"])
+    #expect(report.warnings.count == 1)
+    let left = try FileManager.default.subpathsOfDirectory(atPath: folder.path + "/work").sorted()
+    #expect(
+      left == [
+        "mesh", "mesh/surface.json", "mesh/surface.ply", "sparse", "sparse/cameras.txt",
+        "sparse/images.txt", "sparse/points3D.txt",
+      ])
+  }
+
+  @Test func whatIsNoFinishedRunEndsWithTwo() throws {
+    try temporary.write([1], as: "empty/x")
+    try temporary.write([1], as: "begun/sparse/images.txt")
+    try expectFailure([], code: 2, mentioning: ["checkpoint-directory"])
+    try expectFailure(["none", "m.usdz"], code: 2, mentioning: ["none does not exist"])
+    try expectFailure(["empty", "m.usdz"], code: 2, mentioning: ["empty holds no checkpoint"])
+    try expectFailure(["begun", "m.usdz"], code: 2, mentioning: ["has not come to its surface"])
+    try expectFailure(
+      ["begun", "m.usdz", "--photos", "none"], code: 2, mentioning: ["none does not exist"])
+    try expectFailure(
+      ["begun", "m.usdz", "--preview", "m.jpg"], code: 2, mentioning: ["m.jpg", ".png"])
+    try expectFailure(["begun", "no/m.usdz"], code: 2, mentioning: ["mkdir -p"])
+  }
+
+  @Test func changedPhotosEndWithOne() throws {
+    try makeCheckpoint()
+    try temporary.write([1, 2, 3], as: "photos/p2.jpg")
+    try expectFailure(["work", "m.usdz"], code: 1, mentioning: ["p2.jpg", "have changed"])
+  }
+}
