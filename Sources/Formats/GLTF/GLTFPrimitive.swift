@@ -1,0 +1,45 @@
+import SceneModel
+
+/// The triangles of one atlas as glTF wants them, whose vertices have a single index: a vertex for
+/// each position, split only where texture coordinates differ.
+struct GLTFPrimitive {
+  /// Of each vertex its index into the mesh's positions and normals, in the order of first use.
+  private(set) var positions: [UInt32] = []
+  /// Of each vertex its index into the texture coordinates; empty where there are none.
+  private(set) var coordinates: [UInt32] = []
+  /// Three vertices a triangle.
+  private(set) var indices: [UInt32] = []
+
+  /// The vertex that a position got first, and of each vertex the next at the same position.
+  private var first: [UInt32]
+  private var next: [UInt32] = []
+  private static let none = UInt32.max
+
+  init(_ mesh: TexturedMesh, triangles range: Range<Int>) {
+    let hasTexture = mesh.textureTriangles.count == mesh.mesh.triangles.count
+    first = [UInt32](repeating: Self.none, count: mesh.mesh.positions.count)
+    indices.reserveCapacity(3 * range.count)
+    for index in range {
+      let t = mesh.mesh.triangles[index]
+      let st = hasTexture ? mesh.textureTriangles[index] : nil
+      indices.append(vertex(t.a, st?.a))
+      indices.append(vertex(t.b, st?.b))
+      indices.append(vertex(t.c, st?.c))
+    }
+    (first, next) = ([], [])
+  }
+
+  private mutating func vertex(_ position: UInt32, _ coordinate: UInt32?) -> UInt32 {
+    var vertex = first[Int(position)]
+    while vertex != Self.none {
+      guard let coordinate, coordinates[Int(vertex)] != coordinate else { return vertex }
+      vertex = next[Int(vertex)]
+    }
+    vertex = UInt32(positions.count)
+    positions.append(position)
+    if let coordinate { coordinates.append(coordinate) }
+    next.append(first[Int(position)])
+    first[Int(position)] = vertex
+    return vertex
+  }
+}
