@@ -14,6 +14,16 @@ import Testing
     }
   }
 
+  /// The temporary name must not be longer than file systems allow where the name itself is not.
+  @Test(arguments: ["n", "é", "模"])
+  func theLongestNamesAreWritten(_ letter: String) throws {
+    try Sample.withFolder { folder in
+      let name = String(repeating: letter, count: 255 / letter.utf8.count)
+      try AtomicFile.write([1], to: folder.appendingPathComponent(name))
+      #expect(try FileManager.default.contentsOfDirectory(atPath: folder.path) == [name])
+    }
+  }
+
   @Test func missingParentIsNamedWithARemedy() throws {
     try Sample.withFolder { folder in
       let missing = folder.appendingPathComponent("no/such", isDirectory: true)

@@ -75,10 +75,12 @@ package enum AtomicFile {
     return exists && isDirectory.boolValue
   }
 
-  /// A name in the same folder that nobody else uses.
+  /// A name in the same folder that nobody else uses, short enough where that of `url` is.
   static func temporaryURL(for url: URL) -> URL {
-    url.absoluteURL.deletingLastPathComponent()
-      .appendingPathComponent(".\(url.lastPathComponent).\(UUID().uuidString).partial")
+    var name = url.lastPathComponent
+    while name.utf8.count > 64 { name.removeLast() }
+    return url.absoluteURL.deletingLastPathComponent()
+      .appendingPathComponent(".\(name).\(UUID().uuidString).partial")
   }
 
   static func rename(_ source: URL, to destination: URL) throws {
