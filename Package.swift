@@ -98,14 +98,15 @@ var cliDependencies: [Target.Dependency] = [
     .testTarget(
       name: "RealityFoundationTests",
       dependencies: [
-        "RealityKit", "RealityFoundation", "Pipeline", "Kernels", "SceneModel", "simd",
+        "RealityKit", "RealityFoundation", "Pipeline", "Formats", "Kernels", "SceneModel", "simd",
         "TestSupport",
       ],
       swiftSettings: strict),
     .testTarget(
       name: "CommandLineTests",
       dependencies: [
-        "photogrammetry-cli", "Evaluation", "Pipeline", "Kernels", "SceneModel", "TestSupport",
+        "photogrammetry-cli", "Evaluation", "Formats", "Pipeline", "Kernels", "SceneModel",
+        "TestSupport",
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]

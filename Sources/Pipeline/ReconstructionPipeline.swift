@@ -1,4 +1,5 @@
 import Foundation
+import Formats
 import Kernels
 import SceneModel
 
@@ -230,9 +231,11 @@ package final class ReconstructionPipeline {
     }
   }
 
-  /// Makes a model and writes it: a `.usdz` file, or a folder with OBJ, USDA and textures; and draws
-  /// it, where the configuration says so.
+  /// Makes a model and writes it as `ModelFormat` reads from the URL, with the maps that the format
+  /// has a place for; and draws it, where the configuration says so.
   package func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+    var specification = specification
+    specification.maps.formIntersection(ModelFormat(of: url).maps)
     let model = try model(for: specification)
     let cameras = try align().poses.compactMap { $0 }
     try run(.optimization) { context in

@@ -47,7 +47,9 @@ import Testing
     try expectFailure(
       ["file", "m.usdz"], in: folder, code: 2, mentioning: ["file is a file"])
     try expectFailure(
-      ["photos", "m.glb"], in: folder, code: 2, mentioning: [".glb", ".usdz"])
+      ["photos", "m.obj"], in: folder, code: 2, mentioning: [".obj", ".usdz", ".glb", "slash"])
+    try expectFailure(
+      ["photos", ".usdz"], in: folder, code: 2, mentioning: ["no name"])
     try expectFailure(
       ["photos", "no/such/m.usdz"], in: folder, code: 2, mentioning: ["m.usdz", "mkdir -p"])
     try expectFailure(

@@ -1,4 +1,5 @@
 import Evaluation
+import Formats
 import Foundation
 import TestSupport
 import Testing
@@ -119,18 +120,25 @@ import Testing
     let temporary = try TemporaryFolder()
     let folder = temporary.url
     let path = folder.path
-    let file = try ModelOutput(path + "/m.usdz")
-    #expect(file == .file(URL(fileURLWithPath: path + "/m.usdz", isDirectory: false)))
-    for name in ["/new", "/new.v2/", ""] {
+    for format in ModelFormat.files {
+      let file = try ModelOutput(path + "/m.\(format.rawValue)")
+      #expect(file.format == format)
+      #expect(file.url == URL(fileURLWithPath: path + "/m.\(format.rawValue)", isDirectory: false))
+    }
+    for name in ["/new", "/new.v2/", "", "/ü 模型", "/..."] {
       let output = try ModelOutput(path + name)
       #expect(output.url.hasDirectoryPath)
-      guard case .folder = output else { Issue.record("\(name) is no folder"); continue }
+      #expect(output.format == .folder, "\(name)")
     }
     #expect(try ModelOutput(path + "/M.USDZ").url.lastPathComponent == "M.USDZ")
-    for name in ["/m.glb", "/m.ply", "/m.txt", "/no/such/m.usdz"] {
-      let failure = #expect(throws: CommandFailure.self) { try ModelOutput(path + name) }
+    #expect(try ModelOutput(path + "/M.Glb").format == .glb)
+    for name in ["/m.obj", "/m.txt", "/no/such/m.usdz", "/m.usdz/", "/m.glb/", "/.usdz", "/.ply"] {
+      let failure = #expect(throws: CommandFailure.self, "\(name)") {
+        try ModelOutput(path + name)
+      }
       #expect(failure?.exitCode == 2)
     }
+    #expect(throws: CommandFailure.self) { try ModelOutput("") }
     try Data().write(to: folder.appendingPathComponent("plain"))
     #expect(throws: CommandFailure.self) { try ModelOutput(path + "/plain") }
     _ = temporary

@@ -1,3 +1,4 @@
+import Formats
 import Foundation
 import Testing
 
@@ -32,7 +33,8 @@ import Testing
       #expect((try? OutputLocation(new)) == .folder(new))
       let glb = folder.appendingPathComponent("model.glb")
       #expect(throws: Session.Error.self) { try OutputLocation(glb) }
-      #expect((try? OutputLocation(glb, additionalFormats: ["glb"])) == .file(glb))
+      #expect((try? OutputLocation(glb, additionalFormats: [.glb])) == .file(glb))
+      #expect(throws: Session.Error.self) { try OutputLocation(glb, additionalFormats: [.ply]) }
     }
   }
 
@@ -41,6 +43,8 @@ import Testing
       try Data().write(to: folder.appendingPathComponent("file"))
       let wrong = [
         folder.appendingPathComponent("model.obj"),
+        folder.appendingPathComponent("model.glb"),
+        folder.appendingPathComponent("model.ply"),
         folder.appendingPathComponent("missing/model.usdz"),
         folder.appendingPathComponent("file/model.usdz"),
         folder.appendingPathComponent("file/x", isDirectory: true),

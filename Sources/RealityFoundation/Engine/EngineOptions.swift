@@ -1,3 +1,4 @@
+import Formats
 import Pipeline
 
 /// What our engine can be told beyond Apple's configuration.
@@ -8,8 +9,9 @@ package struct EngineOptions: Equatable, Sendable {
   package var knownDistances: [KnownDistance] = []
   /// A PNG file that shows the model from several sides; nil draws none.
   package var previewFile: URL?
-  /// Suffixes of model files that are accepted besides `usdz`, for instance `glb` and `ply`.
-  package var additionalFileFormats: Set<String> = []
+  /// Formats of model files that are accepted besides USDZ. None: a program written for Apple's engine
+  /// meets `Error.invalidOutput` where it would there.
+  package var additionalFileFormats: Set<ModelFormat> = []
 
   package init() {}
 }

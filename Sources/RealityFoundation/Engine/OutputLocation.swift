@@ -1,10 +1,13 @@
+import Formats
+
 /// Where a model goes: the URL decides about the kind of output.
 enum OutputLocation: Hashable {
   case file(URL)
   case folder(URL)
 
-  /// Takes a URL as Apple's session does: by the suffix `usdz`, or else as a folder.
-  init(_ url: URL, additionalFormats: Set<String> = []) throws {
+  /// Takes a URL as Apple's session does: by the suffix `usdz`, or else as a folder. The suffixes of
+  /// `additionalFormats` count as `usdz` does.
+  init(_ url: URL, additionalFormats: Set<ModelFormat> = []) throws {
     if Self.fault(of: url, additionalFormats: additionalFormats) != nil {
       throw PhotogrammetrySession.Error.invalidOutput(url)
     }
@@ -12,7 +15,7 @@ enum OutputLocation: Hashable {
   }
 
   /// Why nothing can be written there, in a sentence; nil if something can.
-  static func fault(of url: URL, additionalFormats: Set<String> = []) -> String? {
+  static func fault(of url: URL, additionalFormats: Set<ModelFormat> = []) -> String? {
     guard url.isFileURL else { return "\(url.absoluteString) is not on a disk of this machine." }
     guard namesFile(url, additionalFormats) else {
       return url.hasDirectoryPath
@@ -24,9 +27,12 @@ enum OutputLocation: Hashable {
     return isWritable(parent) ? nil : "The folder \(parent.path) can't be written to."
   }
 
-  private static func namesFile(_ url: URL, _ additionalFormats: Set<String>) -> Bool {
-    let suffix = url.pathExtension.lowercased()
-    return suffix == "usdz" || additionalFormats.contains(suffix)
+  private static func namesFile(_ url: URL, _ additionalFormats: Set<ModelFormat>) -> Bool {
+    switch ModelFormat(of: url) {
+    case .usdz: true
+    case .folder: false
+    case let format: additionalFormats.contains(format)
+    }
   }
 
   /// A folder may have to be made, in the nearest folder above that is there.

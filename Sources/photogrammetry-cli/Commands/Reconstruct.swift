@@ -34,6 +34,7 @@ struct Reconstruct: AsyncParsableCommand {
         full        250,000    8192 x 8192       and roughness, displacement
         raw      30,000,000    8192 x 8192, 16   colour
 
+      \(EngineArguments.outputHelp)
       \(EngineArguments.scaleHelp)
       Paths of what was written go to stdout, everything else to stderr.
       """)
@@ -44,7 +45,8 @@ struct Reconstruct: AsyncParsableCommand {
 
   @Argument(
     help: ArgumentHelp(
-      "A .usdz file, or a folder for OBJ, MTL, USDA and textures.", valueName: "output"))
+      "A file or folder for the model; its name decides about the format, see above.",
+      valueName: "output"))
   var output: String
 
   @Option(name: .shortAndLong, help: "How fine the model is; see the table above.")

@@ -1,9 +1,9 @@
 import ArgumentParser
+import Formats
 import Foundation
 import RealityKit
 
 #if canImport(Pipeline)
-  import Formats
   import Pipeline
   import RealityFoundation
 
@@ -87,6 +87,16 @@ import RealityKit
 
       """
 
+    /// What a model can be written as, as a section of help.
+    static let outputHelp = """
+      OUTPUT
+        model.usdz  for AR Quick Look, usdview, Blender
+        model.glb   glTF 2.0, for browsers, engines, Blender; has no displacement
+        model.ply   the mesh with a normal and a colour a vertex; no textures
+        model/      a folder: OBJ, MTL, USDA and textures
+
+      """
+
     @OptionGroup var runArguments: RunArguments
 
     @Option(
@@ -125,6 +135,7 @@ import RealityKit
     func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {
       if let threads { session.engineOptions.threadCount = threads }
       session.engineOptions.knownDistances = try knownDistances(photos: folder)
+      session.engineOptions.additionalFileFormats = Set(engineModelFiles)
     }
 
     /// The run's report as JSON, where there is one.
@@ -132,6 +143,9 @@ import RealityKit
       try session.report?.encoded()
     }
   }
+
+  /// The formats of model files that the engine writes.
+  let engineModelFiles = ModelFormat.files
 
   /// Our session logs what it meets; saying it again would be noise.
   let sessionLogsItsOutputs = true
@@ -153,6 +167,12 @@ import RealityKit
   /// Apple's engine has no options beyond its configuration.
   struct EngineArguments: ParsableArguments {
     static let scaleHelp = ""
+    static let outputHelp = """
+      OUTPUT
+        model.usdz  for AR Quick Look
+        model/      a folder: OBJ, MTL, USDA and textures
+
+      """
 
     var report: String? { nil }
 
@@ -160,6 +180,8 @@ import RealityKit
     func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {}
     func reportData(of session: PhotogrammetrySession) throws -> Data? { nil }
   }
+
+  let engineModelFiles = [ModelFormat.usdz]
 
   let sessionLogsItsOutputs = false
 

@@ -1,40 +1,39 @@
-import Foundation
 import Formats
+import Foundation
 
 /// Where the model goes; the path decides about the kind of output.
-enum ModelOutput: Equatable {
-  /// One USDZ file.
-  case file(URL)
-  /// A folder with OBJ, MTL, USDA and textures.
-  case folder(URL)
-
-  var url: URL {
-    switch self {
-    case .file(let url), .folder(let url): url
-    }
-  }
+struct ModelOutput: Equatable {
+  let url: URL
+  let format: ModelFormat
 
   /// Understands `path`; throws a `CommandFailure` where nothing of the kind can be written.
   init(_ path: String) throws {
-    let suffix = (path as NSString).pathExtension.lowercased()
-    let exists = Self.isFolder(path)
-    switch suffix {
-    case "usdz" where !path.hasSuffix("/"):
-      if exists {
-        throw CommandFailure.usage("\(path) is a folder. Choose another name for the model.")
-      }
-      self = .file(URL(fileURLWithPath: path, isDirectory: false))
-    case "" where true, _ where exists || path.hasSuffix("/"):
-      self = .folder(URL(fileURLWithPath: path, isDirectory: true))
-    case "glb", "gltf", "ply", "obj", "usd", "usda", "usdc":
-      throw CommandFailure.usage(
-        "Models are not written as .\(suffix). Name a .usdz file, or a folder for OBJ, MTL, USDA "
-          + "and textures." + (suffix == "ply" ? " --point-cloud writes the points as PLY." : ""))
-    default:
-      throw CommandFailure.usage(
-        "\(path) names neither a .usdz file nor a folder. For a folder, end it with a slash.")
-    }
+    let name = URL(fileURLWithPath: path, isDirectory: false)
+    let named = ModelFormat(of: name)
+    format = engineModelFiles.contains(named) ? named : .folder
+    url = URL(fileURLWithPath: path, isDirectory: format == .folder)
+    let fault = format == .folder ? Self.folderFault(path, name) : Self.fileFault(path)
+    if let fault { throw CommandFailure.usage(fault) }
     try Self.checkWritable(url)
+  }
+
+  private static func fileFault(_ path: String) -> String? {
+    if path.hasSuffix("/") {
+      return "\(path) is named like a file but ends in a slash. Leave out the slash for a file, or "
+        + "the suffix for a folder."
+    }
+    return isFolder(path) ? "\(path) is a folder. Choose another name for the model." : nil
+  }
+
+  private static func folderFault(_ path: String, _ name: URL) -> String? {
+    if path.isEmpty { return "The output has no name." }
+    // What "$name.usdz" becomes where the variable is empty.
+    let isBareSuffix = ModelFormat.files.contains { name.lastPathComponent == ".\($0.rawValue)" }
+    if isBareSuffix { return "\(path) has no name before its suffix." }
+    if name.pathExtension.isEmpty || isFolder(path) || path.hasSuffix("/") { return nil }
+    let files = engineModelFiles.map { ".\($0.rawValue)" }.joined(separator: " or ")
+    return "Models are not written as .\(name.pathExtension) files. Name a \(files) file, or a "
+      + "folder for OBJ, MTL, USDA and textures, with a slash at the end."
   }
 
   private static func isFolder(_ path: String) -> Bool {
