@@ -18,6 +18,8 @@
           photogrammetry-cli photos/ model.usdz -d medium --checkpoint-directory work/
           photogrammetry-cli export work/ small.usdz -d preview
               The same at another level.
+          photogrammetry-cli export work/ model.glb -d medium
+              In another format.
           photogrammetry-cli export work/ model/ -d medium --preview model.png
               As a folder with OBJ, MTL, USDA and textures, and a picture.
 
