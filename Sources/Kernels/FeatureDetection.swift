@@ -32,8 +32,13 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
   /// The features of an image with 1, 3 (RGB) or 4 channels, sorted by scale, largest first.
   ///
   /// Positions are in the image's pixels, origin at the corner of the top-left one. An image without
-  /// texture has none.
-  package func features(in image: RasterImage, _ control: KernelControl) throws -> FeatureSet {
+  /// texture has none. Nothing is looked for where `mask`, gray and of the image's size, is 0.
+  package func features(
+    in image: RasterImage, mask: RasterImage? = nil, _ control: KernelControl
+  ) throws -> FeatureSet {
+    if let mask, (mask.width, mask.height, mask.channels) != (image.width, image.height, 1) {
+      throw KernelError.invalidArgument("the mask is not gray or not of the image's size")
+    }
     var set = FeatureSet(
       positions: Array(repeating: .zero, count: maximumFeatures),
       scales: Array(repeating: 0, count: maximumFeatures),
@@ -47,7 +52,7 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
         set.colors.withUnsafeMutableBytes { colors in
           ck_sift_detect(
             image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
-            image.width * image.channels, &options, control,
+            image.width * image.channels, mask?.pixels, &options, control,
             positions.baseAddress?.assumingMemoryBound(to: Float.self), &set.scales,
             &set.orientations, &set.descriptors,
             colors.baseAddress?.assumingMemoryBound(to: UInt8.self),

@@ -27,8 +27,8 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
 /// Reads and writes image files.
 ///
 /// Reads JPEG, PNG, TIFF, BMP and WebP, told apart by content. Images come as 8-bit RGB: 16 bits
-/// are reduced, gray, palette and CMYK converted, and an alpha channel is dropped, which keeps the
-/// colours under transparent pixels. No EXIF orientation is applied, see `RasterImage.turned`; only
+/// are reduced, gray, palette and CMYK converted, and an alpha channel, which `decodeAlpha` reads, is
+/// dropped, which keeps the colours under transparent pixels. No EXIF orientation is applied, see `RasterImage.turned`; only
 /// the decoder of TIFF files turns them upright by their own tag.
 package enum ImageCodec {
   /// Sizes that are refused before anything is decoded.
@@ -73,6 +73,28 @@ package enum ImageCodec {
   package static func decode(
     _ bytes: [UInt8], reducedBy reduction: Int = 1, limits: Limits = Limits()
   ) throws(ImageError) -> RasterImage {
+    try decode(bytes, channels: 3, limits) {
+      ck_image_decode(bytes, bytes.count, $0, Int32(clamping: reduction), $1, $2)
+    }
+  }
+
+  /// Decodes the alpha channel of an image file's content: gray, pixels as stored, 0 where they are
+  /// transparent. Nil where the file has none.
+  package static func decodeAlpha(
+    _ bytes: [UInt8], limits: Limits = Limits()
+  ) throws(ImageError) -> RasterImage? {
+    guard ImageHeader.promisesAlpha(bytes) else { return nil }
+    let alpha = try decode(bytes, channels: 1, limits) {
+      ck_image_decode_alpha(bytes, bytes.count, $0, $1, $2)
+    }
+    return alpha.pixels.isEmpty ? nil : alpha
+  }
+
+  private static func decode(
+    _ bytes: [UInt8], channels: Int, _ limits: Limits,
+    _ body: (ck_codec, UnsafePointer<ck_decode_limits>, UnsafeMutablePointer<OpaquePointer?>)
+      -> ck_status
+  ) throws(ImageError) -> RasterImage {
     let header = try ImageHeader(bytes)
     guard header.width <= limits.maximumSide, header.height <= limits.maximumSide,
       header.width * header.height <= limits.maximumPixels
@@ -89,9 +111,7 @@ package enum ImageCodec {
     var image: OpaquePointer?
     do {
       try withKernel(KernelControl()) { _ in
-        withUnsafePointer(to: rawLimits) {
-          ck_image_decode(bytes, bytes.count, codec, Int32(clamping: reduction), $0, &image)
-        }
+        withUnsafePointer(to: rawLimits) { body(codec, $0, &image) }
       }
     } catch {
       throw .damaged("its \(header.format.rawValue) data is damaged (\(message(of: error)))")
@@ -99,11 +119,12 @@ package enum ImageCodec {
     guard let image else { throw .damaged("it can't be decoded") }
     defer { ck_image_free(image) }
     let (width, height) = (Int(ck_image_width(image)), Int(ck_image_height(image)))
-    let pixels = [UInt8](unsafeUninitializedCapacity: width * height * 3) { buffer, count in
-      if let base = buffer.baseAddress { ck_image_copy(image, base) }
-      count = width * height * 3
+    let byteCount = width * height * channels
+    let pixels = [UInt8](unsafeUninitializedCapacity: byteCount) { buffer, count in
+      if let base = buffer.baseAddress, byteCount > 0 { ck_image_copy(image, base) }
+      count = byteCount
     }
-    return RasterImage(width: width, height: height, channels: 3, pixels: pixels)
+    return RasterImage(width: width, height: height, channels: channels, pixels: pixels)
   }
 
   /// Encodes gray, RGB or RGBA as PNG; the same image gives the same bytes.

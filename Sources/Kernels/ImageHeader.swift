@@ -111,6 +111,22 @@ package struct ImageHeader: Hashable, Sendable {
     return ImageHeader(format: .tiff, width: width, height: height)
   }
 
+  /// Whether a file's content says that it has an alpha channel: PNG, WebP and TIFF files may.
+  package static func promisesAlpha(_ bytes: [UInt8]) -> Bool {
+    let reader = ByteReader(bytes)
+    if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
+      // Gray or colours, with alpha.
+      return [4, 6].contains(reader.byte(25))
+    }
+    if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+      if reader.hasText("VP8X", at: 12) { return (reader.byte(20) ?? 0) & 0x10 != 0 }
+      return reader.hasText("VP8L", at: 12) && (reader.byte(24) ?? 0) & 0x10 != 0
+    }
+    guard let tiff = TIFFStructure(reader) else { return false }
+    // Samples beyond the colours.
+    return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains { $0.tag == 338 }
+  }
+
   /// Tells images that need converting from files that are no images at all.
   private static func unsupported(_ reader: ByteReader) -> ImageError {
     if reader.hasText("ftyp", at: 4) {

@@ -46,6 +46,19 @@ extension RasterImage {
     return result
   }
 
+  /// A gray image, each pixel with the largest value of the square around it that reaches `radius`
+  /// pixels to each side.
+  package func dilated(by radius: Int) throws -> RasterImage {
+    guard channels == 1 else { throw KernelError.invalidArgument("the image is not gray") }
+    guard radius > 0 else { return self }
+    var result = RasterImage(width: width, height: height, channels: 1)
+    try withKernel(KernelControl()) { _ in
+      ck_image_dilate(
+        pixels, Int32(width), Int32(height), Int32(clamping: radius), &result.pixels)
+    }
+    return result
+  }
+
   /// Gray by the weights of Rec. 601.
   package var gray: RasterImage {
     guard channels >= 3 else { return self }

@@ -11,6 +11,7 @@ package final class ImageStore: Sendable {
     var photo: ID<Photo>
     var width: Int
     var height: Int
+    var isMask = false
   }
 
   private struct Cache {
@@ -21,6 +22,7 @@ package final class ImageStore: Sendable {
 
   private let photos: [Photo]
   private let images: [RasterImage]
+  private let masks: [RasterImage?]
   private let byteBudget: Int
   private let processingPixels: Int?
   private let contentHashes: [UInt64]
@@ -35,15 +37,17 @@ package final class ImageStore: Sendable {
   ) {
     self.photos = photos
     self.images = []
+    self.masks = []
     self.byteBudget = byteBudget
     self.processingPixels = processingPixels
     self.contentHashes = contentHashes
   }
 
-  /// A store of images in memory: photo id i is `images[i]`.
-  package init(images: [RasterImage]) {
+  /// A store of images in memory: photo id i is `images[i]`, and its mask, gray, is `masks[i]`.
+  package init(images: [RasterImage], masks: [RasterImage?] = []) {
     self.photos = []
     self.images = images
+    self.masks = masks
     self.byteBudget = 0
     self.processingPixels = nil
     self.contentHashes = []
@@ -75,6 +79,29 @@ package final class ImageStore: Sendable {
     return image
   }
 
+  /// Where the photo shows the object: gray, of the size of `image(id, maximumPixels:)`, 255 on the
+  /// object and 0 beside it, between them at a rim that was reduced. Nil where nothing tells.
+  package func mask(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage? {
+    let size = try size(of: id, maximumPixels: maximumPixels)
+    if holdsImages {
+      guard masks.indices.contains(id.index) else { return nil }
+      return try masks[id.index]?.resized(width: size.width, height: size.height)
+    }
+    let photo = try element(id, of: photos)
+    guard let mask = photo.mask else { return nil }
+    let key = Key(photo: id, width: size.width, height: size.height, isMask: true)
+    if let kept = keptImage(key) { return kept }
+    let image = try decode(mask, of: photo).turned(byOrientation: mask.orientation)
+      .resized(width: size.width, height: size.height)
+    keep(image, key)
+    return image
+  }
+
+  /// Whether some photo has a mask.
+  package var hasMasks: Bool {
+    holdsImages ? masks.contains { $0 != nil } : photos.contains { $0.mask != nil }
+  }
+
   /// The size of `image(id, maximumPixels:)`.
   private func size(
     of id: ID<Photo>, maximumPixels: Int?
@@ -90,13 +117,16 @@ package final class ImageStore: Sendable {
 
   private var holdsImages: Bool { !images.isEmpty || photos.isEmpty }
 
-  /// A number that changes with the photo's content and with how it is decoded.
+  /// A number that changes with the photo's content, its mask, and with how they are decoded.
   package func fingerprint(of id: ID<Photo>) throws -> UInt64 {
     var fingerprint = Fingerprint()
     if holdsImages {
       let image = try element(id, of: images)
       fingerprint.add(image.width)
       fingerprint.add(image.pixels)
+      if masks.indices.contains(id.index), let mask = masks[id.index] {
+        fingerprint.add(mask.pixels)
+      }
       return fingerprint.value
     }
     let photo = try element(id, of: photos)
@@ -107,6 +137,10 @@ package final class ImageStore: Sendable {
     }
     for value in [photo.width, photo.height, photo.orientation, processingPixels ?? 0] {
       fingerprint.add(value)
+    }
+    if let mask = photo.mask {
+      fingerprint.add(mask.contentHash)
+      fingerprint.add(mask.orientation)
     }
     return fingerprint.value
   }
@@ -133,14 +167,27 @@ package final class ImageStore: Sendable {
       let pose = reconstruction.poses[id.index]
     else { throw KernelError.invalidArgument("photo \(id.index) is not registered") }
     let image = try image(id, maximumPixels: maximumPixels)
+    let mask = try mask(id, maximumPixels: maximumPixels)
     let camera = reconstruction.camera(of: id).resized(width: image.width, height: image.height)
     guard camera.distortion != .zero else {
-      return PinholeView(photo: id, image: image, camera: camera, cameraFromWorld: pose)
+      return PinholeView(
+        photo: id, image: image, camera: camera, cameraFromWorld: pose, mask: mask)
     }
     let pinhole = try pinholeCamera(of: id, in: reconstruction, maximumPixels: maximumPixels)
     return PinholeView(
       photo: id, image: try image.undistorted(from: camera, to: pinhole), camera: pinhole,
-      cameraFromWorld: pose)
+      cameraFromWorld: pose, mask: try mask?.undistorted(from: camera, to: pinhole))
+  }
+
+  /// The mask of `pinholeView` with the same arguments.
+  package func pinholeMask(
+    _ id: ID<Photo>, of reconstruction: Reconstruction, maximumPixels: Int
+  ) throws -> RasterImage? {
+    guard let mask = try mask(id, maximumPixels: maximumPixels) else { return nil }
+    let camera = reconstruction.camera(of: id).resized(width: mask.width, height: mask.height)
+    guard camera.distortion != .zero else { return mask }
+    let pinhole = try pinholeCamera(of: id, in: reconstruction, maximumPixels: maximumPixels)
+    return try mask.undistorted(from: camera, to: pinhole)
   }
 
   private func element<Element>(_ id: ID<Photo>, of array: [Element]) throws -> Element {
@@ -171,6 +218,18 @@ package final class ImageStore: Sendable {
         throw ImageError.unreadable("it has changed during the run")
       }
       return image
+    }
+  }
+
+  /// The mask as it is stored.
+  private func decode(_ mask: PhotoMask, of photo: Photo) throws -> RasterImage {
+    do throws(ImageError) {
+      let bytes = try ImageCodec.contents(of: mask.file ?? photo.url)
+      let image = try mask.file == nil ? MaskImage.alpha(bytes) : MaskImage.decode(bytes)
+      guard let image else { throw .unreadable("it has changed during the run") }
+      return image
+    } catch {
+      throw PhotoReadError(name: (mask.file ?? photo.url).lastPathComponent, reason: error)
     }
   }
 

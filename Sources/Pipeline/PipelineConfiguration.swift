@@ -2,8 +2,10 @@ import Foundation
 
 /// What a whole run is told.
 package struct PipelineConfiguration: Hashable, Codable, Sendable {
-  /// Separate the object from its support and background.
+  /// Separate the object from its support and background; where photos have masks, by these.
   package var isObjectMaskingEnabled: Bool = true
+  /// A folder with the photos' masks; nil looks inside the folder of photos.
+  package var maskFolder: URL?
   /// The photos are in the order of capture, and neighbours overlap.
   package var isSequential: Bool = false
   /// Look harder for features on objects of low texture.

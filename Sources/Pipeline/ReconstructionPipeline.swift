@@ -69,6 +69,8 @@ package final class ReconstructionPipeline {
       var options = PhotoIngestion.Options()
       options.memoryBudget = configuration.imageMemory
       options.maximumPhotos = configuration.maximumPhotos
+      options.maskFolder = configuration.maskFolder
+      options.inspection.usesMasks = configuration.isObjectMaskingEnabled
       options.inspection.limits.maximumSide = configuration.maximumPhotoSide
       return try PhotoIngestion(options).run(folder: folder, context)
     }

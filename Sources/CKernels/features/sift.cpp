@@ -138,6 +138,18 @@ void remove_repetitions(std::vector<Extremum>& extrema) {
   extrema.erase(std::unique(extrema.begin(), extrema.end(), same), extrema.end());
 }
 
+/// Before the selection, so that what is left out takes no room.
+void remove_masked(ScaleSpace& space, const Photo& photo, const uint8_t* mask) {
+  const auto is_masked = [&](const Extremum& e) {
+    const int column = static_cast<int>(space.position(e.x, e.octave));
+    const int row = static_cast<int>(space.position(e.y, e.octave));
+    return mask[static_cast<size_t>(std::clamp(row, 0, photo.height - 1)) * photo.width +
+                std::clamp(column, 0, photo.width - 1)] == 0;
+  };
+  auto& extrema = space.extrema;
+  extrema.erase(std::remove_if(extrema.begin(), extrema.end(), is_masked), extrema.end());
+}
+
 void validate(const Photo& photo, const ck_sift_options& options) {
   require(photo.width >= 0 && photo.height >= 0, "the size is negative");
   require(photo.channels == 1 || photo.channels == 3 || photo.channels == 4,
@@ -156,10 +168,11 @@ void validate(const Photo& photo, const ck_sift_options& options) {
 }  // namespace ck::sift
 
 ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                         size_t row_stride, const ck_sift_options* options,
-                         const ck_control* control, float* positions, float* scales,
-                         float* orientations, uint8_t* descriptors, uint8_t* colors,
-                         size_t color_stride, size_t* count) {
+                         size_t row_stride, const uint8_t* mask,
+                         const ck_sift_options* options, const ck_control* control,
+                         float* positions, float* scales, float* orientations,
+                         uint8_t* descriptors, uint8_t* colors, size_t color_stride,
+                         size_t* count) {
   return ck::guarded([&] {
     ck::require(options && count, "options and count are needed");
     *count = 0;
@@ -169,6 +182,7 @@ ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, i
     if (std::min(width, height) < 8 || options->maximum_features == 0) return;
     ck::sift::ScaleSpace space = ck::sift::searched(photo, *options, kernels, control);
     ck::sift::remove_repetitions(space.extrema);
+    if (mask) ck::sift::remove_masked(space, photo, mask);
     const auto features =
         ck::sift::oriented(space, ck::sift::selected(space, photo, *options),
                            static_cast<size_t>(options->maximum_features), kernels);

@@ -22,7 +22,5 @@ void require_within(const ck_decode_limits& limits, int64_t width, int64_t heigh
 
 void decode_jpeg(const uint8_t* bytes, size_t count, int reduction, const ck_decode_limits& limits,
                  ck_image& image);
-void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
-                ck_image& image);
 
 }  // namespace ck

@@ -17,8 +17,12 @@ void require_within(const ck_decode_limits& limits, int64_t width, int64_t heigh
           "the image has too many pixels");
 }
 
-void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
-                ck_image& image) {
+namespace {
+
+/// All pixels of a PNG as RGBA, which keeps the colours under transparent ones, where RGB would
+/// composite on a background; `image` gets the size.
+std::vector<uint8_t> read_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+                              ck_image& image) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
   struct Free {
@@ -29,7 +33,6 @@ void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limi
     throw std::runtime_error(png.message);
   }
   require_within(limits, png.width, png.height);
-  // RGBA keeps the colours under transparent pixels, where RGB would composite on a background.
   png.format = PNG_FORMAT_RGBA;
   png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   std::vector<uint8_t> rgba(PNG_IMAGE_SIZE(png));
@@ -38,13 +41,24 @@ void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limi
   }
   image.width = static_cast<int32_t>(png.width);
   image.height = static_cast<int32_t>(png.height);
+  return rgba;
+}
+
+void decode_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+                ck_image& image) {
+  const std::vector<uint8_t> rgba = read_png(bytes, count, limits, image);
   image.pixels.resize(rgba.size() / 4 * 3);
   for (size_t i = 0; i < rgba.size() / 4; ++i) {
     std::memcpy(&image.pixels[3 * i], &rgba[4 * i], 3);
   }
 }
 
-namespace {
+void decode_png_alpha(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+                      ck_image& image) {
+  const std::vector<uint8_t> rgba = read_png(bytes, count, limits, image);
+  image.pixels.resize(rgba.size() / 4);
+  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = rgba[4 * i + 3];
+}
 
 void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
                   ck_image& image) {
@@ -58,6 +72,23 @@ void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& li
   image.pixels.resize(bgr.total() * 3);
   cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data());
   cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+}
+
+/// Leaves the image without pixels where the file has no alpha channel.
+void decode_other_alpha(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
+                        ck_image& image) {
+  require(count <= static_cast<size_t>(INT32_MAX), "the file is too large");
+  const cv::Mat data(1, static_cast<int>(count), CV_8U, const_cast<uint8_t*>(bytes));
+  const cv::Mat all = cv::imdecode(data, cv::IMREAD_UNCHANGED);
+  if (all.empty()) throw std::runtime_error("it can't be decoded");
+  require_within(limits, all.cols, all.rows);
+  if (all.channels() != 4 || (all.depth() != CV_8U && all.depth() != CV_16U)) return;
+  image.width = all.cols;
+  image.height = all.rows;
+  image.pixels.resize(all.total());
+  cv::Mat alpha, bytes_of_alpha(all.rows, all.cols, CV_8U, image.pixels.data());
+  cv::extractChannel(all, alpha, 3);
+  alpha.convertTo(bytes_of_alpha, CV_8U, all.depth() == CV_16U ? 1 / 257.0 : 1);
 }
 
 }  // namespace
@@ -80,6 +111,17 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
       default:
         ck::decode_other(bytes, byte_count, *limits, *result);
     }
+    *image = result.release();
+  });
+}
+
+ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_codec codec,
+                                const ck_decode_limits* limits, ck_image** image) {
+  return ck::guarded([&] {
+    ck::require(bytes && byte_count > 0, "the file is empty");
+    auto result = std::make_unique<ck_image>();
+    if (codec == ck_codec_png) ck::decode_png_alpha(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_other) ck::decode_other_alpha(bytes, byte_count, *limits, *result);
     *image = result.release();
   });
 }

@@ -99,3 +99,14 @@ ck_status ck_image_undistort(const uint8_t* source, const ck_camera* source_came
     }
   });
 }
+
+ck_status ck_image_dilate(const uint8_t* source, int32_t width, int32_t height, int32_t radius,
+                          uint8_t* destination) {
+  return ck::guarded([&] {
+    ck::require(radius >= 0, "the radius is negative");
+    const cv::Mat from = wrap(source, width, height, 1);
+    cv::Mat to = wrap(destination, width, height, 1);
+    const int side = 2 * radius + 1;
+    cv::dilate(from, to, cv::getStructuringElement(cv::MORPH_RECT, cv::Size(side, side)));
+  });
+}

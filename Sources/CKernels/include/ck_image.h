@@ -7,7 +7,8 @@
 extern "C" {
 #endif
 
-/// A decoded RGB image, three bytes a pixel, top row first. Free with `ck_image_free`.
+/// A decoded RGB image, three bytes a pixel, or an alpha channel, one byte a pixel; top row first.
+/// Free with `ck_image_free`.
 typedef struct ck_image ck_image;
 
 /// Bytes of unknown size that a kernel made. Free with `ck_bytes_free`.
@@ -48,11 +49,16 @@ typedef struct {
 ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                           int32_t reduction, const ck_decode_limits* limits, ck_image** image);
 
+/// Decodes the alpha channel of an image file in memory, one byte a pixel, 0 for transparent ones,
+/// turned as `ck_image_decode` turns the colours. An image without pixels where the file has none.
+ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_codec codec,
+                                const ck_decode_limits* limits, ck_image** image);
+
 /// Pixels of a row.
 int32_t ck_image_width(const ck_image* image);
 /// Rows.
 int32_t ck_image_height(const ck_image* image);
-/// Copies `width × height × 3` bytes.
+/// Copies `width × height × 3` bytes, of an alpha channel a third of that.
 void ck_image_copy(const ck_image* image, uint8_t* destination);
 /// Frees the image; null does nothing.
 void ck_image_free(ck_image* image);
@@ -84,6 +90,11 @@ ck_status ck_image_turn(const uint8_t* source, int32_t width, int32_t height, in
 ck_status ck_image_undistort(const uint8_t* source, const ck_camera* source_camera,
                              int32_t channels, uint8_t* destination,
                              const ck_camera* destination_camera);
+
+/// Gives each pixel of a gray image the largest value of the square around it that reaches `radius`
+/// pixels to each side.
+ck_status ck_image_dilate(const uint8_t* source, int32_t width, int32_t height, int32_t radius,
+                          uint8_t* destination);
 
 /// How much of the gradient energy of a gray image's textured parts a slight blur takes away, in
 /// the direction that loses least: about 0.2 for a blurred photo, 1.5 and more for a sharp one.

@@ -2,6 +2,9 @@ import Kernels
 import SceneModel
 
 /// Finds the features of every photo by SIFT (Lowe, IJCV 2004).
+///
+/// Of a photo with a mask, features beside the object are not used: what a mask leaves out needn't
+/// stand still. On a turntable the background would else tell that the camera never moved.
 package struct FeatureExtraction {
   package struct Options: Hashable, Codable, Sendable {
     /// How hard to look.
@@ -24,6 +27,8 @@ package struct FeatureExtraction {
     /// Photos of fewer pixels get fewer features, in proportion to their sides: matching takes the
     /// square of their number.
     package var manyFeaturePixels = 2_000_000
+    /// How far beyond its mask an object may reach, as a fraction of the photo's longer side.
+    package var maskMargin = 0.002
     /// How high sensitivity looks.
     package var high = HighSensitivity()
 
@@ -72,8 +77,9 @@ package struct FeatureExtraction {
     }
     context.notes.count("features", Double(sets.reduce(0) { $0 + $1.count }))
     for (photo, set) in zip(photos, sets) where set.count < 100 {
+      let part = photo.mask == nil ? "" : " inside its mask"
       context.notes.warn(
-        "\(photo.name) shows hardly any texture (\(set.count) features); it may not be used.")
+        "\(photo.name) shows hardly any texture\(part) (\(set.count) features); it may not be used.")
     }
     return sets
   }
@@ -83,6 +89,9 @@ package struct FeatureExtraction {
   ) throws -> FeatureSet {
     var (maximumPixels, detection) = options.plan(of: photo)
     let image = try images.image(photo.id, maximumPixels: maximumPixels)
+    let margin = max(1, options.maskMargin * Double(max(image.width, image.height)))
+    let mask = try images.mask(photo.id, maximumPixels: maximumPixels)?
+      .dilated(by: Int(margin.rounded()))
     // A unit runs on one thread; the units run side by side.
     let control = KernelControl()
     let factor = options.sensitivity == .high ? options.high.featureFactor : 1
@@ -91,11 +100,11 @@ package struct FeatureExtraction {
     detection.maximumFeatures = min(
       Int(share * Double(detection.maximumFeatures)),
       pixels * factor / max(1, options.pixelsPerFeature))
-    var set = try detection.features(in: image, control)
+    var set = try detection.features(in: image, mask: mask, control)
     if set.count < options.sparseFeatures, options.sensitivity == .normal {
       detection.contrastThreshold *= options.sparseFactor
       detection.sufficientFeatures = options.sparseFeatures
-      set = try detection.features(in: image, control)
+      set = try detection.features(in: image, mask: mask, control)
     }
     set.scale(by: [
       Float(photo.width) / Float(max(1, image.width)),

@@ -81,7 +81,7 @@ struct NearbyView {
       let (pixel, warp) = reference.warp(to: photo, in: photos)
     else { return nil }
     // The whole template and the steps of the search have to lie within the photo.
-    let margin = 10 * reference.step
+    let margin = NearbySearch.templateReach * reference.step
     guard pixel.x > margin, pixel.y > margin, pixel.x < Double(camera.width) - margin,
       pixel.y < Double(camera.height) - margin,
       let front = surroundings.front(at: pixel), depth < options.depthTolerance * front
@@ -200,7 +200,13 @@ struct NearbySearch: Sendable {
   ) throws -> [Double?] {
     guard !numbers.isEmpty else { return [] }
     let (image, factor) = try reading.image(photo)
-    var best = numbers.map { templates.isValid[$0] ? -1.0 : nil }
+    let isOfObject = try reading.isOfObject(photo)
+    // What a mask leaves out may hide the point, or be different every time.
+    var best = numbers.map { number -> Double? in
+      let (pixel, reach) = (points[number].pixel, Self.templateReach * points[number].reference.step)
+      let isShown = Self.corners.allSatisfy { isOfObject((pixel + reach * $0) * factor) }
+      return templates.isValid[number] && isShown ? -1.0 : nil
+    }
     var matching = TemplateMatching()
     matching.maximumShift =
       4 * (numbers.map { points[$0].reference.step }.max() ?? 1) * factor.x
@@ -220,6 +226,10 @@ struct NearbySearch: Sendable {
     }
     return best
   }
+
+  /// Half the side of a template with the steps of its search, in its samples.
+  fileprivate static let templateReach = 10.0
+  private static let corners: [SIMD2<Double>] = [[-1, -1], [1, -1], [-1, 1], [1, 1]]
 
   /// Starts of the search in samples of the template.
   private static let offsets: [SIMD2<Double>] = [

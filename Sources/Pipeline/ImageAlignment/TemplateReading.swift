@@ -15,6 +15,14 @@ struct TemplateReading: Sendable {
     return (image, SIMD2(Double(image.width), Double(image.height)) / full)
   }
 
+  /// Tells whether a place, in working pixels, shows the object, for all that the photo's mask tells.
+  func isOfObject(_ photo: Int) throws -> (SIMD2<Double>) -> Bool {
+    guard let mask = try images.mask(ID(photo), maximumPixels: workingPixels) else {
+      return { _ in true }
+    }
+    return { place in mask.isMarked(at: place) }
+  }
+
   /// The template of each reference, by its index; none where there is no reference.
   func templates(
     of references: [TrackReference?], _ control: KernelControl

@@ -73,7 +73,8 @@ struct TemplateSearch: Sendable {
     map.dropUnsupportedPoints()
   }
 
-  /// Adds observations of points in photos that should see them; returns how many.
+  /// Adds observations of points in photos that should see them, and whose masks don't leave them out;
+  /// returns how many.
   func extend(_ map: inout SparseMap, _ context: StageContext) throws -> Int {
     let neighbours = neighbours(map)
     var candidates = [[Candidate]](repeating: [], count: photos.count)
@@ -149,8 +150,13 @@ struct TemplateSearch: Sendable {
           template: candidate.track, step: (reference?.step ?? from) / from,
           warp: candidate.warp * from * factor.x, expected: candidate.expected * factor)
       }
-      return try matching.finds(searches, of: templates, in: image).map { find in
-        find.flatMap { $0.zncc >= correlation ? $0.center / factor : nil }
+      let isOfObject = try reading.isOfObject(photo)
+      let finds = try matching.finds(searches, of: templates, in: image)
+      return zip(candidates[photo], finds).map { candidate, find in
+        guard let find, find.zncc >= correlation,
+          candidate.observation != nil || isOfObject(find.center)
+        else { return nil }
+        return find.center / factor
       }
     }
   }

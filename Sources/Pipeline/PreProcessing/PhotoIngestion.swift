@@ -10,8 +10,10 @@ package struct IngestedPhotos: Sendable {
   package var cameras: [Camera]
   /// In the order of the files.
   package var refused: [RefusedPhoto]
-  /// All files of the folder; a sample id is an index into them.
+  /// All files of the folder but masks; a sample id is an index into them.
   package var files: [URL]
+  /// Masks that are not used, in the order of the files; their photos are.
+  package var refusedMasks: [RefusedMask]
   /// FNV-1a of each photo's file, by photo id.
   package var contentHashes: [UInt64]
   /// Most pixels of a photo that the memory budget lets stages work on; give it to `ImageStore`.
@@ -22,8 +24,9 @@ package struct IngestedPhotos: Sendable {
 
 /// Validates the files of a folder: the first stage of a run.
 ///
-/// Every file is read and decoded once; its name plays no part. What can't be used is refused with a
-/// reason, and the rest goes on.
+/// Every file is read and decoded once; its name plays no part, but for masks: see `MaskFiles`. What
+/// can't be used is refused with a reason, and the rest goes on. Where masks are not to be used, they
+/// still are no photos.
 package struct PhotoIngestion: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     package var inspection = PhotoInspection.Options()
@@ -37,6 +40,8 @@ package struct PhotoIngestion: Sendable {
     /// Bytes that a stage needs for a pixel of a photo; the scale space of feature detection needs
     /// most.
     package var bytesPerPixel = 64
+    /// A folder of masks in the place of the one inside the folder of photos.
+    package var maskFolder: URL?
 
     package init() {}
   }
@@ -47,12 +52,17 @@ package struct PhotoIngestion: Sendable {
 
   /// Throws when the folder can't be listed; what is in it never ends the run.
   package func run(folder: URL, _ context: StageContext) throws -> IngestedPhotos {
-    try run(files: PhotoFolder.files(in: folder), context)
+    try run(MaskFiles(folder: folder, maskFolder: options.maskFolder), context)
   }
 
-  /// Validates the given files in their order.
+  /// Validates the given files in their order; masks are among them.
   package func run(files: [URL], _ context: StageContext) throws -> IngestedPhotos {
-    var (candidates, refused) = try inspect(files, context.part(from: 0, to: 0.95))
+    try run(MaskFiles(files: files, maskFiles: []), context)
+  }
+
+  private func run(_ masks: MaskFiles, _ context: StageContext) throws -> IngestedPhotos {
+    let files = masks.photos
+    var (candidates, refused) = try inspect(files, masks, context.part(from: 0, to: 0.95))
     let originals = try DuplicateDetection(options.duplicates)
       .run(candidates, context.part(from: 0.95, to: 1))
     let names = candidates.map(\.url.lastPathComponent)
@@ -67,14 +77,22 @@ package struct PhotoIngestion: Sendable {
       refusal($0.0, .blurred, "it is blurred; take it again with a steady, focused camera")
     }
     candidates = zip(candidates, isBlurred).filter { !$0.1 }.map(\.0)
-    let result = assemble(candidates, refused.sorted { $0.sampleID < $1.sampleID }, files)
+    settleOrientations(&candidates)
+    var result = assemble(candidates, refused.sorted { $0.sampleID < $1.sampleID }, files)
+    if options.inspection.usesMasks {
+      result.refusedMasks += masks.strays.map {
+        RefusedMask(
+          name: $0.lastPathComponent,
+          reason: "\($0.lastPathComponent) is a mask without a photo; it is not used.")
+      }
+    }
     report(result, candidates, context.notes)
     return result
   }
 
   /// Reads files in blocks, so that what lies beyond the maximum is not even opened.
   private func inspect(
-    _ files: [URL], _ context: StageContext
+    _ files: [URL], _ masks: MaskFiles, _ context: StageContext
   ) throws -> ([InspectedPhoto], [RefusedPhoto]) {
     let inspection = PhotoInspection(options.inspection)
     var accepted: [InspectedPhoto] = []
@@ -91,7 +109,9 @@ package struct PhotoIngestion: Sendable {
         guard !isFull else {
           return Result<InspectedPhoto, Refusal>.failure(tooMany(file, sampleID))
         }
-        return try Self.refusing(file, sampleID) { try inspection.run(file, sampleID: sampleID) }
+        return try Self.refusing(file, sampleID) {
+          try inspection.run(file, sampleID: sampleID, mask: masks.mask(of: file))
+        }
       }
       for result in results {
         switch result {
@@ -137,6 +157,18 @@ package struct PhotoIngestion: Sendable {
       sampleID: photo.sampleID, name: photo.url.lastPathComponent, fault: fault, end: end)
   }
 
+  /// Gives the masks of photos whose stored and upright sizes are equal the orientation that the
+  /// aspects of the others tell: one program wrote them all.
+  private func settleOrientations(_ photos: inout [InspectedPhoto]) {
+    let told = photos.compactMap { $0.mask?.isAsStored }
+    guard told.count(where: { $0 }) > told.count(where: { !$0 }) else { return }
+    for index in photos.indices {
+      if let other = photos[index].mask?.otherOrientation {
+        photos[index].mask?.mask.orientation = other
+      }
+    }
+  }
+
   private func assemble(
     _ accepted: [InspectedPhoto], _ refused: [RefusedPhoto], _ files: [URL]
   ) -> IngestedPhotos {
@@ -147,13 +179,14 @@ package struct PhotoIngestion: Sendable {
       return Photo(
         id: ID(index), sampleID: photo.sampleID, name: photo.url.lastPathComponent, url: photo.url,
         width: photo.width, height: photo.height, orientation: photo.metadata.orientation,
-        camera: camera, position: photo.metadata.position)
+        camera: camera, position: photo.metadata.position, mask: photo.mask?.mask)
     }
     let processingPixels = max(
       options.inspection.minimumPixels, options.memoryBudget / max(1, options.bytesPerPixel))
     return IngestedPhotos(
       photos: photos, cameras: cameras, refused: refused, files: files,
-      contentHashes: accepted.map(\.contentHash), processingPixels: processingPixels,
+      refusedMasks: accepted.compactMap(\.refusedMask), contentHashes: accepted.map(\.contentHash),
+      processingPixels: processingPixels,
       isDownsampled: photos.contains { $0.width * $0.height > processingPixels })
   }
 
@@ -164,6 +197,15 @@ package struct PhotoIngestion: Sendable {
     notes.count("photos", Double(result.photos.count))
     notes.count("refused", Double(result.refused.count))
     notes.count("cameras", Double(result.cameras.count))
+    let masked = result.photos.compactMap(\.mask)
+    notes.count("masks", Double(masked.count))
+    notes.count("refusedMasks", Double(result.refusedMasks.count))
+    if !masked.isEmpty {
+      let coverage = masked.reduce(0) { $0 + $1.coverage } / Double(masked.count)
+      notes.count("meanMaskCoverage", coverage)
+      notes.tell("\(masked.count) of \(result.photos.count) photos have a mask.")
+    }
+    result.refusedMasks.forEach { notes.warn($0.reason) }
     notes.count(
       "megapixels", result.photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6)
     if !accepted.isEmpty {

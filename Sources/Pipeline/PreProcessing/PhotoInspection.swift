@@ -16,6 +16,10 @@ package struct InspectedPhoto: Sendable {
   package var sharpness: Double
   /// The whole photo, upright and gray, at most `PhotoInspection.thumbnailSide` pixels a side.
   package var thumbnail: RasterImage
+  /// Which of its pixels show the object.
+  var mask: MaskInspection.Found?
+  /// The mask that it has and that can't be used.
+  var refusedMask: RefusedMask?
 }
 
 /// Reads and decodes one file and judges what can be judged without the other photos.
@@ -29,6 +33,8 @@ package struct PhotoInspection: Sendable {
     /// Pixels of the copy that sharpness is measured on, so that the measure means the same for
     /// photos of all sizes.
     package var sharpnessPixels = 1_000_000
+    /// Whether masks are read.
+    package var usesMasks = true
 
     package init() {}
   }
@@ -40,7 +46,8 @@ package struct PhotoInspection: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  package func run(_ url: URL, sampleID: Int) throws -> InspectedPhoto {
+  /// `mask` is a file that tells which pixels show the object; else the alpha channel does.
+  package func run(_ url: URL, sampleID: Int, mask: URL? = nil) throws -> InspectedPhoto {
     let name = url.lastPathComponent
     func refusal(_ fault: RefusedPhoto.Fault, _ sentenceEnd: String) -> Refusal {
       Refusal(RefusedPhoto(sampleID: sampleID, name: name, fault: fault, end: sentenceEnd))
@@ -67,18 +74,39 @@ package struct PhotoInspection: Sendable {
       } catch KernelError.degenerate {
         throw refusal(.blurred, "it shows nothing: it is badly exposed, or the lens was covered")
       }
-      return InspectedPhoto(
+      var photo = InspectedPhoto(
         sampleID: sampleID, url: url, width: upright.width, height: upright.height,
         metadata: metadata, contentHash: Self.hash(bytes), sharpness: sharpness,
         thumbnail: try reduced.fitted(to: Self.thumbnailSide))
+      if options.usesMasks { photo.findMask(mask, bytes) }
+      return photo
     } catch let error as ImageError {
       throw refusal(error.fault, error.errorDescription ?? "it can't be read")
     }
   }
 
   /// FNV-1a, 64 bits.
-  private static func hash(_ bytes: [UInt8]) -> UInt64 {
+  static func hash(_ bytes: [UInt8]) -> UInt64 {
     bytes.reduce(0xCBF2_9CE4_8422_2325) { ($0 ^ UInt64($1)) &* 0x0000_0100_0000_01B3 }
+  }
+}
+
+extension InspectedPhoto {
+  /// Reads the mask in a file, or in the alpha channel of the photo, whose content is `bytes`.
+  fileprivate mutating func findMask(_ file: URL?, _ bytes: [UInt8]) {
+    let isTurned = metadata.orientation >= 5
+    let stored = MaskInspection.Stored(
+      name: url.lastPathComponent, width: isTurned ? height : width,
+      height: isTurned ? width : height, orientation: metadata.orientation)
+    do throws(MaskFault) {
+      if let file {
+        mask = try MaskInspection().file(file, of: stored)
+      } else {
+        mask = try MaskInspection().alpha(bytes, of: stored)
+      }
+    } catch {
+      refusedMask = error.mask
+    }
   }
 }
 

@@ -12,6 +12,8 @@ package struct EngineOptions: Equatable, Sendable {
   /// Formats of model files that are accepted besides USDZ. None: a program written for Apple's engine
   /// meets `Error.invalidOutput` where it would there.
   package var additionalFileFormats: Set<ModelFormat> = []
+  /// A folder with the photos' masks; nil looks inside the folder of photos.
+  package var maskFolder: URL?
 
   package init() {}
 }

@@ -85,6 +85,7 @@ extension PipelineConfiguration {
     threadCount = options.threadCount
     knownDistances = options.knownDistances
     previewFile = options.previewFile
+    maskFolder = options.maskFolder
     maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
     maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
     // The machine's memory and not what is free of it: runs must not differ.

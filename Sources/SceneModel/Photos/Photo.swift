@@ -16,10 +16,13 @@ package struct Photo: Hashable, Codable, Sendable {
   package var orientation: Int
   package var camera: ID<Camera>
   package var position: GeographicPosition?
+  /// Which of its pixels show the object; nil where nothing tells.
+  package var mask: PhotoMask?
 
   package init(
     id: ID<Photo>, sampleID: Int, name: String, url: URL, width: Int, height: Int,
-    orientation: Int, camera: ID<Camera>, position: GeographicPosition? = nil
+    orientation: Int, camera: ID<Camera>, position: GeographicPosition? = nil,
+    mask: PhotoMask? = nil
   ) {
     self.id = id
     self.sampleID = sampleID
@@ -30,6 +33,7 @@ package struct Photo: Hashable, Codable, Sendable {
     self.orientation = orientation
     self.camera = camera
     self.position = position
+    self.mask = mask
   }
 }
 

@@ -19,6 +19,7 @@
           photogrammetry-cli align photos/ work/
           photogrammetry-cli align drone/ work/ -o sequential --mapping global
 
+        \(EngineArguments.maskHelp)
         \(EngineArguments.scaleHelp)
         Exit codes: 0 cameras were found, 1 too few photos fit together, 2 the command line can't be \
         carried out, 130 interrupted.
@@ -38,6 +39,9 @@
         "Find the poses photo by photo, all at once, or as suits the photos.",
         valueName: "method"))
     var mapping = MappingMethod.automatic
+
+    @Flag(name: .long, help: "Ignore the photos' masks.")
+    var noObjectMasking = false
 
     @OptionGroup var engine: EngineArguments
 
@@ -83,6 +87,8 @@
       configuration.isSequential = alignment.sampleOrdering == .sequential
       configuration.isHighSensitivity = alignment.featureSensitivity == .high
       configuration.mappingMethod = mapping
+      configuration.isObjectMaskingEnabled = !noObjectMasking
+      configuration.maskFolder = try engine.runArguments.masking.folder
       configuration.checkpointDirectory = target
       configuration.knownDistances = try engine.knownDistances(photos: photos)
       if let threads = engine.threads { configuration.threadCount = threads }

@@ -95,6 +95,9 @@
       help: "The cameras' unit is the metre; the report then has points per cubic metre.")
     var metric = false
 
+    @Flag(name: .long, help: "Ignore the photos' masks; see 'align --help' for these.")
+    var noObjectMasking = false
+
     @OptionGroup var arguments: RunArguments
 
     @OptionGroup var logging: LoggingOptions
@@ -114,6 +117,8 @@
       try arguments.checkOutputs()
       var configuration = PipelineConfiguration()
       configuration.checkpointDirectory = target
+      configuration.isObjectMaskingEnabled = !noObjectMasking
+      configuration.maskFolder = try arguments.masking.folder
       if let threads = arguments.threads { configuration.threadCount = threads }
       without.forEach { $0.apply(to: &configuration.pointCloudGeneration) }
       let flag = CancellationFlag()

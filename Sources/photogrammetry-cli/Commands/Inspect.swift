@@ -12,7 +12,7 @@
       commandName: "inspect",
       abstract: "Tell which photos of a folder would be used, which not, and why.",
       discussion: """
-        Reads and checks every file as 'reconstruct' does, without reconstructing. With --overlap it \
+        Reads and checks every file as 'reconstruct' does, masks too, without reconstructing. With --overlap it \
         also tells which photos show the same parts and which stand alone, so that you know what to \
         photograph again; that takes as long as the first half of the alignment.
 
@@ -35,6 +35,8 @@
     @Option(name: .long, help: ArgumentHelp("Threads to read with.", valueName: "count"))
     var threads: Int?
 
+    @OptionGroup var masking: MaskArguments
+
     @OptionGroup var logging: LoggingOptions
 
     /// Two photos have a geometry, but no surface that is worth the name.
@@ -46,7 +48,9 @@
       let count = threads ?? ProcessInfo.processInfo.activeProcessorCount
       let reporter = ProgressBox(RunReporter(logging.style(json: false)))
       let control = KernelControl(threadCount: max(1, count)) { reporter.update($0) }
-      let ingested = try PhotoIngestion().run(folder: folder, StageContext(control: control))
+      var options = PhotoIngestion.Options()
+      options.maskFolder = try masking.folder
+      let ingested = try PhotoIngestion(options).run(folder: folder, StageContext(control: control))
       var report = InspectionReport(ingested)
       if overlap, ingested.photos.count >= 2 {
         let images = ImageStore(
@@ -97,6 +101,8 @@
       var focalLength: Double
       var calibration: Camera.Calibration
       var hasPosition: Bool
+      /// Share of the photo that its mask leaves; nil without one.
+      var maskCoverage: Double?
     }
 
     struct Refused: Encodable {
@@ -107,6 +113,7 @@
 
     var used: [Used]
     var refused: [Refused]
+    var refusedMasks: [RefusedMask]
     var cameras: Int
     var isDownsampled: Bool
     var overlap: OverlapReport?
@@ -117,9 +124,10 @@
         return Used(
           name: photo.name, width: photo.width, height: photo.height, camera: photo.camera.index,
           focalLength: camera.focalLength.x, calibration: camera.calibration,
-          hasPosition: photo.position != nil)
+          hasPosition: photo.position != nil, maskCoverage: photo.mask?.coverage)
       }
       refused = ingested.refused.map { Refused(name: $0.name, fault: $0.fault, reason: $0.reason) }
+      refusedMasks = ingested.refusedMasks
       cameras = ingested.cameras.count
       isDownsampled = ingested.isDownsampled
     }
@@ -137,13 +145,17 @@
         let name = photo.name.padding(toLength: width, withPad: " ", startingAt: 0)
         let focal = "focal length \(Int(photo.focalLength.rounded())) px (\(photo.calibration))"
         let place = photo.hasPosition ? "  GPS" : ""
+        let mask = photo.maskCoverage.map { "  mask \(max(1, Int(($0 * 100).rounded()))) %" } ?? ""
         return
-          "\(name)  \(photo.width) x \(photo.height)  camera \(photo.camera + 1)  \(focal)\(place)"
+          "\(name)  \(photo.width) x \(photo.height)  camera \(photo.camera + 1)  "
+          + "\(focal)\(place)\(mask)"
       }
-      lines += refused.map(\.reason)
+      lines += refused.map(\.reason) + refusedMasks.map(\.reason)
       lines.append(
         "\(used.count) photos of \(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
           + "\(refused.count) file\(refused.count == 1 ? "" : "s") not.")
+      let masks = used.count { $0.maskCoverage != nil }
+      if masks > 0 { lines.append("\(masks) of \(used.count) photos have a mask.") }
       if isDownsampled {
         lines.append("Photos would be used at a lower resolution to fit the memory.")
       }

@@ -35,6 +35,7 @@ struct Reconstruct: AsyncParsableCommand {
         raw      30,000,000    8192 x 8192, 16   colour
 
       \(EngineArguments.outputHelp)
+      \(EngineArguments.maskHelp)
       \(EngineArguments.scaleHelp)
       Paths of what was written go to stdout, everything else to stderr.
       """)
@@ -71,7 +72,7 @@ struct Reconstruct: AsyncParsableCommand {
 
   @OptionGroup var preview: PreviewArguments
 
-  @Flag(name: .long, help: "Keep the surroundings instead of isolating the object.")
+  @Flag(name: .long, help: "Keep the surroundings instead of isolating the object; ignore masks.")
   var noObjectMasking = false
 
   @OptionGroup var engine: EngineArguments

@@ -22,6 +22,8 @@ import RealityKit
         valueName: "count"))
     var threads: Int?
 
+    @OptionGroup var masking: MaskArguments
+
     func validate() throws {
       if let threads, threads < 1 || threads > 1024 {
         throw ValidationError("--threads must be from 1 to 1024.")
@@ -31,6 +33,7 @@ import RealityKit
     /// Checks what can be checked before the work begins.
     func checkOutputs() throws {
       if let report { try ModelOutput.checkWritable(URL(fileURLWithPath: report)) }
+      _ = try masking.folder
     }
 
     /// Writes the report into the checkpoint directory, and where it was asked for besides.
@@ -67,6 +70,21 @@ import RealityKit
     }
   }
 
+  /// Where the photos' masks are.
+  struct MaskArguments: ParsableArguments {
+    @Option(
+      name: .long,
+      help: ArgumentHelp(
+        "The folder with the photos' masks, if not masks/ in that of the photos.",
+        valueName: "folder"))
+    var masks: String?
+
+    /// Nil where none is named; throws where it isn't a folder that holds something.
+    var folder: URL? {
+      get throws { try masks.map { try PhotoFolderArgument($0, holding: "masks").url } }
+    }
+  }
+
   /// What only our engine can do.
   struct EngineArguments: ParsableArguments {
     /// How the scale is told, as a section of help.
@@ -94,6 +112,21 @@ import RealityKit
         model.glb   glTF 2.0, for browsers, engines, Blender; has no displacement
         model.ply   the mesh with a normal and a colour a vertex; no textures
         model/      a folder: OBJ, MTL, USDA and textures
+
+      """
+
+    /// What masks are and where they are found, as a section of help.
+    static let maskHelp = """
+      MASKS
+        A mask is black where its photo doesn't show the object. What is black plays
+        no part: neither in aligning the photos, so that an object may turn before a
+        camera that stands still, nor in the surface and its colours. For the photo
+        IMG_1.jpg a mask is
+            beside it: IMG_1_mask.png, IMG_1.mask.png or IMG_1.jpg.mask.png;
+            in the folder masks/ beside it, or in that of --masks: one of these,
+            IMG_1.png or IMG_1.jpg.png;
+            or the alpha channel of a photo in PNG, TIFF or WebP.
+        Masks of another size are scaled. Photos without a mask are used whole.
 
       """
 
@@ -136,6 +169,7 @@ import RealityKit
       if let threads { session.engineOptions.threadCount = threads }
       session.engineOptions.knownDistances = try knownDistances(photos: folder)
       session.engineOptions.additionalFileFormats = Set(engineModelFiles)
+      session.engineOptions.maskFolder = try runArguments.masking.folder
     }
 
     /// The run's report as JSON, where there is one.
@@ -173,6 +207,7 @@ import RealityKit
         model/      a folder: OBJ, MTL, USDA and textures
 
       """
+    static let maskHelp = ""
 
     var report: String? { nil }
 

@@ -1,11 +1,11 @@
 import Foundation
 
-/// The folder of photos that the command line names.
+/// A folder of photos, or of their masks, that the command line names.
 struct PhotoFolderArgument {
   let url: URL
 
   /// Throws a `CommandFailure` unless `path` is a folder that can be read and holds something.
-  init(_ path: String) throws {
+  init(_ path: String, holding content: String = "photos") throws {
     url = URL(fileURLWithPath: path, isDirectory: true)
     var isDirectory: ObjCBool = false
     guard FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory) else {
@@ -13,7 +13,7 @@ struct PhotoFolderArgument {
     }
     guard isDirectory.boolValue else {
       throw CommandFailure.usage(
-        "\(path) is a file. Name the folder that holds the photos: \(parent(of: path))")
+        "\(path) is a file. Name the folder that holds the \(content): \(parent(of: path))")
     }
     let names: [String]
     do {
@@ -22,6 +22,9 @@ struct PhotoFolderArgument {
       throw CommandFailure.usage("The folder \(path) can't be read. Check its permissions.")
     }
     guard names.contains(where: { !$0.hasPrefix(".") }) else {
+      guard content == "photos" else {
+        throw CommandFailure.usage("The folder \(path) is empty. It should hold the \(content).")
+      }
       throw CommandFailure.run(
         "The folder \(path) is empty. Name a folder with JPEG or PNG photos of one object, taken "
           + "all around it.")

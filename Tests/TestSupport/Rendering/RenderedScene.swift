@@ -87,6 +87,18 @@ package struct RenderedScene: Sendable {
     }
   }
 
+  /// Where photo `index` shows the object: gray, 255 there and 0 beside it.
+  package func mask(_ index: Int) -> RasterImage {
+    var mask = RasterImage(width: camera.width, height: camera.height, channels: 1)
+    for pixel in mask.pixels.indices {
+      let place = SIMD2(Double(pixel % camera.width), Double(pixel / camera.width)) + 0.5
+      let ray = ray(through: place, of: index)
+      guard let hit = caster.hit(from: ray.origin, along: ray.direction) else { continue }
+      if parts[hit.triangle].surface == 0 { mask.pixels[pixel] = 255 }
+    }
+    return mask
+  }
+
   /// Whether photo `index` sees a point of a surface.
   package func isVisible(_ point: SIMD3<Double>, in index: Int) -> Bool {
     let inCamera = poses[index] * point

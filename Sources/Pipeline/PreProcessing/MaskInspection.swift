@@ -1,0 +1,122 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Reads the mask of one photo and judges whether it fits.
+///
+/// A mask has no EXIF data as a rule: programs write it in the orientation of the photo that they show,
+/// or in that of the stored one. Its aspect tells which, except where both orientations have the same;
+/// then the other masks of the set decide, see `PhotoIngestion`.
+struct MaskInspection: Sendable {
+  /// A mask that fits, and what is not known of its orientation.
+  struct Found: Sendable {
+    var mask: PhotoMask
+    /// The orientation may as well be this one.
+    var otherOrientation: Int?
+    /// The mask's aspect is that of the stored photo and not that of the photo turned upright, or the
+    /// other way round; nil where that tells nothing.
+    var isAsStored: Bool?
+  }
+
+  /// A photo as it is stored.
+  struct Stored: Sendable {
+    var name: String
+    var width: Int
+    var height: Int
+    /// EXIF orientation that turns it upright.
+    var orientation: Int
+  }
+
+  /// How far a side may be from what the aspect of the photo asks for, relative, beyond a pixel of
+  /// rounding.
+  static let aspectTolerance = 0.005
+
+  /// The mask in a file of its own; throws `RefusedMask`.
+  func file(_ url: URL, of photo: Stored) throws(MaskFault) -> Found {
+    let image: RasterImage
+    let bytes: [UInt8]
+    do throws(ImageError) {
+      bytes = try ImageCodec.contents(of: url)
+      image = try MaskImage.decode(bytes)
+    } catch {
+      throw MaskFault(
+        url.lastPathComponent, photo.name, error.errorDescription ?? "it can't be read")
+    }
+    let own = PhotoMetadata(bytes).orientation
+    let coverage = try coverage(image, url.lastPathComponent, photo)
+    var mask = PhotoMask(
+      file: url, orientation: own, contentHash: PhotoInspection.hash(bytes), coverage: coverage)
+    if own != 1 {
+      guard fits(image, turned: own, photo) else { throw aspectFault(image, url, photo) }
+      return Found(mask: mask)
+    }
+    let (isUpright, isStored) = (
+      fits(image, turned: 1, photo), fits(image, turned: photo.orientation, photo)
+    )
+    guard isUpright || isStored else { throw aspectFault(image, url, photo) }
+    if !isUpright { mask.orientation = photo.orientation }
+    guard photo.orientation != 1 else { return Found(mask: mask) }
+    return isUpright && isStored
+      ? Found(mask: mask, otherOrientation: photo.orientation)
+      : Found(mask: mask, isAsStored: isStored)
+  }
+
+  /// The mask that the alpha channel of a photo is; nil without one, or where nothing is transparent.
+  func alpha(_ bytes: [UInt8], of photo: Stored) throws(MaskFault) -> Found? {
+    let image: RasterImage?
+    do throws(ImageError) {
+      image = try MaskImage.alpha(bytes)
+    } catch {
+      throw MaskFault(
+        "The alpha channel of \(photo.name)", photo.name,
+        error.errorDescription ?? "it can't be read")
+    }
+    guard let image else { return nil }
+    let coverage = try coverage(image, "The alpha channel of \(photo.name)", photo)
+    return coverage == 1
+      ? nil
+      : Found(mask: PhotoMask(file: nil, orientation: photo.orientation, coverage: coverage))
+  }
+
+  private func coverage(
+    _ image: RasterImage, _ name: String, _ photo: Stored
+  ) throws(MaskFault) -> Double {
+    let marked = image.pixels.reduce(0) { $0 + ($1 == 0 ? 0 : 1) }
+    guard marked > 0 else { throw MaskFault(name, photo.name, "nothing in it is marked") }
+    return Double(marked) / Double(image.pixels.count)
+  }
+
+  /// Whether the mask, turned by `orientation`, has the aspect of the photo turned upright.
+  private func fits(_ mask: RasterImage, turned orientation: Int, _ photo: Stored) -> Bool {
+    let (width, height) = Self.size(mask.width, mask.height, turned: orientation)
+    let (w, h) = Self.size(photo.width, photo.height, turned: photo.orientation)
+    let expected = Double(width) * Double(h) / Double(w)
+    return abs(expected - Double(height)) <= 1 + Self.aspectTolerance * Double(height)
+  }
+
+  private static func size(
+    _ width: Int, _ height: Int, turned orientation: Int
+  ) -> (width: Int, height: Int) {
+    orientation >= 5 ? (height, width) : (width, height)
+  }
+
+  private func aspectFault(_ mask: RasterImage, _ url: URL, _ photo: Stored) -> MaskFault {
+    let (width, height) = Self.size(photo.width, photo.height, turned: photo.orientation)
+    return MaskFault(
+      url.lastPathComponent, photo.name,
+      "it has \(mask.width) × \(mask.height) pixels, and the photo, \(width) × \(height), another "
+        + "aspect")
+  }
+}
+
+/// Why a mask is not used.
+struct MaskFault: Error {
+  var mask: RefusedMask
+
+  /// `reason` completes the sentence "NAME is not used as a mask: …".
+  init(_ name: String, _ photo: String, _ reason: String) {
+    mask = RefusedMask(
+      name: name,
+      reason: "\(name) is not used as a mask: \(reason). \(photo) is used whole.")
+  }
+}

@@ -1,0 +1,27 @@
+import Kernels
+import SceneModel
+
+/// Photos of an object that turns before a camera that stands still: all but the object is the same
+/// in each of them.
+package struct Turntable: Sendable {
+  package let photos: [RasterImage]
+  /// Where they show the object.
+  package let masks: [RasterImage]
+
+  /// Shows the object of `scene`, as it is seen there, before a background with texture.
+  package init(_ scene: RenderedScene, _ control: KernelControl = KernelControl()) throws {
+    let background = TexturePattern.image(
+      width: scene.camera.width, height: scene.camera.height, seed: 4711)
+    let masks = try control.parallelMap(scene.poses.count) { scene.mask($0) }
+    self.masks = masks
+    photos = zip(try scene.photos(control), masks).map { photo, mask in
+      var photo = photo
+      for pixel in mask.pixels.indices where mask.pixels[pixel] == 0 {
+        for channel in 3 * pixel..<3 * pixel + 3 {
+          photo.pixels[channel] = background.pixels[channel]
+        }
+      }
+      return photo
+    }
+  }
+}
