@@ -108,6 +108,17 @@ package final class PatchMap: @unchecked Sendable {
     }
   }
 
+  /// Removes the patches of pixels that are below `least` in a mask, gray and of the view's size. Not
+  /// for a map that another thread may read.
+  package func removePatches(outside mask: RasterImage, least: UInt8 = 128) throws {
+    guard (mask.width, mask.height, mask.channels) == (view.width, view.height, 1) else {
+      throw KernelError.invalidArgument("the mask is not gray or not of the view's size")
+    }
+    for index in 0..<count where mask.pixels[index] < least {
+      patches[index] = ck_patch(inverse_depth: 0, gradient_x: 0, gradient_y: 0, cost: 2)
+    }
+  }
+
   /// Patches that passed the filter.
   package var acceptedCount: Int { (0..<count).reduce(0) { $0 + (states[$1] != 0 ? 1 : 0) } }
 

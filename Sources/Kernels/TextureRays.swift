@@ -70,17 +70,23 @@ package final class RayScene: Sendable {
 
   deinit { ck_ray_scene_free(handle) }
 
-  /// The triangles that a view sees whole, in ascending order.
+  /// The triangles that a view sees whole, inside its mask where it has one, in ascending order.
   package func observations(
     in view: PinholeView, options: ObservationOptions = ObservationOptions(),
     _ control: KernelControl
   ) throws -> [FaceObservation] {
+    if let mask = view.mask,
+      (mask.width, mask.height, mask.channels) != (view.image.width, view.image.height, 1)
+    {
+      throw KernelError.invalidArgument("the mask is not gray or not of the view's size")
+    }
     var raw = [ck_face_observation](repeating: ck_face_observation(), count: triangleCount)
     var pinhole = ck_pinhole(view)
     var rawOptions = ck_observe_options(
       minimum_cosine: options.minimumCosine, margin: options.margin)
     try withKernel(control) { control in
-      ck_observe_faces(handle, &pinhole, view.image.pixels, &rawOptions, control, &raw)
+      ck_observe_faces(
+        handle, &pinhole, view.image.pixels, view.mask?.pixels, &rawOptions, control, &raw)
     }
     var result: [FaceObservation] = []
     for (face, value) in raw.enumerated() where value.area > 0 {

@@ -179,12 +179,15 @@ package final class ReconstructionPipeline {
     plan(for: [specification])
     if let surface, surface.viewPixels >= finestViewPixels { return surface.value }
     if let saved { return reuseSurface(saved) }
+    let (_, images) = try input()
     let reconstruction = try align()
     let cloud = try densify(for: specification)
     let result = try run(.meshGeneration) { context in
       var options = MeshGeneration.Options()
       options.isolatesObject = configuration.isObjectMaskingEnabled
-      return try MeshGeneration(options).run(cloud, reconstruction, context)
+      let silhouettes = try Silhouettes(reconstruction, images: images)
+      return try MeshGeneration(options)
+        .run(cloud, reconstruction, silhouettes: silhouettes, context)
     }
     surface = (finestViewPixels, result)
     try save(result, of: reconstruction)

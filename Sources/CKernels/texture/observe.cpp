@@ -109,10 +109,11 @@ struct DepthRange {
 class Observer {
  public:
   Observer(const ck_ray_scene& scene, const ck_pinhole& view, const uint8_t* rgb,
-           const ck_observe_options& options)
+           const uint8_t* mask, const ck_observe_options& options)
       : scene_(scene),
         view_(view),
         rgb_(rgb),
+        mask_(mask),
         options_(options),
         projection_(view),
         corners_(project(scene, projection_)),
@@ -134,6 +135,7 @@ class Observer {
       corners[i] = corners_[scene_.triangles[t][i]];
       if (!is_inside(corners[i])) return result;
     }
+    if (is_masked(corners)) return result;
     if (is_hidden(t, centroid, distance)) return result;
     const std::array<Vec2, 3> p = {corners[0].pixel, corners[1].pixel, corners[2].pixel};
     result.area = std::fabs(cross(p[1] - p[0], p[2] - p[0])) / 2;
@@ -158,6 +160,16 @@ class Observer {
     return c.depth > 0 && c.pixel.x >= margin && c.pixel.y >= margin &&
            c.pixel.x <= static_cast<float>(view_.width) - margin &&
            c.pixel.y <= static_cast<float>(view_.height) - margin;
+  }
+
+  /// Whether a corner or the middle lies where the mask says that the surface isn't seen.
+  bool is_masked(const std::array<Corner, 3>& c) const {
+    if (!mask_) return false;
+    const Vec2 middle = (c[0].pixel + c[1].pixel + c[2].pixel) * (1.0f / 3);
+    for (const Vec2 p : {c[0].pixel, c[1].pixel, c[2].pixel, middle}) {
+      if (mask_[index(static_cast<int>(p.x), static_cast<int>(p.y))] < 128) return true;
+    }
+    return false;
   }
 
   bool is_hidden(size_t t, Vec3 centroid, float distance) const {
@@ -224,6 +236,7 @@ class Observer {
   const ck_ray_scene& scene_;
   const ck_pinhole& view_;
   const uint8_t* rgb_;
+  const uint8_t* mask_;
   const ck_observe_options& options_;
   Projection projection_;
   std::vector<Corner> corners_;
@@ -236,14 +249,15 @@ class Observer {
 }  // namespace ck::texture
 
 ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
-                           const ck_observe_options* options, const ck_control* control,
+                           const uint8_t* mask, const ck_observe_options* options,
+                           const ck_control* control,
                            ck_face_observation* observations) {
   return ck::guarded([&] {
     ck::require(scene && view && rgb && options && observations, "an argument is missing");
     ck::require(view->width > 1 && view->height > 1 && view->focal[0] > 0 && view->focal[1] > 0,
                 "a view has no pixels or no focal length");
     ck::step(control, 0);
-    const ck::texture::Observer observer(*scene, *view, rgb, *options);
+    const ck::texture::Observer observer(*scene, *view, rgb, mask, *options);
     constexpr size_t kChunk = 4096;
     const size_t count = scene->triangles.size();
     ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {

@@ -10,6 +10,8 @@ package struct MeshGeneration {
     package var isolatesObject = true
     /// Levels of the surface's octree at most; 9 resolves 1/460, 10 1/930 of the object's size.
     package var maximumDepth = 9
+    /// Share of the photos with masks from which on these tell the object from its surroundings.
+    package var sufficientMaskShare = 0.5
 
     package init() {}
   }
@@ -18,14 +20,17 @@ package struct MeshGeneration {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The surface with normals and colours, in the frame of the cloud.
+  /// The surface with normals and colours, in the frame of the cloud. Where most photos have masks, the
+  /// object is what `silhouettes` keep.
   ///
   /// Throws `PipelineError.noSurface` where the cloud does not determine one.
   package func run(
-    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes? = nil,
+    _ context: StageContext
   ) throws -> Mesh {
     try check(cloud)
-    let selection = try select(cloud, reconstruction, context.part(from: 0, to: 0.15))
+    let selection = try select(
+      cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.15))
     var averaged = try CloudAveraging().run(
       cloud.filtered(by: selection.isKept), context.part(from: 0.15, to: 0.2))
     averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.2, to: 0.25))
@@ -49,7 +54,7 @@ package struct MeshGeneration {
       closed, samples: averaged.cloud, scene: cloud, spacing: averaged.voxelSize,
       isBase: { point in
         selection.support.map { $0.height(of: SIMD3<Double>(point)) < base.height } ?? false
-      }, reconstruction, context.part(from: 0.8, to: 0.95))
+      }, silhouettes: silhouettes, reconstruction, context.part(from: 0.8, to: 0.95))
     let mesh = try MeshCleaning().run(
       trimmed, samples: averaged.cloud, context.part(from: 0.95, to: 1))
     context.notes.count("triangles", Double(mesh.triangles.count))
@@ -83,8 +88,17 @@ package struct MeshGeneration {
   }
 
   private func select(
-    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ silhouettes: Silhouettes?,
+    _ context: StageContext
   ) throws -> Selection {
+    if let silhouettes, silhouettes.share >= options.sufficientMaskShare {
+      let isKept = try SceneTrimming().run(cloud, reconstruction, context)
+      context.notes.count("objectPoints", Double(isKept.count { $0 }))
+      return Selection(
+        isKept: isKept, isObject: true,
+        support: StandingPlane(
+          under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
+    }
     if options.isolatesObject {
       let result = try ObjectIsolation().run(cloud, reconstruction, context)
       if let failure = result.failure {

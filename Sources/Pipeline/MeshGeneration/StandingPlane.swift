@@ -148,3 +148,19 @@ extension SIMD3 where Scalar == Double {
     return (u, cross(u))
   }
 }
+
+extension StandingPlane {
+  /// The level plane through the lowest points of an object; nil where up isn't known, or where photos
+  /// show the underside, which then needs no plane to be closed by.
+  init?(under object: PointCloud, up: WorldFrame.Up) {
+    let heights = object.positions.map { Double($0.y) }
+    guard up != .unknown, object.normals.count == object.count,
+      let footprint = object.medianFootprint, let low = heights.quantile(0.002),
+      let high = heights.quantile(0.998), high - low > 20 * Double(footprint)
+    else { return nil }
+    let lowest = heights.indices.filter { heights[$0] < low + 0.15 * (high - low) }
+    let facingDown = lowest.count { object.normals[$0].y < -0.7 }
+    guard 10 * facingDown < lowest.count else { return nil }
+    self.init(normal: [0, 1, 0], offset: low, band: 2 * Double(footprint))
+  }
+}

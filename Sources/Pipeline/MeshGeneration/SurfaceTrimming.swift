@@ -3,7 +3,7 @@ import Kernels
 import SceneModel
 
 /// Removes what Poisson made up: faces without support that photos see through, that photos should
-/// see and don't, or that are too far from any sample.
+/// see and don't, that masks leave out, or that are too far from any sample.
 ///
 /// What no photo could see stays as Poisson closed it where an object is to be closed.
 struct SurfaceTrimming {
@@ -41,8 +41,8 @@ struct SurfaceTrimming {
   /// for which `isBase` says so stay unless photos see through them.
   func run(
     _ mesh: Mesh, samples: PointCloud, scene: PointCloud, spacing: Double,
-    isBase: (SIMD3<Float>) -> Bool = { _ in false }, _ reconstruction: Reconstruction,
-    _ context: StageContext
+    isBase: (SIMD3<Float>) -> Bool = { _ in false }, silhouettes: Silhouettes? = nil,
+    _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Mesh {
     guard let bounds = mesh.bounds else { return mesh }
     let size = (bounds.max - bounds.min).length
@@ -50,8 +50,11 @@ struct SurfaceTrimming {
       mesh, samples, spacing, context.control.part(from: 0, to: 0.4))
     let counts = try seenThrough(
       mesh, scene, spacing, reconstruction, context.control.part(from: 0.4, to: 0.8))
-    let isBaseFace = mesh.triangles.map { isBase(mesh.center(of: $0)) }
+    let centers = mesh.triangles.map { mesh.center(of: $0) }
+    let isBaseFace = centers.map(isBase)
+    let isInside = try silhouettes?.areInside(centers, context.control.part(from: 0.8, to: 0.8))
     let isContradicted = mesh.triangles.indices.map { index in
+      if let isInside, !isInside[index] { return true }
       let limit =
         isBaseFace[index] ? options.contradictedBaseSpacings : options.contradictedSpacings
       return Int(counts[index]) >= options.contradictingPhotos

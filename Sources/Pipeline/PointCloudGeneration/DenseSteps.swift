@@ -9,17 +9,19 @@ struct DenseSteps {
   private let plan: DensePlan
   private let options: PointCloudGeneration.Options
   private let share: PointCloudGeneration.Share?
+  private let masks: PatchMasks
   private let photos: SharedValues<PatchView>
   private let halves: SharedValues<PatchView>
 
   /// `share` says which of several jobs that work at the same time this is.
   init(
-    _ views: DenseViews, _ workspace: PatchWorkspace, _ plan: DensePlan,
+    _ views: DenseViews, _ workspace: PatchWorkspace, _ plan: DensePlan, _ masks: PatchMasks,
     _ options: PointCloudGeneration.Options, share: PointCloudGeneration.Share? = nil
   ) {
     self.views = views
     self.workspace = workspace
     self.plan = plan
+    self.masks = masks
     self.options = options
     self.share = share
     let (count, pixels) = (views.views.count, max(1, views.largestPixelCount))
@@ -70,6 +72,7 @@ struct DenseSteps {
       } catch KernelError.degenerate {
         // A view that shows none of its sparse points has no patches but those of other views.
       }
+      try masks.apply(to: map, index)
       try workspace.write(map.patchBytes, views.key(.coarse, index))
     }
   }
@@ -89,6 +92,7 @@ struct DenseSteps {
       try PatchStereo.refine(
         map, from: coarse, sources: try sources.map(photo), options: options.patches,
         control: control.part(from: 0.05, to: 1))
+      try masks.apply(to: map, index)
       try workspace.write(map.patchBytes, views.key(.patches, index))
     }
     notePeaks(maps, context.notes)
@@ -121,12 +125,13 @@ struct DenseSteps {
       try self.map(index, patches, states, in: maps)
     }
     try forEach(completed, context) { [self] index, control in
-      let own = try map(index)
-      let result =
-        options.completes
-        ? try PatchStereo.complete(
-          own, neighbors: try views.views[index].sources.map(map), options: options.patches,
-          control: control) : own
+      var result = try map(index)
+      if options.completes {
+        result = try PatchStereo.complete(
+          result, neighbors: try views.views[index].sources.map(map), options: options.patches,
+          control: control)
+        try masks.apply(to: result, index)
+      }
       try workspace.write(result.patchBytes, views.key(completed, index))
     }
     notePeaks(maps, context.notes)
@@ -161,7 +166,7 @@ struct DenseSteps {
       else { throw WorkspaceError.changed(file: workspace.url(key).path) }
       accepted += bytes.withUnsafeBytes { Int(clamping: $0.loadUnaligned(as: UInt64.self)) }
     }
-    warnOfGaps(Double(accepted) / Double(max(1, views.pixelCount)), context.notes)
+    warnOfGaps(Double(accepted) / max(1, views.objectPixelCount), context.notes)
     return cloud
   }
 

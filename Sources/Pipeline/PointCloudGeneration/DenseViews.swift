@@ -13,6 +13,8 @@ struct DenseViews: Sendable {
     var sources: [Int]
     /// Sparse points that the photo observes.
     var points: [SIMD3<Double>]
+    /// Share of the photo that its mask leaves.
+    var objectShare: Double
 
     var pixelCount: Int { camera.width * camera.height }
   }
@@ -39,13 +41,18 @@ struct DenseViews: Sendable {
         camera: try images.pinholeCamera(
           of: photo, in: reconstruction, maximumPixels: options.maximumPixelsPerView),
         cameraFromWorld: reconstruction.poses[photo.index] ?? .identity,
-        sources: sources[photo.index].compactMap { position[$0] }, points: points[photo.index])
+        sources: sources[photo.index].compactMap { position[$0] }, points: points[photo.index],
+        objectShare: reconstruction.photos[photo.index].mask?.coverage ?? 1)
     }
     fingerprints = try Self.fingerprints(views, reconstruction, images, options)
   }
 
   var indices: Range<Int> { views.indices }
   var pixelCount: Int { views.reduce(0) { $0 + $1.pixelCount } }
+  /// Pixels that may show the object.
+  var objectPixelCount: Double {
+    views.reduce(0) { $0 + Double($1.pixelCount) * $1.objectShare }
+  }
   var largestPixelCount: Int { views.map(\.pixelCount).max() ?? 0 }
 
   /// What a view's file of a step must be.

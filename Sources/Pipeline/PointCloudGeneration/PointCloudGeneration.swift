@@ -63,9 +63,12 @@ package struct PointCloudGeneration {
     let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
     tellReuse(views.views.count - plan[.patches].count, views, context.notes)
-    let steps = DenseSteps(views, workspace, plan, options)
-    try steps.run(reconstruction, images, context.part(from: 0, to: 0.99))
-    let cloud = try steps.cloud(context.part(from: 0.99, to: 1))
+    let steps = DenseSteps(
+      views, workspace, plan, masks(of: views, reconstruction, images), options)
+    try steps.run(reconstruction, images, context.part(from: 0, to: 0.98))
+    let cloud = try insideMasks(
+      steps.cloud(context.part(from: 0.98, to: 0.99)), reconstruction, images,
+      context.part(from: 0.99, to: 1))
     guard cloud.count > 0 else {
       throw PipelineError.noSurface(
         reason: "no patch of surface looks alike in three photos or more.")
@@ -92,8 +95,27 @@ package struct PointCloudGeneration {
       .patches, of: own, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
     tellReuse(own.count - plan[.patches].count, views, context.notes)
-    try DenseSteps(views, workspace, plan, options, share: share)
-      .run(reconstruction, images, context)
+    try DenseSteps(
+      views, workspace, plan, masks(of: views, reconstruction, images), options, share: share
+    ).run(reconstruction, images, context)
+  }
+
+  private func masks(
+    of views: DenseViews, _ reconstruction: Reconstruction, _ images: ImageStore
+  ) -> PatchMasks {
+    PatchMasks(views, reconstruction, images, maximumPixels: options.maximumPixelsPerView)
+  }
+
+  /// Photos without a mask may have seen what those with one leave out.
+  private func insideMasks(
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ images: ImageStore,
+    _ context: StageContext
+  ) throws -> PointCloud {
+    guard let silhouettes = try Silhouettes(reconstruction, images: images) else { return cloud }
+    let result = cloud.filtered(
+      by: try silhouettes.areInside(cloud.positions, context.control))
+    context.notes.count("pointsOutsideMasks", Double(cloud.count - result.count))
+    return result
   }
 
   private func tellReuse(_ reused: Int, _ views: DenseViews, _ notes: StageNotes) {
