@@ -28,8 +28,8 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
 ///
 /// Reads JPEG, PNG, TIFF, BMP and WebP, told apart by content. Images come as 8-bit RGB: 16 bits
 /// are reduced, gray, palette and CMYK converted, and an alpha channel, which `decodeAlpha` reads, is
-/// dropped, which keeps the colours under transparent pixels. No EXIF orientation is applied, see `RasterImage.turned`; only
-/// the decoder of TIFF files turns them upright by their own tag.
+/// dropped, which keeps the colours under transparent pixels. No EXIF orientation is applied, see
+/// `RasterImage.turned`; only the decoder of TIFF files turns them upright by their own tag.
 package enum ImageCodec {
   /// Sizes that are refused before anything is decoded.
   package struct Limits: Hashable, Codable, Sendable {

@@ -22,8 +22,8 @@ enum MaskImage {
     return mask
   }
 
-  /// The mask that a photo's alpha channel is: what is less than half opaque is not of the object, since
-  /// what cuts objects out leaves traces around them. Nil without such a channel.
+  /// The mask that a photo's alpha channel is: what is less than half opaque is not of the object,
+  /// since programs that cut objects out leave traces around them. Nil without such a channel.
   static func alpha(_ bytes: [UInt8]) throws(ImageError) -> RasterImage? {
     guard var mask = try ImageCodec.decodeAlpha(bytes) else { return nil }
     for index in mask.pixels.indices { mask.pixels[index] = mask.pixels[index] < 128 ? 0 : 255 }

@@ -81,10 +81,16 @@ package final class ReconstructionPipeline {
     if result.isDownsampled { onEvent(.downsampled) }
     try noting { try checkCount(result) }
     ingested = result
-    images = ImageStore(
-      photos: result.photos, byteBudget: configuration.imageMemory,
-      processingPixels: result.processingPixels, contentHashes: result.contentHashes)
+    images = imageStore(of: result)
     return result
+  }
+
+  private func imageStore(of ingested: IngestedPhotos, isMasked: Bool = true) -> ImageStore {
+    var photos = ingested.photos
+    if !isMasked { for index in photos.indices { photos[index].mask = nil } }
+    return ImageStore(
+      photos: photos, byteBudget: configuration.imageMemory,
+      processingPixels: ingested.processingPixels, contentHashes: ingested.contentHashes)
   }
 
   /// Finds cameras, poses and sparse points in the frame that everything else shares, or takes those
@@ -104,8 +110,10 @@ package final class ReconstructionPipeline {
       options.isHighSensitivity = configuration.isHighSensitivity
       options.framing.knownDistances = configuration.knownDistances
       options.mapping.method = configuration.mappingMethod
-      return try ImageAlignment(options)
-        .run(photos: ingested.photos, cameras: ingested.cameras, images: images, context)
+      return try MaskedAlignment(ImageAlignment(options))
+        .run(
+          ingested, images: images, wholePhotos: { imageStore(of: ingested, isMasked: false) },
+          context)
     }
     describe(result)
     try checkpoint?.write(result)

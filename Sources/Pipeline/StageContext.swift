@@ -49,6 +49,16 @@ package final class StageNotes: Sendable {
     state.withLock { $0.details.append(sentence) }
   }
 
+  /// Takes over what another part of the stage has left.
+  func add(_ other: StageNotes) {
+    let (counts, warnings, details) = (other.counts, other.warnings, other.details)
+    state.withLock { state in
+      state.counts.merge(counts) { $1 }
+      state.warnings += warnings
+      state.details += details
+    }
+  }
+
   package var counts: [String: Double] { state.withLock { $0.counts } }
   package var warnings: [String] { state.withLock { $0.warnings } }
   package var details: [String] { state.withLock { $0.details } }

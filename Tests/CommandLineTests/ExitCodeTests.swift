@@ -117,6 +117,24 @@ import Testing
     _ = temporary
   }
 
+  @Test func inspectTellsAboutMasks() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    try makePhotos(3, in: folder, "photos")
+    let mask = RasterImage(width: 400, height: 300, channels: 1, filledWith: 255)
+    try temporary.write(ImageCodec.encodePNG(mask), as: "photos/p0_mask.png")
+    let black = RasterImage(width: 800, height: 600, channels: 1)
+    try temporary.write(ImageCodec.encodePNG(black), as: "photos/p1_mask.png")
+    let run = try CommandProcess.run(["inspect", "photos"], in: folder)
+    #expect(run.exitCode == 0)
+    #expect(run.output.contains("mask 100 %"))
+    #expect(run.output.contains("p1_mask.png is not used as a mask: nothing in it is marked"))
+    #expect(run.output.contains("1 of 3 photos have a mask."))
+    let missing = try CommandProcess.run(["inspect", "photos", "--masks", "none"], in: folder)
+    #expect(missing.exitCode == 2)
+    #expect(missing.errors.contains("none"))
+  }
+
   @Test func interruptEndsWith130() throws {
     let temporary = try TemporaryFolder()
     let folder = temporary.url

@@ -49,6 +49,63 @@ import Testing
         == RasterImage(width: 5, height: 4, channels: 3, filledWith: 90))
   }
 
+  /// An uncompressed TIFF file of one strip, colours and alpha.
+  private func tiff(_ image: RasterImage, orientation: UInt16 = 1) -> [UInt8] {
+    func little(_ value: UInt32, _ count: Int = 4) -> [UInt8] {
+      (0..<count).map { UInt8(truncatingIfNeeded: value >> (8 * $0)) }
+    }
+    let bits = little(8, 2) + little(8, 2) + little(8, 2) + little(8, 2)
+    let pixelOffset = UInt32(8 + bits.count)
+    // Tag, type (3: short, 4: long), count, value.
+    let fields: [(UInt32, UInt32, UInt32, UInt32)] = [
+      (256, 3, 1, UInt32(image.width)), (257, 3, 1, UInt32(image.height)), (258, 3, 4, 8),
+      (259, 3, 1, 1), (262, 3, 1, 2), (273, 4, 1, pixelOffset), (274, 3, 1, UInt32(orientation)),
+      (277, 3, 1, 4), (278, 3, 1, UInt32(image.height)), (279, 4, 1, UInt32(image.pixels.count)),
+      (338, 3, 1, 2),
+    ]
+    let directory =
+      little(UInt32(fields.count), 2)
+      + fields.flatMap { little($0.0, 2) + little($0.1, 2) + little($0.2) + little($0.3) }
+    let directoryOffset = pixelOffset + UInt32(image.pixels.count)
+    return Array("II".utf8) + little(42, 2) + little(directoryOffset) + bits + image.pixels
+      + directory + little(0)
+  }
+
+  @Test func alphaIsReadAlone() throws {
+    var image = RasterImage(width: 6, height: 4, channels: 4, filledWith: 90)
+    var alpha = RasterImage(width: 6, height: 4, channels: 1)
+    for index in alpha.pixels.indices {
+      alpha.pixels[index] = UInt8(index * 10)
+      image.pixels[4 * index + 3] = UInt8(index * 10)
+    }
+    let png = try ImageCodec.encodePNG(image)
+    #expect(try ImageCodec.decodeAlpha(png) == alpha)
+    #expect(try ImageCodec.decodeAlpha(tiff(image)) == alpha)
+    // Its colours are turned too.
+    let upsideDown = tiff(image, orientation: 3)
+    #expect(try ImageCodec.decodeAlpha(upsideDown) == alpha.turned(byOrientation: 3))
+    #expect(try ImageCodec.decode(upsideDown).width == 6)
+    for opaque in [
+      try ImageCodec.encodePNG(pattern()), try ImageCodec.encodeJPEG(pattern(), quality: 0.9),
+    ] {
+      #expect(try ImageCodec.decodeAlpha(opaque) == nil)
+    }
+    #expect(throws: ImageError.self) { try ImageCodec.decodeAlpha(Array(png.dropLast(30))) }
+  }
+
+  @Test func dilationReachesASquare() throws {
+    var image = RasterImage(width: 9, height: 7, channels: 1)
+    image.pixels[3 * 9 + 4] = 200
+    let wide = try image.dilated(by: 2)
+    for y in 0..<7 {
+      for x in 0..<9 {
+        #expect(wide.pixels[9 * y + x] == (abs(x - 4) <= 2 && abs(y - 3) <= 2 ? 200 : 0))
+      }
+    }
+    #expect(try image.dilated(by: 0) == image)
+    #expect(throws: KernelError.self) { try pattern().dilated(by: 1) }
+  }
+
   @Test(arguments: [0.2, 0.5, 0.9]) func cutOffFilesAreDamaged(fraction: Double) throws {
     for bytes in [
       try ImageCodec.encodeJPEG(pattern(width: 200, height: 200), quality: 0.9),

@@ -110,6 +110,45 @@ import Testing
     #expect(photo.sampleID == 3 && photo.reason == "Sample 3 is blurred.")
   }
 
+  private func mask(_ width: Int, _ height: Int, value: UInt8) throws -> CVPixelBuffer {
+    let buffer = try #require(
+      CVPixelBuffer(width: width, height: height, pixelFormat: kCVPixelFormatType_OneComponent8))
+    for row in 0..<height / 2 {
+      buffer.storage.write(Array(repeating: value, count: width), at: row * buffer.bytesPerRow)
+    }
+    return buffer
+  }
+
+  @Test func masksLieBesideTheirPhotos() throws {
+    let masks = [
+      try mask(37, 20, value: 1), nil, try mask(36, 20, value: 9), CVPixelBuffer(Self.image),
+      try mask(37, 20, value: 0),
+    ]
+    let samples = try masks.enumerated().map { index, mask in
+      var sample = try sample(index + 10)
+      sample.objectMask = mask
+      sample.metadata = ["Orientation": 3]
+      return sample
+    }
+    let folder = SampleFolder(samples)
+    var warnings: [String] = []
+    let url = try folder.write(flag: CancellationFlag()) { event in
+      if case .warning(let sentence) = event { warnings.append(sentence) }
+    }
+    let names = try FileManager.default.contentsOfDirectory(atPath: url.path).sorted()
+    #expect(names == ["sample0.png", "sample0_mask.png"] + (1..<5).map { "sample\($0).png" })
+    #expect(warnings.count == 3)
+    for (warning, id) in zip(warnings, [12, 13, 14]) {
+      #expect(warning.hasPrefix("The object mask of sample \(id) is not used"))
+    }
+    let bytes = try ImageCodec.contents(of: url.appendingPathComponent("sample0_mask.png"))
+    let written = try ImageCodec.decode(bytes)
+    #expect((written.width, written.height) == (37, 20))
+    #expect(written.pixels.prefix(37 * 10 * 3).allSatisfy { $0 == 1 })
+    #expect(written.pixels.dropFirst(37 * 10 * 3).allSatisfy { $0 == 0 })
+    #expect(PhotoMetadata(bytes).orientation == 3)
+  }
+
   @Test func cancelledSequencesGoOn() throws {
     let image = try #require(CVPixelBuffer(Self.image))
     let flag = CancellationFlag()

@@ -168,11 +168,10 @@ void validate(const Photo& photo, const ck_sift_options& options) {
 }  // namespace ck::sift
 
 ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                         size_t row_stride, const uint8_t* mask,
-                         const ck_sift_options* options, const ck_control* control,
-                         float* positions, float* scales, float* orientations,
-                         uint8_t* descriptors, uint8_t* colors, size_t color_stride,
-                         size_t* count) {
+                         size_t row_stride, const uint8_t* mask, const ck_sift_options* options,
+                         const ck_control* control, float* positions, float* scales,
+                         float* orientations, uint8_t* descriptors, uint8_t* colors,
+                         size_t color_stride, size_t* count) {
   return ck::guarded([&] {
     ck::require(options && count, "options and count are needed");
     *count = 0;

@@ -44,11 +44,10 @@ typedef struct {
 /// 128 bytes, and `color_stride` bytes of which 3 are written (RGB). `mask` is null, or has a byte
 /// for each pixel, `width` a row: nothing is looked for where it is 0.
 ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                         size_t row_stride, const uint8_t* mask,
-                         const ck_sift_options* options, const ck_control* control,
-                         float* positions, float* scales, float* orientations,
-                         uint8_t* descriptors, uint8_t* colors, size_t color_stride,
-                         size_t* count);
+                         size_t row_stride, const uint8_t* mask, const ck_sift_options* options,
+                         const ck_control* control, float* positions, float* scales,
+                         float* orientations, uint8_t* descriptors, uint8_t* colors,
+                         size_t color_stride, size_t* count);
 
 #ifdef __cplusplus
 }

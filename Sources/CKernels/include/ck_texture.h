@@ -64,8 +64,8 @@ typedef struct {
 /// `observations` holds one entry for every triangle of the scene. `mask` is null, or has a byte a
 /// pixel: a view doesn't see triangles that reach to where it is below 128.
 ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
-                           const uint8_t* mask, const ck_observe_options* options, const ck_control* control,
-                           ck_face_observation* observations);
+                           const uint8_t* mask, const ck_observe_options* options,
+                           const ck_control* control, ck_face_observation* observations);
 
 /// Chooses one of its candidates for every node, so that the sum of the nodes' costs and of the
 /// weights of edges between different labels is small: a Potts model, minimised by sequential

@@ -250,8 +250,7 @@ class Observer {
 
 ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
                            const uint8_t* mask, const ck_observe_options* options,
-                           const ck_control* control,
-                           ck_face_observation* observations) {
+                           const ck_control* control, ck_face_observation* observations) {
   return ck::guarded([&] {
     ck::require(scene && view && rgb && options && observations, "an argument is missing");
     ck::require(view->width > 1 && view->height > 1 && view->focal[0] > 0 && view->focal[1] > 0,

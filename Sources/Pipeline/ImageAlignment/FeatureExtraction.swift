@@ -79,7 +79,8 @@ package struct FeatureExtraction {
     for (photo, set) in zip(photos, sets) where set.count < 100 {
       let part = photo.mask == nil ? "" : " inside its mask"
       context.notes.warn(
-        "\(photo.name) shows hardly any texture\(part) (\(set.count) features); it may not be used.")
+        "\(photo.name) shows hardly any texture\(part) (\(set.count) features); it may not be used."
+      )
     }
     return sets
   }

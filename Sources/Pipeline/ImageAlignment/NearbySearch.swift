@@ -203,7 +203,9 @@ struct NearbySearch: Sendable {
     let isOfObject = try reading.isOfObject(photo)
     // What a mask leaves out may hide the point, or be different every time.
     var best = numbers.map { number -> Double? in
-      let (pixel, reach) = (points[number].pixel, Self.templateReach * points[number].reference.step)
+      let (pixel, reach) = (
+        points[number].pixel, Self.templateReach * points[number].reference.step
+      )
       let isShown = Self.corners.allSatisfy { isOfObject((pixel + reach * $0) * factor) }
       return templates.isValid[number] && isShown ? -1.0 : nil
     }

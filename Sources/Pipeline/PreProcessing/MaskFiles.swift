@@ -3,9 +3,9 @@ import Foundation
 /// Tells the masks of an input folder from its photos, by their names, and finds the mask of a photo.
 ///
 /// Beside a photo `IMG_1.jpg` its mask is called `IMG_1_mask.png`, as Metashape writes it,
-/// `IMG_1.mask.png` or, as RealityCapture has it, `IMG_1.jpg.mask.png`. In a folder of masks it may have
-/// one of these names, the photo's own (`IMG_1.png`), or the photo's with a second suffix, as COLMAP
-/// wants it (`IMG_1.jpg.png`). Any image format will do, and upper and lower case are alike.
+/// `IMG_1.mask.png` or, as RealityCapture has it, `IMG_1.jpg.mask.png`. In a folder of masks it may
+/// have one of these names, the photo's own (`IMG_1.png`), or the photo's with a second suffix, as
+/// COLMAP wants it (`IMG_1.jpg.png`). Any image format will do, and upper and lower case are alike.
 struct MaskFiles {
   /// Folders of masks that are looked for inside the folder of photos.
   static let folderNames = ["masks", "mask", ".mask"]
@@ -17,7 +17,8 @@ struct MaskFiles {
   /// The masks by the name, without suffix, of what they belong to.
   private var masks: [String: URL] = [:]
 
-  /// `files` are those of the folder of photos, `maskFiles` those of a folder of masks, which come first.
+  /// `files` are those of the folder of photos, `maskFiles` those of a folder of masks, which come
+  /// first.
   init(files: [URL], maskFiles: [URL]) {
     let names = Set(files.flatMap(Self.names))
     for file in maskFiles {

@@ -15,7 +15,6 @@ final class SampleFolder: @unchecked Sendable {
   private var seen: Set<Int> = []
   private var isComplete = false
   private var refused: [RefusedPhoto] = []
-  private var hasMasks = false
 
   init<S: Sequence>(_ samples: S) where S.Element == PhotogrammetrySample {
     var iterator: S.Iterator?
@@ -40,9 +39,6 @@ final class SampleFolder: @unchecked Sendable {
         break
       }
       try write(sample, to: folder, onEvent)
-    }
-    if hasMasks {
-      onEvent(.warning("The samples' object masks are not used; the object is found by itself."))
     }
     guard !ids.isEmpty else {
       throw ProcessingError(
@@ -71,12 +67,33 @@ final class SampleFolder: @unchecked Sendable {
     }
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.name(ids.count)))
+    if let mask = sample.objectMask { try write(mask, of: sample, to: folder, onEvent) }
     ids.append(sample.id)
-    hasMasks = hasMasks || sample.objectMask != nil
+  }
+
+  /// Writes a mask beside its photo, where the pipeline looks for it, in the same orientation.
+  private func write(
+    _ mask: CVPixelBuffer, of sample: PhotogrammetrySample, to folder: URL,
+    _ onEvent: (PipelineEvent) -> Void
+  ) throws {
+    func refuse(_ reason: String) {
+      onEvent(
+        .warning("The object mask of sample \(sample.id) is not used: \(reason)."))
+    }
+    guard let image = mask.grayImage else { return refuse("it is not OneComponent8") }
+    guard (mask.width, mask.height) == (sample.image.width, sample.image.height) else {
+      return refuse("its size differs from the image's")
+    }
+    guard image.pixels.contains(where: { $0 > 0 }) else { return refuse("all of it is zero") }
+    let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
+    try Data(png).write(to: folder.appendingPathComponent(Self.maskName(ids.count)))
   }
 
   /// The file of the sample that came as number `index`.
   static func name(_ index: Int) -> String { "sample\(index).png" }
+
+  /// The file of that sample's mask.
+  static func maskName(_ index: Int) -> String { "sample\(index)_mask.png" }
 
   /// The refusal of a file as that of its sample.
   func translated(_ photo: RefusedPhoto) -> RefusedPhoto {

@@ -23,6 +23,17 @@ extension CVPixelBuffer {
     return RasterImage(width: width, height: height, channels: 3, pixels: pixels)
   }
 
+  /// The pixels as gray; nil for formats that aren't OneComponent8.
+  var grayImage: RasterImage? {
+    guard pixelFormat == kCVPixelFormatType_OneComponent8 else { return nil }
+    var pixels: [UInt8] = []
+    pixels.reserveCapacity(width * height)
+    for row in 0..<height {
+      pixels += storage.copy(row * bytesPerRow..<row * bytesPerRow + width)
+    }
+    return RasterImage(width: width, height: height, channels: 1, pixels: pixels)
+  }
+
   /// Creates a 32BGRA buffer from an RGB image.
   convenience init?(_ image: RasterImage) {
     guard image.channels == 3 else { return nil }

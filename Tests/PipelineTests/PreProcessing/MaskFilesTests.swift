@@ -16,7 +16,8 @@ import Testing
   @Test func masksBesidePhotosAreNoPhotos() {
     let files = MaskFiles(
       files: urls([
-        "A.JPG", "a_mask.png", "b.png", "b.mask.PNG", "c.tif", "c.tif.mask.tif", "d.jpg", "e_MASK.jpg",
+        "A.JPG", "a_mask.png", "b.png", "b.mask.PNG", "c.tif", "c.tif.mask.tif", "d.jpg",
+        "e_MASK.jpg",
         "notes_mask.txt", "masks.jpg",
       ]), maskFiles: [])
     #expect(
@@ -40,7 +41,8 @@ import Testing
     let files = MaskFiles(
       files: urls(["a.jpg", "b.jpg", "c.jpg", "d.jpg", "e.jpg", "e_mask.png"]),
       maskFiles: urls([
-        "m/a.jpg.png", "m/b.png", "m/c_mask.png", "m/d.jpg.mask.png", "m/e.png", "m/f.png", "m/readme.md",
+        "m/a.jpg.png", "m/b.png", "m/c_mask.png", "m/d.jpg.mask.png", "m/e.png", "m/f.png",
+        "m/readme.md",
       ]))
     #expect(
       pairs(files) == [

@@ -58,7 +58,8 @@ import Testing
     try folder.write(ImageCodec.encodePNG(mask(width: 320, height: 320)), as: "2_mask.png")
     try folder.write(ImageCodec.encodePNG(mask(value: 0)), as: "3_mask.png")
     try folder.write(Array("no image".utf8), as: "4_mask.png")
-    try folder.write(ImageCodec.encodeJPEG(mask(width: 800, height: 640), quality: 0.5), as: "5_mask.jpg")
+    try folder.write(
+      ImageCodec.encodeJPEG(mask(width: 800, height: 640), quality: 0.5), as: "5_mask.jpg")
     try folder.write(ImageCodec.encodePNG(mask()), as: "9_mask.png")
 
     let notes = StageNotes()

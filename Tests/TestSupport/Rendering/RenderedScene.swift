@@ -87,14 +87,18 @@ package struct RenderedScene: Sendable {
     }
   }
 
-  /// Where photo `index` shows the object: gray, 255 there and 0 beside it.
-  package func mask(_ index: Int) -> RasterImage {
+  /// Where photo `index` shows the object, of it the points for which `isMarked` says so: gray, 255
+  /// there and 0 beside it.
+  package func mask(
+    _ index: Int, isMarked: (SIMD3<Float>) -> Bool = { _ in true }
+  ) -> RasterImage {
     var mask = RasterImage(width: camera.width, height: camera.height, channels: 1)
     for pixel in mask.pixels.indices {
       let place = SIMD2(Double(pixel % camera.width), Double(pixel / camera.width)) + 0.5
       let ray = ray(through: place, of: index)
       guard let hit = caster.hit(from: ray.origin, along: ray.direction) else { continue }
-      if parts[hit.triangle].surface == 0 { mask.pixels[pixel] = 255 }
+      let point = ray.origin + ray.direction * hit.distance
+      if parts[hit.triangle].surface == 0, isMarked(point) { mask.pixels[pixel] = 255 }
     }
     return mask
   }

@@ -1,0 +1,111 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+/// Cloud, surface and texture of photos with masks. These leave the lower part of a statue out, which
+/// nothing but masks can tell from the upper one.
+@Suite(.serialized) struct MaskedModelTests {
+  private static let limit: Float = 0.1
+
+  private struct Masked {
+    var scene: RenderedScene
+    var photos: [RasterImage]
+    var masks: [RasterImage?]
+
+    init() throws {
+      scene = RenderedScene.statue(photoCount: 10, upperCount: 4, width: 320, height: 240)
+      scene.samplesPerSide = 1
+      photos = try scene.photos(KernelControl(threadCount: 2))
+      masks = scene.poses.indices.map { [scene] index in
+        scene.mask(index) { $0.y > MaskedModelTests.limit }
+      }
+      // One photo goes without, and one has a fault.
+      masks[3] = nil
+      masks[7]?.pixels = [UInt8](repeating: 255, count: 320 * 240)
+    }
+
+    func cloud(threads: Int = 2, isMasked: Bool = true, notes: StageNotes = StageNotes()) throws
+      -> PointCloud
+    {
+      try PointCloudGeneration(options: .init(maximumPixelsPerView: 320 * 240)).run(
+        scene.reconstruction(), images: ImageStore(images: photos, masks: isMasked ? masks : []),
+        StageContext(control: KernelControl(threadCount: threads), notes: notes))
+    }
+  }
+
+  @Test func modelIsWhatMasksKeep() throws {
+    let masked = try Masked()
+    let (scene, limit) = (masked.scene, Self.limit)
+    let cloud = try masked.cloud()
+    let whole = try masked.cloud(isMasked: false)
+    #expect(whole.positions.contains { $0.y < 0.3 * limit })
+    let above = whole.positions.count { $0.y > limit && ($0 - [0, $0.y, 0]).length < 0.12 }
+    #expect(cloud.count > above / 2)
+    // A pixel is 1.6 mm wide, and masks are a pixel too wide.
+    #expect(cloud.positions.allSatisfy { $0.y > limit - 0.008 })
+
+    let reconstruction = scene.reconstruction()
+    let images = ImageStore(images: masked.photos, masks: masked.masks)
+    let silhouettes = try #require(try Silhouettes(reconstruction, images: images))
+    #expect(silhouettes.isInside([0, 0.2, 0]) && !silhouettes.isInside([0, 0.05, 0]))
+    #expect(!silhouettes.isInside([0.25, 0.2, 0]))
+    let mesh = try MeshGeneration()
+      .run(cloud, reconstruction, silhouettes: silhouettes, StageContext())
+    let bounds = try #require(mesh.bounds)
+    #expect(bounds.min.y > limit - 0.015 && bounds.min.y < limit + 0.01)
+    #expect(bounds.max.y > 0.24)
+
+    // Only what is beside the masks has this colour.
+    var photos = masked.photos
+    for (index, mask) in masked.masks.enumerated() {
+      for pixel in 0..<320 * 240 where (mask?.pixels[pixel] ?? 0) == 0 {
+        photos[index].pixels.replaceSubrange(3 * pixel..<3 * pixel + 3, with: [255, 0, 255])
+      }
+    }
+    func strayTexels(_ masks: [RasterImage?]) throws -> Int {
+      let model = try TextureMapping(options: .init(textureSide: 512, maps: [.diffuseColor])).run(
+        mesh, dense: mesh, reconstruction: reconstruction,
+        images: ImageStore(images: photos, masks: masks), StageContext())
+      let texture = try #require(model.atlases[0].maps[.diffuseColor])
+      return stride(from: 0, to: texture.pixels.count, by: 3).count {
+        Int(texture.pixels[$0]) - Int(texture.pixels[$0 + 1]) > 120
+          && texture.pixels[$0 + 2] > 180
+      }
+    }
+    let black = RasterImage(width: 320, height: 240, channels: 1)
+    let masks = masked.masks.map { $0 ?? black }
+    #expect(try strayTexels(masks) == 0)
+    #expect(try strayTexels([]) > 0)
+  }
+
+  @Test func threadsChangeNothing() throws {
+    let masked = try Masked()
+    let notes = StageNotes()
+    let (one, two) = (try masked.cloud(threads: 1, notes: notes), try masked.cloud(threads: 2))
+    #expect(one.positions == two.positions && one.photoIndices == two.photoIndices)
+    #expect(notes.counts["pointsOutsideMasks"] != nil)
+  }
+
+  @Test func undersidesAreClosedWhereNoPhotoShowsThem() {
+    var ball = PointCloud()
+    for index in 0..<4000 {
+      let y = 1 - 2 * (Float(index) + 0.5) / 4000
+      let angle = Float(index) * 2.399963
+      let r = max(0, 1 - y * y).squareRoot()
+      let normal = SIMD3<Float>(r * cos(angle), y, r * sin(angle))
+      ball.positions.append(normal)
+      ball.normals.append(normal)
+      ball.footprints.append(0.02)
+      ball.photoOffsets.append(0)
+    }
+    #expect(StandingPlane(under: ball, up: .cameras) == nil)
+    let upper = ball.filtered(by: ball.positions.map { $0.y > -0.5 })
+    let plane = StandingPlane(under: upper, up: .cameras)
+    #expect(plane.map { abs($0.offset + 0.5) < 0.02 } == true)
+    #expect(StandingPlane(under: upper, up: .unknown) == nil)
+  }
+}
