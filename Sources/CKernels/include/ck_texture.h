@@ -46,7 +46,7 @@ typedef struct {
   /// the camera or the surface would take that thing's colour.
   float clearance;
   /// 1, or 0 where the surface ends within the margin and something far behind it, or nothing,
-  /// begins: the same error would take the background's colour.
+  /// begins, or where the mask ends: the same error would take the background's colour.
   float interior;
   /// Mean colour, 0…255.
   float color[3];

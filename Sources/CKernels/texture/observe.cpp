@@ -162,11 +162,20 @@ class Observer {
            c.pixel.y <= static_cast<float>(view_.height) - margin;
   }
 
-  /// Whether a corner or the middle lies where the mask says that the surface isn't seen.
+  /// Whether a corner or the middle would take colour from where the mask says that the surface
+  /// isn't seen: colours are interpolated between four pixels.
   bool is_masked(const std::array<Corner, 3>& c) const {
     if (!mask_) return false;
     const Vec2 middle = (c[0].pixel + c[1].pixel + c[2].pixel) * (1.0f / 3);
     for (const Vec2 p : {c[0].pixel, c[1].pixel, c[2].pixel, middle}) {
+      if (is_masked_around(p, 0.5f)) return true;
+    }
+    return false;
+  }
+
+  bool is_masked_around(Vec2 pixel, float reach) const {
+    for (const Vec2 way : {Vec2{-1, -1}, Vec2{1, -1}, Vec2{-1, 1}, Vec2{1, 1}}) {
+      const Vec2 p = pixel + way * reach;
       if (mask_[index(static_cast<int>(p.x), static_cast<int>(p.y))] < 128) return true;
     }
     return false;
@@ -194,6 +203,7 @@ class Observer {
       const size_t place = depths_.at(c.pixel);
       if (depths_.nearest[place] < c.depth - tolerance) result->clearance = 0;
       if (depths_.farthest[place] > c.depth + tolerance) result->interior = 0;
+      if (mask_ && is_masked_around(c.pixel, options_.margin)) result->interior = 0;
     }
   }
 

@@ -70,7 +70,10 @@ package struct ImageAlignment: Sendable {
     let refined = try timed("refinementSeconds", context) {
       try refine(mapped, features, calibrated, images, context.part(from: 0.87, to: 0.98))
     }
-    let reconstruction = WorldFraming(options.framing).run(refined, context.part(from: 0.98, to: 1))
+    var framing = options.framing
+    let masks = images.hasMasks ? photos.count { $0.mask != nil } : 0
+    framing.findsSupport = framing.findsSupport && 2 * masks < photos.count
+    let reconstruction = WorldFraming(framing).run(refined, context.part(from: 0.98, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction

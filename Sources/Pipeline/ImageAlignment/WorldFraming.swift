@@ -24,6 +24,8 @@ package struct WorldFraming: Sendable {
     package var minimumPlaneShare = 0.03
     /// Largest angle in degrees between the support plane's normal and the cameras' mean up.
     package var planeTiltDegrees = 30.0
+    /// Whether there may be points of the support; where masks leave them out, a plane is of the object.
+    package var findsSupport = true
     package var seed: UInt64 = 1
 
     package init() {}
@@ -44,7 +46,9 @@ package struct WorldFraming: Sendable {
     let cameraUp = CameraUp(reconstruction).direction
     var up = cameraUp
     frame.up = .cameras
-    let plane = SupportPlane(object, centers: centers, up: cameraUp, options)
+    let plane =
+      options.findsSupport
+      ? SupportPlane(object, centers: centers, up: cameraUp, options) : nil
     if let plane { (up, frame.up) = (plane.normal, .supportPlane) }
     let gps = GPSFit(reconstruction, up: up, options)
     if let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }

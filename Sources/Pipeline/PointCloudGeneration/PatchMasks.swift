@@ -29,9 +29,10 @@ struct PatchMasks: Sendable {
         view.photo, of: reconstruction, maximumPixels: maximumPixels)
     else { return }
     let isReduced = map.view.width < mask.width
-    // A pixel of half the resolution stays for the sake of any of its four.
+    // Pixels on the rim have some of the background's colour; at half the resolution they stay, for
+    // the sake of the best of their four.
     try map.removePatches(
       outside: mask.resized(width: map.view.width, height: map.view.height),
-      least: isReduced ? 32 : 128)
+      least: isReduced ? 64 : 192)
   }
 }
