@@ -9,6 +9,8 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     package var name: String
     /// Of the file's bytes.
     package var contentHash: String
+    /// What the run took the object from; nil where it used no mask.
+    package var mask: PhotoMask?
   }
 
   /// Changes when a program that knows the one can't use the other.
@@ -35,7 +37,8 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     photos = reconstruction.registered.map { id in
       PhotoFile(
         name: ingested.photos[id.index].name,
-        contentHash: Self.text(ingested.contentHashes[id.index]))
+        contentHash: Self.text(ingested.contentHashes[id.index]),
+        mask: ingested.photos[id.index].mask)
     }
     self.viewPixels = viewPixels
     processingPixels = ingested.processingPixels

@@ -27,7 +27,7 @@ import Testing
     var scene = RenderedScene.statue(photoCount: 20, upperCount: 0, width: 480, height: 360)
     scene.samplesPerSide = 1
     let control = KernelControl(threadCount: 2)
-    let turntable = try Turntable(scene, control)
+    let turntable = try TurntablePhotos(scene, control)
     let folder = try TemporaryFolder()
     try folder.write(turntable.photos, focalLength: scene.camera.focalLength.x)
     for (index, mask) in turntable.masks.enumerated() {

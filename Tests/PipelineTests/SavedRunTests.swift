@@ -19,7 +19,8 @@ private struct FinishedRun {
   var photos: URL { folder.appendingPathComponent("photos", isDirectory: true) }
   var checkpoint: URL { folder.appendingPathComponent("work", isDirectory: true) }
 
-  init() throws {
+  /// `mask` is that of the first photo.
+  init(mask: RasterImage? = nil) throws {
     temporary = try TemporaryFolder()
     let scene = SphereScene(viewCount: 9, imageSize: 320) { p in
       let stripes = sin(17 * p.x) + sin(23 * p.y + 5 * p.z)
@@ -29,6 +30,7 @@ private struct FinishedRun {
       try temporary.write(
         try ImageCodec.encodeJPEG(image, quality: 0.95), as: "photos/p\(index).jpg")
     }
+    if let mask { try temporary.write(ImageCodec.encodePNG(mask), as: "photos/masks/p0.png") }
     ingested = try PhotoIngestion().run(
       folder: temporary.url.appendingPathComponent("photos"), StageContext())
     var reconstruction = scene.reconstruction
@@ -97,6 +99,31 @@ private struct FinishedRun {
   ) throws -> Data {
     try pipeline.writeModel(specification, to: url)
     return try Data(contentsOf: url)
+  }
+
+  @Test func masksAreThoseOfTheRun() throws {
+    var mask = RasterImage(width: 320, height: 320, channels: 1)
+    mask.pixels.replaceSubrange(0..<6400, with: [UInt8](repeating: 255, count: 6400))
+    let run = try FinishedRun(mask: mask)
+    let used = try #require(run.ingested.photos[0].mask)
+    let moved = run.folder.appendingPathComponent("moved", isDirectory: true)
+    try FileManager.default.copyItem(at: run.photos, to: moved)
+    // Masks that came later play no part.
+    try run.temporary.write(ImageCodec.encodePNG(mask), as: "photos/masks/p1.png")
+    for folder in [run.photos, moved] {
+      let photos = try SavedPhotos().run(run.saved(photos: folder), StageContext()).photos
+      #expect(photos.map { $0.mask != nil } == [true] + [Bool](repeating: false, count: 7))
+      #expect(photos[0].mask?.orientation == used.orientation)
+      #expect(
+        photos[0].mask?.file?.standardizedFileURL.path
+          == folder.appendingPathComponent("masks/p0.png").standardizedFileURL.path)
+      #expect(try ImageStore(photos: photos).mask(ID(0)) == mask)
+    }
+    mask.pixels[0] = 0
+    try run.temporary.write(ImageCodec.encodePNG(mask), as: "photos/masks/p0.png")
+    #expect(throws: SavedRunError.changedPhotos(folder: run.photos.path, names: ["p0.png"])) {
+      try SavedPhotos().run(run.saved(photos: run.photos), StageContext())
+    }
   }
 
   @Test func theModelIsTheOneThatTheRunMakes() throws {

@@ -11,6 +11,7 @@ struct SavedPhotos: Sendable {
     // All were accepted once, among others that they were compared with.
     (options.blur.minimumShareOfMedian, options.blur.hopeless) = (0, 0)
     (options.duplicates.maximumBlockDifference, options.maximumPhotos) = (-1, .max)
+    options.inspection.usesMasks = false
     let names = saved.record.photos.map(\.name)
     var result = try PhotoIngestion(options)
       .run(files: names.map { saved.photoFolder.appendingPathComponent($0) }, context)
@@ -22,11 +23,39 @@ struct SavedPhotos: Sendable {
       throw SavedRunError.changedPhotos(folder: saved.photoFolder.path, names: changed)
     }
     result.processingPixels = saved.record.processingPixels
+    try addMasks(saved, to: &result.photos)
     return result
+  }
+
+  /// Gives the photos the masks that the run used.
+  private func addMasks(_ saved: SavedRun, to photos: inout [Photo]) throws {
+    var changed: [String] = []
+    for (index, entry) in saved.record.photos.enumerated() {
+      guard var mask = entry.mask else { continue }
+      if let file = mask.file {
+        let moved = saved.moved(file)
+        let bytes = try? ImageCodec.contents(of: moved)
+        if bytes.map(PhotoInspection.hash) != mask.contentHash {
+          changed.append(moved.lastPathComponent)
+        }
+        mask.file = moved
+      }
+      photos[index].mask = mask
+    }
+    guard changed.isEmpty else {
+      throw SavedRunError.changedPhotos(folder: saved.photoFolder.path, names: changed)
+    }
   }
 }
 
 extension SavedRun {
+  /// Where a file of the run is now; one inside the folder of photos has moved with it.
+  fileprivate func moved(_ file: URL) -> URL {
+    let (path, folder) = (file.standardizedFileURL.path, record.photoFolder + "/")
+    guard path.hasPrefix(folder) else { return file }
+    return photoFolder.appendingPathComponent(String(path.dropFirst(folder.count)))
+  }
+
   /// The reconstruction of the photos that were read again.
   func reconstruction(of photos: IngestedPhotos) -> Reconstruction {
     var result = reconstruction

@@ -88,7 +88,7 @@
       configuration.isHighSensitivity = alignment.featureSensitivity == .high
       configuration.mappingMethod = mapping
       configuration.isObjectMaskingEnabled = !noObjectMasking
-      configuration.maskFolder = try engine.runArguments.masking.folder
+      configuration.maskFolder = try engine.masking.folder
       configuration.checkpointDirectory = target
       configuration.knownDistances = try engine.knownDistances(photos: photos)
       if let threads = engine.threads { configuration.threadCount = threads }

@@ -98,6 +98,8 @@
     @Flag(name: .long, help: "Ignore the photos' masks; see 'align --help' for these.")
     var noObjectMasking = false
 
+    @OptionGroup var masking: MaskArguments
+
     @OptionGroup var arguments: RunArguments
 
     @OptionGroup var logging: LoggingOptions
@@ -118,7 +120,7 @@
       var configuration = PipelineConfiguration()
       configuration.checkpointDirectory = target
       configuration.isObjectMaskingEnabled = !noObjectMasking
-      configuration.maskFolder = try arguments.masking.folder
+      configuration.maskFolder = try masking.folder
       if let threads = arguments.threads { configuration.threadCount = threads }
       without.forEach { $0.apply(to: &configuration.pointCloudGeneration) }
       let flag = CancellationFlag()

@@ -22,8 +22,6 @@ import RealityKit
         valueName: "count"))
     var threads: Int?
 
-    @OptionGroup var masking: MaskArguments
-
     func validate() throws {
       if let threads, threads < 1 || threads > 1024 {
         throw ValidationError("--threads must be from 1 to 1024.")
@@ -33,7 +31,6 @@ import RealityKit
     /// Checks what can be checked before the work begins.
     func checkOutputs() throws {
       if let report { try ModelOutput.checkWritable(URL(fileURLWithPath: report)) }
-      _ = try masking.folder
     }
 
     /// Writes the report into the checkpoint directory, and where it was asked for besides.
@@ -132,6 +129,8 @@ import RealityKit
 
       """
 
+    @OptionGroup var masking: MaskArguments
+
     @OptionGroup var runArguments: RunArguments
 
     @Option(
@@ -171,7 +170,7 @@ import RealityKit
       if let threads { session.engineOptions.threadCount = threads }
       session.engineOptions.knownDistances = try knownDistances(photos: folder)
       session.engineOptions.additionalFileFormats = Set(engineModelFiles)
-      session.engineOptions.maskFolder = try runArguments.masking.folder
+      session.engineOptions.maskFolder = try masking.folder
     }
 
     /// The run's report as JSON, where there is one.

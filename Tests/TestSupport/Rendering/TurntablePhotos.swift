@@ -3,7 +3,7 @@ import SceneModel
 
 /// Photos of an object that turns before a camera that stands still: all but the object is the same
 /// in each of them.
-package struct Turntable: Sendable {
+package struct TurntablePhotos: Sendable {
   package let photos: [RasterImage]
   /// Where they show the object.
   package let masks: [RasterImage]
