@@ -123,9 +123,9 @@ import RealityKit
             in the folder masks/ beside it, or in that of --masks: one of these,
             IMG_1.png or IMG_1.jpg.png;
             or the alpha channel of a photo in PNG, TIFF or WebP.
-        Masks of another size are scaled. Photos without a mask are used whole. Where
-        masks leave too little to align the photos by, their surroundings help, if the
-        object stood still.
+        Masks of another size are scaled. Photos without a mask are used whole.
+        Where masks leave too little to align the photos by, what is around helps,
+        if the object stood still.
 
       """
 
