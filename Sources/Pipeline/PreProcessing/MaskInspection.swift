@@ -31,7 +31,7 @@ struct MaskInspection: Sendable {
   /// rounding.
   static let aspectTolerance = 0.005
 
-  /// The mask in a file of its own; throws `RefusedMask`.
+  /// The mask in a file of its own; throws where it can't be used.
   func file(_ url: URL, of photo: Stored) throws(MaskFault) -> Found {
     let image: RasterImage
     let bytes: [UInt8]
@@ -62,6 +62,7 @@ struct MaskInspection: Sendable {
   }
 
   /// The mask that the alpha channel of a photo is; nil without one, or where nothing is transparent.
+  /// Throws where it can't be used.
   func alpha(_ bytes: [UInt8], of photo: Stored) throws(MaskFault) -> Found? {
     let image: RasterImage?
     do throws(ImageError) {

@@ -14,7 +14,7 @@ package struct IngestedPhotos: Sendable {
   package var files: [URL]
   /// Masks that are not used, in the order of the files; their photos are.
   package var refusedMasks: [RefusedMask]
-  /// FNV-1a of each photo's file, by photo id.
+  /// XXH64 of each photo's file, by photo id.
   package var contentHashes: [UInt64]
   /// Most pixels of a photo that the memory budget lets stages work on; give it to `ImageStore`.
   package var processingPixels: Int

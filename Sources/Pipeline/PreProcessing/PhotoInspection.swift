@@ -10,7 +10,7 @@ package struct InspectedPhoto: Sendable {
   package var width: Int
   package var height: Int
   package var metadata: PhotoMetadata
-  /// FNV-1a of the file's bytes.
+  /// XXH64 of the file's bytes.
   package var contentHash: UInt64
   /// See `RasterImage.sharpness()`.
   package var sharpness: Double
@@ -85,10 +85,7 @@ package struct PhotoInspection: Sendable {
     }
   }
 
-  /// FNV-1a, 64 bits.
-  static func hash(_ bytes: [UInt8]) -> UInt64 {
-    bytes.reduce(0xCBF2_9CE4_8422_2325) { ($0 ^ UInt64($1)) &* 0x0000_0100_0000_01B3 }
-  }
+  static func hash(_ bytes: [UInt8]) -> UInt64 { bytes.withUnsafeBytes { XXHash64.hash($0) } }
 }
 
 extension InspectedPhoto {

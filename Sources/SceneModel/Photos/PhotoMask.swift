@@ -6,7 +6,7 @@ package struct PhotoMask: Hashable, Codable, Sendable {
   package var file: URL?
   /// EXIF orientation 1…8 that turns the stored mask as the upright photo is.
   package var orientation: Int
-  /// FNV-1a of the mask file's bytes; 0 for an alpha channel.
+  /// XXH64 of the mask file's bytes; 0 for an alpha channel.
   package var contentHash: UInt64
   /// Share of the photo's pixels that show the object, above 0 and up to 1.
   package var coverage: Double
