@@ -6,6 +6,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var isObjectMaskingEnabled: Bool = true
   /// A folder with the photos' masks; nil looks inside the folder of photos.
   package var maskFolder: URL?
+  /// Close what no photo shows of the object, its underside for instance.
+  package var closesObject: Bool = true
   /// The photos are in the order of capture, and neighbours overlap.
   package var isSequential: Bool = false
   /// Look harder for features on objects of low texture.

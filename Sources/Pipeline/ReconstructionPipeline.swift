@@ -191,8 +191,9 @@ package final class ReconstructionPipeline {
     let reconstruction = try align()
     let cloud = try densify(for: specification)
     let result = try run(.meshGeneration) { context in
-      var options = MeshGeneration.Options()
+      var options = MeshGeneration.Options(viewPixels: finestViewPixels)
       options.isolatesObject = configuration.isObjectMaskingEnabled
+      options.closesObject = configuration.closesObject
       let silhouettes = try Silhouettes(reconstruction, images: images)
       return try MeshGeneration(options)
         .run(cloud, reconstruction, silhouettes: silhouettes, context)

@@ -57,40 +57,24 @@ ck_status ck_nearest_points(const float* points, size_t point_stride, size_t poi
                             int32_t neighbours, double maximum_distance, const ck_control* control,
                             int32_t* indices, float* distances);
 
-/// Counts for every triangle the photos that see a point behind it, which it would hide.
+/// A box of cubic cells, axis-aligned; x runs fastest.
+typedef struct {
+  /// The corner with the least coordinates.
+  double origin[3];
+  double cell_size;
+  /// Cells along x, y and z, at most 4096 each.
+  int32_t size[3];
+} ck_free_space_grid;
+
+/// Counts for every cell the photos that look through it at a point behind it, up to 255.
 ///
 /// `photo_offsets` (`point_count + 1`) and `photos` name the photos that see each point, `centers`
-/// holds three floats a photo. A ray ends `clearances[point]` before its point. `counts` receives
-/// one value a triangle.
-ck_status ck_seen_through(const float* positions, size_t position_stride, size_t position_count,
-                          const uint32_t* triangles, size_t triangle_count, const float* points,
-                          size_t point_stride, const float* clearances, size_t point_count,
-                          const uint32_t* photo_offsets, const uint16_t* photos,
-                          const float* centers, size_t photo_count, const ck_control* control,
-                          uint16_t* counts);
-
-/// A registered photo: pixel (x, y, 1) ~ projection · (world, 1).
-typedef struct {
-  /// Three rows of four.
-  float projection[12];
-  float center[3];
-  float width;
-  float height;
-} ck_posed_photo;
-
-/// Counts for every point of a surface the photos that have it in their frame, face to face and
-/// not hidden by the mesh.
-///
-/// A photo faces a point when the direction to its camera and the point's unit normal have at least
-/// `minimum_cosine`. Rays start `clearance` off the surface. `points` and `normals` are three
-/// floats every `point_stride` bytes.
-ck_status ck_count_viewing_photos(const float* positions, size_t position_stride,
-                                  size_t position_count, const uint32_t* triangles,
-                                  size_t triangle_count, const float* points, const float* normals,
-                                  size_t point_stride, size_t point_count,
-                                  const ck_posed_photo* photos, size_t photo_count,
-                                  float minimum_cosine, float clearance, const ck_control* control,
-                                  uint16_t* counts);
+/// holds three floats a photo. A ray ends `clearances[point]` before its point. Points and centres
+/// may lie outside the grid.
+ck_status ck_free_space(const ck_free_space_grid* grid, const float* points, size_t point_stride,
+                        const float* clearances, size_t point_count, const uint32_t* photo_offsets,
+                        const uint16_t* photos, const float* centers, size_t photo_count,
+                        const ck_control* control, uint8_t* counts);
 
 #ifdef __cplusplus
 }

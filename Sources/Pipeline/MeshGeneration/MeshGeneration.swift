@@ -1,19 +1,27 @@
+import Foundation
 import Kernels
 import SceneModel
 
 /// Makes the surface of the object, or of the whole scene, from the dense cloud.
 ///
-/// Isolate, average, close the base, Poisson, trim, clean: one step a file.
+/// Isolate, average, Poisson, trim and close, clean: one step a file.
 package struct MeshGeneration {
   package struct Options: Hashable, Codable, Sendable {
     /// Keep the object that the photos look at and remove its support and background.
     package var isolatesObject = true
+    /// Close what no photo shows of an isolated object; otherwise large gaps stay open.
+    package var closesObject = true
     /// Levels of the surface's octree at most; 9 resolves 1/460, 10 1/930 of the object's size.
     package var maximumDepth = 9
     /// Share of the photos with masks from which on these tell the object from its surroundings.
     package var sufficientMaskShare = 0.5
 
     package init() {}
+
+    /// For a cloud from views of so many pixels: twice as fine for four times as many.
+    package init(viewPixels: Int) {
+      maximumDepth = min(12, Int((9 + log2(Double(max(1, viewPixels)) / 500_000) / 2).rounded()))
+    }
   }
 
   package var options: Options
@@ -35,26 +43,16 @@ package struct MeshGeneration {
       cloud.filtered(by: selection.isKept), context.part(from: 0.15, to: 0.2))
     averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.2, to: 0.25))
     context.notes.count("samples", Double(averaged.cloud.count))
-    var base = BaseClosing.Result()
-    if let support = selection.support {
-      base = BaseClosing().run(
-        object: averaged.cloud, scene: cloud.positions, support: support,
-        cell: averaged.voxelSize)
-      try averaged.cloud.append(
-        base: base.points, normal: -SIMD3<Float>(support.normal), context.control)
-      context.notes.count("basePoints", Double(base.points.count))
-    }
     var poisson = PoissonSurface()
     poisson.options.maximumDepth = options.maximumDepth
     let closed = try poisson.run(
       averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.25, to: 0.8))
     var trimming = SurfaceTrimming()
-    trimming.options.closesUnseen = selection.isObject
+    trimming.options.closing.closesLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
       closed, samples: averaged.cloud, scene: cloud, spacing: averaged.voxelSize,
-      isBase: { point in
-        selection.support.map { $0.height(of: SIMD3<Double>(point)) < base.height } ?? false
-      }, silhouettes: silhouettes, reconstruction, context.part(from: 0.8, to: 0.95))
+      support: selection.support, silhouettes: silhouettes, reconstruction,
+      context.part(from: 0.8, to: 0.95))
     let mesh = try MeshCleaning().run(
       trimmed, samples: averaged.cloud, context.part(from: 0.95, to: 1))
     context.notes.count("triangles", Double(mesh.triangles.count))
@@ -108,31 +106,11 @@ package struct MeshGeneration {
         let kept = result.isKept.filter { $0 }.count
         context.notes.count("objectPoints", Double(kept))
         context.notes.count("removedPoints", Double(cloud.count - kept))
-        return Selection(
-          isKept: result.isKept, isObject: true, support: result.support)
+        return Selection(isKept: result.isKept, isObject: true, support: result.support)
       }
     }
     let isKept = try SceneTrimming().run(cloud, reconstruction, context)
     context.notes.count("removedPoints", Double(isKept.filter { !$0 }.count))
     return Selection(isKept: isKept, isObject: false, support: nil)
-  }
-}
-
-extension PointCloud {
-  /// Appends points that close the base, in the colours of the points nearest to them.
-  mutating func append(
-    base: [SIMD3<Float>], normal: SIMD3<Float>, _ control: KernelControl
-  ) throws {
-    guard !base.isEmpty, let footprint = medianFootprint else { return }
-    let nearest = try NearestPoints(of: base, in: positions, control)
-    let nearestColors = nearest.indices.map {
-      colors.indices.contains(Int($0)) ? colors[Int($0)] : .zero
-    }
-    positions += base
-    normals += base.map { _ in normal }
-    if !colors.isEmpty { colors += nearestColors }
-    consistency += base.map { _ in 0 }
-    footprints += base.map { _ in footprint }
-    photoOffsets += base.map { _ in UInt32(photoIndices.count) }
   }
 }

@@ -49,6 +49,6 @@ struct PoissonSurface {
   func depth(extent: Double, spacing: Double) -> Int {
     guard extent > 0, spacing > 0, (extent / spacing).isFinite else { return options.minimumDepth }
     let exact = log2(options.scale * extent / spacing)
-    return min(options.maximumDepth, max(options.minimumDepth, Int((exact + 0.4).rounded(.down))))
+    return max(options.minimumDepth, min(options.maximumDepth, Int((exact + 0.4).rounded(.down))))
   }
 }

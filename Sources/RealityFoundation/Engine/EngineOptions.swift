@@ -5,6 +5,8 @@ import Pipeline
 package struct EngineOptions: Equatable, Sendable {
   /// Threads of all stages. Results do not depend on it.
   package var threadCount = ProcessInfo.processInfo.activeProcessorCount
+  /// Close what no photo shows of an isolated object.
+  package var closesObject = true
   /// Distances in the scene that were measured; they give the scale. Photos are named by their files.
   package var knownDistances: [KnownDistance] = []
   /// A PNG file that shows the model from several sides; nil draws none.

@@ -86,6 +86,7 @@ extension PipelineConfiguration {
     knownDistances = options.knownDistances
     previewFile = options.previewFile
     maskFolder = options.maskFolder
+    closesObject = options.closesObject
     maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
     maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
     // The machine's memory and not what is free of it: runs must not differ.

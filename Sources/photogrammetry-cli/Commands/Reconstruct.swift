@@ -75,6 +75,8 @@ struct Reconstruct: AsyncParsableCommand {
   @Flag(name: .long, help: "Keep the surroundings instead of isolating the object; ignore masks.")
   var noObjectMasking = false
 
+  @OptionGroup var surface: SurfaceArguments
+
   @OptionGroup var engine: EngineArguments
 
   @Flag(name: .long, help: "Tell progress and results as JSON, an object a line, on stdout.")

@@ -48,6 +48,7 @@ struct ReconstructionJob {
     let session = try PhotogrammetrySession(input: input, configuration: configuration)
     try arguments.engine.configure(session, photos: input)
     try arguments.preview.configure(session)
+    arguments.surface.configure(session)
     // The session is safe to cancel from any thread.
     nonisolated(unsafe) let cancellable = session
     let interrupts = InterruptHandler { cancellable.cancel() }

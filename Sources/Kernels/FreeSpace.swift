@@ -1,0 +1,55 @@
+import CKernels
+import SceneModel
+
+/// How many photos look through each part of space at something behind it.
+package struct FreeSpace: Sendable {
+  private let grid: ck_free_space_grid
+  private let counts: [UInt8]
+
+  /// Follows the rays of all photos to the points of `cloud` that they see.
+  ///
+  /// `clearances` holds for each point how far before it a ray ends, `centers` the camera centre of
+  /// each photo in the world. Cells have a side of `cellSize`, or more where the box between `low`
+  /// and `high` would have more than `maximumCells` a side.
+  package init(
+    low: SIMD3<Float>, high: SIMD3<Float>, cellSize: Double, maximumCells: Int = 320,
+    cloud: PointCloud, clearances: [Float], centers: [SIMD3<Float>], _ control: KernelControl
+  ) throws {
+    guard clearances.count == cloud.count, cloud.photoOffsets.count == cloud.count + 1,
+      Int(cloud.photoOffsets.last ?? 0) <= cloud.photoIndices.count
+    else { throw KernelError.invalidArgument("the cloud's arrays do not fit each other") }
+    let extent = Double((high - low).max())
+    let side = max(cellSize, extent / Double(maximumCells))
+    guard side > 0, side.isFinite else {
+      throw KernelError.invalidArgument("the box of free space has no size")
+    }
+    let size = (0..<3).map { Int32((Double(high[$0] - low[$0]) / side).rounded(.down)) + 1 }
+    let grid = ck_free_space_grid(
+      origin: (Double(low.x), Double(low.y), Double(low.z)), cell_size: side,
+      size: (size[0], size[1], size[2]))
+    var counts = [UInt8](repeating: 0, count: size.reduce(1) { $0 * Int($1) })
+    let packedCenters = centers.flatMap { [$0.x, $0.y, $0.z] }
+    try withKernel(control) { control in
+      withUnsafePointer(to: grid) { grid in
+        cloud.positions.withUnsafeBytes { points in
+          ck_free_space(
+            grid, points.floats, MemoryLayout<SIMD3<Float>>.stride, clearances, clearances.count,
+            cloud.photoOffsets, cloud.photoIndices, packedCenters, centers.count, control, &counts)
+        }
+      }
+    }
+    (self.grid, self.counts) = (grid, counts)
+  }
+
+  /// The photos that look through the cell around a point, up to 255; 0 outside the box.
+  package func photos(at point: SIMD3<Float>) -> Int {
+    let (origin, size) = (grid.origin, grid.size)
+    let x = ((Double(point.x) - origin.0) / grid.cell_size).rounded(.down)
+    let y = ((Double(point.y) - origin.1) / grid.cell_size).rounded(.down)
+    let z = ((Double(point.z) - origin.2) / grid.cell_size).rounded(.down)
+    guard x >= 0, y >= 0, z >= 0, x < Double(size.0), y < Double(size.1), z < Double(size.2) else {
+      return 0
+    }
+    return Int(counts[(Int(z) * Int(size.1) + Int(y)) * Int(size.0) + Int(x)])
+  }
+}

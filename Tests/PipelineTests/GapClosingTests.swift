@@ -1,0 +1,97 @@
+import SceneModel
+import Testing
+
+@testable import Pipeline
+
+@Suite struct GapClosingTests {
+  /// A square of 40 × 40 cells with a dome on its middle, within `radius` of the centre.
+  func dome(radius: Float) -> (mesh: Mesh, isDome: [Bool]) {
+    var mesh = Mesh()
+    for y in 0...40 {
+      for x in 0...40 {
+        let (u, v) = (Float(x) - 20, Float(y) - 20)
+        mesh.positions.append([u, max(0, radius * radius - u * u - v * v).squareRoot(), v])
+      }
+    }
+    for y in UInt32(0)..<40 {
+      for x in UInt32(0)..<40 {
+        let i = 41 * y + x
+        mesh.triangles += [Triangle(i, i + 41, i + 1), Triangle(i + 1, i + 41, i + 42)]
+      }
+    }
+    let isDome = mesh.triangles.map { $0.vertices.contains { mesh.positions[$0].y > 0 } }
+    return (mesh, isDome)
+  }
+
+  @Test func largeGapBecomesFlat() {
+    let (mesh, isDome) = dome(radius: 10)
+    let closed = GapClosing().run(mesh, isRemoved: isDome) { _ in false }
+    #expect(closed.triangles == mesh.triangles)
+    #expect(closed.positions.allSatisfy { abs($0.y) < 1e-3 })
+    // The graph is that of a grid: its harmonic map is the identity.
+    for (position, before) in zip(closed.positions, mesh.positions) {
+      #expect(abs(position.x - before.x) < 0.02 && abs(position.z - before.z) < 0.02)
+    }
+  }
+
+  @Test func smallGapKeepsItsShape() {
+    let (mesh, isDome) = dome(radius: 10)
+    var closing = GapClosing()
+    closing.options.smallShare = 0.9
+    let closed = closing.run(mesh, isRemoved: isDome) { _ in false }
+    #expect(closed.positions == mesh.positions)
+    #expect(closed.triangles == mesh.triangles)
+  }
+
+  @Test func gapThatPhotosLookThroughStaysOpen() {
+    let (mesh, isDome) = dome(radius: 10)
+    let open = GapClosing().run(mesh, isRemoved: isDome) { $0.x > 0 }
+    #expect(open.triangles.count == isDome.count { !$0 })
+    // What was in the way of the dome is not in that of the membrane.
+    let closed = GapClosing().run(mesh, isRemoved: isDome) { $0.y > 1 }
+    #expect(closed.triangles == mesh.triangles)
+  }
+
+  @Test func largeGapOfASceneStaysOpen() {
+    let (mesh, isDome) = dome(radius: 10)
+    var closing = GapClosing()
+    closing.options.closesLarge = false
+    let open = closing.run(mesh, isRemoved: isDome) { _ in false }
+    #expect(open.triangles.count == isDome.count { !$0 })
+  }
+
+  @Test func whatHasNoRimGoes() {
+    let (mesh, isDome) = dome(radius: 10)
+    #expect(
+      GapClosing().run(mesh, isRemoved: isDome.map { _ in true }) { _ in false }.triangles.isEmpty)
+  }
+
+  @Test func gapWithABorderIsClosedWithALid() {
+    // What goes is a plate around the dome that ends somewhere: nothing but the lid can close it.
+    let (mesh, isDome) = dome(radius: 10)
+    let closed = GapClosing().run(mesh, isRemoved: isDome.map { !$0 }) { _ in false }
+    #expect(closed.triangles.count == mesh.triangles.count + 4 * 40)
+    var directed = Set<SIMD2<UInt32>>()
+    for t in closed.triangles {
+      for edge in [SIMD2(t.a, t.b), SIMD2(t.b, t.c), SIMD2(t.c, t.a)] {
+        #expect(directed.insert(edge).inserted)
+      }
+    }
+    #expect(directed.allSatisfy { directed.contains([$0.y, $0.x]) })
+    // The membrane hangs in the rim of the dome.
+    let rim = zip(mesh.positions, closed.positions).filter { $0 != $1 }.map(\.1)
+    #expect(rim.count > 1000)
+    #expect(rim.allSatisfy { abs($0.x) < 12 && abs($0.z) < 12 && abs($0.y) < 6 })
+  }
+
+  @Test func gapsThatMeetAtAVertexAreTwo() {
+    let (mesh, _) = dome(radius: 0)
+    let isRemoved = mesh.triangles.map { triangle in
+      let (a, b, c) = mesh.corners(of: triangle)
+      let p = (a + b + c) / 3
+      return abs(p.x) < 8 && abs(p.z) < 8 && p.x * p.z > 0
+    }
+    let closed = GapClosing().run(mesh, isRemoved: isRemoved) { $0.x > 0 }
+    #expect(closed.triangles.count == mesh.triangles.count - isRemoved.count { $0 } / 2)
+  }
+}
