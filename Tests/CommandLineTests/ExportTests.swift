@@ -72,6 +72,30 @@ import Testing
       ])
   }
 
+  @Test func customBoundsAreKept() throws {
+    try makeCheckpoint()
+    let run = try CommandProcess.run(
+      [
+        "export", "work", "m/", "-d", "custom", "--max-polygons", "500", "--texture-side", "1024",
+        "--maps", "color,normal", "--texture-format", "jpeg:0.6",
+      ], in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    let files = try FileManager.default.contentsOfDirectory(atPath: folder.path + "/m")
+    // Normals stay without loss.
+    #expect(files.filter { $0.hasSuffix(".jpg") }.count == 1, "\(files)")
+    #expect(files.filter { $0.hasSuffix(".png") }.count == 1, "\(files)")
+    let name = try #require(files.first { $0.hasSuffix(".obj") })
+    let lines = try String(contentsOfFile: folder.path + "/m/" + name, encoding: .utf8)
+      .split(separator: "\n")
+    let faces = lines.count { $0.hasPrefix("f ") }
+    #expect(faces > 400 && faces <= 500)
+    for file in files where file.hasSuffix(".jpg") || file.hasSuffix(".png") {
+      let texture = try ImageCodec.decode(
+        [UInt8](try Data(contentsOf: folder.appendingPathComponent("m/" + file))))
+      #expect(texture.width <= 1024 && texture.width == texture.height)
+    }
+  }
+
   @Test func whatIsNoFinishedRunEndsWithTwo() throws {
     try temporary.write([1], as: "empty/x")
     try temporary.write([1], as: "begun/sparse/images.txt")

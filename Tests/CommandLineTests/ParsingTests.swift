@@ -14,7 +14,7 @@ import Testing
     let reconstruct = try #require(command as? Reconstruct)
     #expect(reconstruct.inputFolder == "photos")
     #expect(reconstruct.output == "model.usdz")
-    #expect(reconstruct.detail == .medium)
+    #expect(reconstruct.detail.detail == .level(.medium))
     #expect(reconstruct.alignment.sampleOrdering == .sequential)
     #expect(reconstruct.alignment.featureSensitivity == .high)
     #expect(!reconstruct.noObjectMasking)
@@ -22,7 +22,7 @@ import Testing
 
   @Test func defaultsAreApples() throws {
     let reconstruct = try Reconstruct.parse(["a", "b.usdz"])
-    #expect(reconstruct.detail == .reduced)
+    #expect(reconstruct.detail.detail == .level(.reduced))
     #expect(reconstruct.alignment.sampleOrdering == .unordered)
     #expect(reconstruct.alignment.featureSensitivity == .normal)
     #expect(reconstruct.engine.threads == nil)
@@ -40,6 +40,30 @@ import Testing
     #expect(reconstruct.engine.report == "r.json")
     #expect(reconstruct.engine.threads == 2)
     #expect(reconstruct.noObjectMasking && reconstruct.json && reconstruct.logging.verbose)
+  }
+
+  @Test func customBounds() throws {
+    let custom = try Reconstruct.parse([
+      "a", "b.usdz", "-d", "custom", "--max-polygons", "12000", "--texture-side", "2048",
+      "--maps", "color,occlusion", "--texture-format", "jpeg:0.5",
+    ]).detail
+    #expect(custom.detail == .custom)
+    #expect(custom.specification.maximumPolygonCount == 12_000)
+    #expect(custom.specification.maximumTextureDimension == .twoK)
+    #expect(custom.specification.outputTextureMaps == [.diffuseColor, .ambientOcclusion])
+    #expect(custom.specification.textureFormat == .jpeg(compressionQuality: 0.5))
+    let plain = try Reconstruct.parse(["a", "b.usdz", "-d", "custom"]).detail
+    #expect(plain.specification == DetailArguments.Specification())
+  }
+
+  @Test(arguments: [
+    ["--max-polygons", "12000"], ["-d", "medium", "--texture-side", "2048"],
+    ["-d", "custom", "--texture-side", "2000"], ["-d", "custom", "--max-polygons", "0"],
+    ["-d", "custom", "--maps", "color,gloss"], ["-d", "custom", "--maps", ""],
+    ["-d", "custom", "--texture-format", "jpeg:2"], ["-d", "custom", "--texture-format", "exr"],
+  ])
+  func wrongCustomBoundsAreRefused(_ arguments: [String]) {
+    #expect(throws: (any Error).self) { try Reconstruct.parse(["a", "b.usdz"] + arguments) }
   }
 
   @Test(arguments: [

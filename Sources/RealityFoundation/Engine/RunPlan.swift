@@ -153,7 +153,7 @@ extension PhotogrammetrySession.Request {
 
 extension DetailSpecification {
   /// The budgets of a custom specification, with the resolution of the level next above.
-  init(_ custom: PhotogrammetrySession.Configuration.CustomDetailSpecification) {
+  package init(_ custom: PhotogrammetrySession.Configuration.CustomDetailSpecification) {
     let triangles = Int(clamping: custom.maximumPolygonCount)
     let levels = DetailLevel.allCases.map { DetailSpecification($0) }
     let next = levels.first { $0.maximumTriangles >= triangles - 1 } ?? DetailSpecification(.raw)

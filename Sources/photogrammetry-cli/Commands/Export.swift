@@ -4,6 +4,7 @@
   import Kernels
   import Logging
   import Pipeline
+  import RealityFoundation
 
   /// Makes another model of what a run left in its checkpoint directory.
   struct Export: ParsableCommand {
@@ -23,6 +24,7 @@
           photogrammetry-cli export work/ model/ -d medium --preview model.png
               As a folder with OBJ, MTL, USDA and textures, and a picture.
 
+        \(DetailArguments.help)
         A level above that of the run gets more triangles and texels, but no more detail of the \
         surface than the run found.
 
@@ -41,8 +43,7 @@
         "A file or folder for the model, as for 'reconstruct'.", valueName: "output"))
     var output: String
 
-    @Option(name: .shortAndLong, help: "How fine the model is; see 'reconstruct --help'.")
-    var detail = DetailArgument.reduced
+    @OptionGroup var detail: DetailArguments
 
     @Option(
       name: .long,
@@ -63,9 +64,7 @@
       var configuration = PipelineConfiguration()
       configuration.previewFile = try preview.file()
       if let threads = arguments.threads { configuration.threadCount = threads }
-      guard let level = DetailLevel(rawValue: detail.rawValue) else {
-        throw CommandFailure.usage("There is no detail level '\(detail.rawValue)'.")
-      }
+      let specification = detail.budgets
       let saved = try savedRun()
       let flag = CancellationFlag()
       let interrupts = InterruptHandler { flag.cancel() }
@@ -74,7 +73,7 @@
       let pipeline = ReconstructionPipeline(
         saved, configuration: configuration, flag: flag, onEvent: listener.take)
       let outcome = Result {
-        try pipeline.writeModel(DetailSpecification(level), to: target.url)
+        try pipeline.writeModel(specification, to: target.url)
       }
       listener.finish()
       try arguments.writeReport(of: pipeline)
@@ -107,5 +106,18 @@
       .init(.textureMapping, as: .textureMapping, share: 0.75),
       .init(.optimization, as: .optimization, share: 0.15),
     ]
+  }
+
+  extension DetailArguments {
+    fileprivate var budgets: DetailSpecification {
+      switch detail {
+      case .level(.preview): DetailSpecification(.preview)
+      case .level(.reduced): DetailSpecification(.reduced)
+      case .level(.medium): DetailSpecification(.medium)
+      case .level(.full): DetailSpecification(.full)
+      case .level(.raw): DetailSpecification(.raw)
+      case .custom: DetailSpecification(specification)
+      }
+    }
   }
 #endif

@@ -23,17 +23,13 @@ struct Reconstruct: AsyncParsableCommand {
             A picture of the model from eight sides besides.
         photogrammetry-cli photos/ model/ --poses poses.json --point-cloud points.ply
             A folder with OBJ, MTL, USDA and textures, and what else is known.
+        photogrammetry-cli photos/ shop.glb -d custom --max-polygons 20000 \\
+            --texture-side 1024 --maps color --texture-format jpeg:0.7
+            Bounds of your own, for a web shop.
         photogrammetry-cli facade/ facade.usdz --no-object-masking -o sequential
             A scene instead of an object, photographed from left to right.
 
-      DETAIL LEVELS (upper bounds; poor photos give less)
-        level     triangles    texture           maps
-        preview      25,000    1024 x 1024       colour, normal, occlusion
-        reduced      50,000    2048 x 2048       colour, normal, occlusion
-        medium      100,000    4096 x 4096       colour, normal, occlusion
-        full        250,000    8192 x 8192       and roughness, displacement
-        raw      30,000,000    8192 x 8192, 16   colour
-
+      \(DetailArguments.help)
       \(EngineArguments.outputHelp)
       \(EngineArguments.maskHelp)
       \(EngineArguments.scaleHelp)
@@ -50,8 +46,7 @@ struct Reconstruct: AsyncParsableCommand {
       valueName: "output"))
   var output: String
 
-  @Option(name: .shortAndLong, help: "How fine the model is; see the table above.")
-  var detail = DetailArgument.reduced
+  @OptionGroup var detail: DetailArguments
 
   @OptionGroup var alignment: AlignmentArguments
 
@@ -88,20 +83,5 @@ struct Reconstruct: AsyncParsableCommand {
     logging.bootstrap()
     let job = try ReconstructionJob(self)
     try await job.run(RunReporter(logging.style(json: json)))
-  }
-}
-
-/// The detail levels of the command line.
-enum DetailArgument: String, ExpressibleByArgument, CaseIterable {
-  case preview, reduced, medium, full, raw
-
-  var detail: PhotogrammetrySession.Request.Detail {
-    switch self {
-    case .preview: .preview
-    case .reduced: .reduced
-    case .medium: .medium
-    case .full: .full
-    case .raw: .raw
-    }
   }
 }

@@ -89,11 +89,12 @@ struct ReconstructionJob {
     configuration.sampleOrdering = arguments.alignment.sampleOrdering.ordering
     configuration.featureSensitivity = arguments.alignment.featureSensitivity.sensitivity
     configuration.checkpointDirectory = checkpointURL
+    configuration.customDetailSpecification = arguments.detail.specification
     return configuration
   }
 
   private var requests: [PhotogrammetrySession.Request] {
-    var requests = [Request.modelFile(url: output.url, detail: arguments.detail.detail)]
+    var requests = [Request.modelFile(url: output.url, detail: arguments.detail.detail.detail)]
     if posesURL != nil { requests.append(.poses) }
     if pointCloudURL != nil { requests.append(.pointCloud) }
     return requests
