@@ -20,7 +20,7 @@ struct GapClosing {
     /// The same for a membrane.
     var membraneFreeShare = 0.2
     /// What is lower than this share of the object's height above its support touched it.
-    var contactShare = 0.01
+    var contactShare = 0.02
     /// Iterations of the solver at most, for a membrane.
     var iterations = 400
 
