@@ -41,6 +41,9 @@ package struct FreeSpace: Sendable {
     (self.grid, self.counts) = (grid, counts)
   }
 
+  /// Side of the cells in world units.
+  package var cellSize: Double { grid.cell_size }
+
   /// The photos that look through the cell around a point, up to 255; 0 outside the box.
   package func photos(at point: SIMD3<Float>) -> Int {
     let (origin, size) = (grid.origin, grid.size)

@@ -53,7 +53,7 @@ import Testing
 
   @Test func ballIsRoundClosedAndFacesOut() throws {
     let (cloud, _) = ball()
-    let mesh = try PoissonSurface().run(cloud, spacing: 0.02, StageContext())
+    let mesh = try PoissonSurface().run(cloud, spacing: 0.02, StageContext()).mesh
     let errors = mesh.positions.map { abs($0.length - 0.5) }
     #expect((errors.max() ?? 1) < 0.005)
     #expect(openEdges(mesh) == 0)
@@ -103,7 +103,7 @@ import Testing
   @Test func largeGapIsClosedTaut() throws {
     // The upper third is missing.
     let (cloud, reconstruction) = ball { $0.y < 0.17 }
-    let balloon = try PoissonSurface().run(cloud, spacing: 0.02, StageContext())
+    let balloon = try PoissonSurface().run(cloud, spacing: 0.02, StageContext()).mesh
     let isBulge = { (p: SIMD3<Float>) in p.y > 0.28 }
     #expect(faces(balloon, where: isBulge) > 100)
     let closed = try trimmed(balloon, cloud, reconstruction)
@@ -126,7 +126,7 @@ import Testing
       scene.append(ground.cloud, index)
       scene.positions[scene.count - 1].y -= 0.4
     }
-    let ceiling = try PoissonSurface().run(pipe, spacing: 0.02, StageContext())
+    let ceiling = try PoissonSurface().run(pipe, spacing: 0.02, StageContext()).mesh
     let isCap = { (p: SIMD3<Float>) in p.x * p.x + p.z * p.z < 0.1 }
     #expect(faces(ceiling, where: isCap) > 100)
     let open = try SurfaceTrimming().run(

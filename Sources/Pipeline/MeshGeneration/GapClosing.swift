@@ -19,6 +19,9 @@ struct GapClosing {
     var smallFreeShare = 0.05
     /// The same for a membrane.
     var membraneFreeShare = 0.2
+    /// How far behind a gap it is seen whether photos look through it, in world units: a ray that
+    /// grazes the surface doesn't get there.
+    var depth: Float = 0
     /// What is lower than this share of the object's height above its support touched it.
     var contactShare = 0.02
     /// Iterations of the solver at most, for a membrane.
@@ -49,11 +52,17 @@ struct GapClosing {
       let share = mesh.extent(of: triangles).map { Double($0 / size) } ?? 1
       let isSmall = share < options.smallShare
       let isTiny = share < options.tinyShare && options.closesLarge
-      if isSmall, result.freeShare(of: triangles, isFree) < options.smallFreeShare {
+      if isSmall,
+        result.freeShare(of: triangles, depth: options.depth, isFree) < options.smallFreeShare
+      {
         for face in faces { isDropped[face] = false }
       } else if isSmall || options.closesLarge {
         tighten(triangles, of: &result, gaps.isRim, contact)
-        guard isTiny || result.freeShare(of: triangles, isFree) < options.membraneFreeShare else {
+        guard
+          isTiny
+            || result.freeShare(of: triangles, depth: options.depth, isFree)
+              < options.membraneFreeShare
+        else {
           continue
         }
         for face in faces { isDropped[face] = false }
@@ -274,13 +283,16 @@ extension Mesh {
   }
 
   /// The share of some faces' area that photos look through.
-  fileprivate func freeShare(of faces: [Triangle], _ isFree: (SIMD3<Float>) -> Bool) -> Double {
+  fileprivate func freeShare(
+    of faces: [Triangle], depth: Float, _ isFree: (SIMD3<Float>) -> Bool
+  ) -> Double {
     var (free, all) = (0.0, 0.0)
     for face in faces {
       let (a, b, c) = corners(of: face)
-      let area = Double((b - a).cross(c - a).length)
+      let normal = (b - a).cross(c - a)
+      let area = Double(normal.length)
       all += area
-      if isFree(center(of: face)) { free += area }
+      if isFree(center(of: face) - depth * normal.normalized) { free += area }
     }
     return all > 0 ? free / all : 0
   }

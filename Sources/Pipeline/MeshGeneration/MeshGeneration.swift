@@ -18,9 +18,10 @@ package struct MeshGeneration {
 
     package init() {}
 
-    /// For a cloud from views of so many pixels: twice as fine for four times as many.
+    /// For a cloud from views of so many pixels: beyond 0.5 MP twice as fine for four times as many.
     package init(viewPixels: Int) {
-      maximumDepth = min(12, Int((9 + log2(Double(max(1, viewPixels)) / 500_000) / 2).rounded()))
+      let finer = log2(Double(max(500_000, viewPixels)) / 500_000) / 2
+      maximumDepth = min(12, 9 + Int(finer.rounded()))
     }
   }
 
@@ -45,12 +46,13 @@ package struct MeshGeneration {
     context.notes.count("samples", Double(averaged.cloud.count))
     var poisson = PoissonSurface()
     poisson.options.maximumDepth = options.maximumDepth
-    let closed = try poisson.run(
+    let (closed, cell) = try poisson.run(
       averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.25, to: 0.8))
     var trimming = SurfaceTrimming()
     trimming.options.closing.closesLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
-      closed, samples: averaged.cloud, scene: cloud, spacing: averaged.voxelSize,
+      // Where cells are larger than usual the surface is as far from its samples.
+      closed, samples: averaged.cloud, scene: cloud, spacing: max(averaged.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.8, to: 0.95))
     let mesh = try MeshCleaning().run(

@@ -17,8 +17,11 @@ struct PoissonSurface {
 
   var options = Options()
 
-  /// `spacing` is the distance of the samples in world units.
-  func run(_ cloud: PointCloud, spacing: Double, _ context: StageContext) throws -> Mesh {
+  /// The surface and the side of its finest cells, in world units, as is `spacing`, the distance of
+  /// the samples.
+  func run(
+    _ cloud: PointCloud, spacing: Double, _ context: StageContext
+  ) throws -> (mesh: Mesh, cell: Double) {
     guard let bounds = Mesh(positions: cloud.positions).bounds, cloud.count >= 20,
       cloud.normals.count == cloud.count
     else {
@@ -26,7 +29,8 @@ struct PoissonSurface {
     }
     var solver = PoissonReconstruction()
     solver.scale = options.scale
-    let depth = depth(extent: Double((bounds.max - bounds.min).max()), spacing: spacing)
+    let extent = Double((bounds.max - bounds.min).max())
+    let depth = depth(extent: extent, spacing: spacing)
     var failure = ""
     // The solver gives up on rare inputs ("failed to close loop"); a coarser tree avoids them.
     for coarser in 0..<3 where depth - coarser >= 2 {
@@ -36,7 +40,7 @@ struct PoissonSurface {
           positions: cloud.positions, normals: cloud.normals, context.control)
         guard !surface.mesh.triangles.isEmpty else { continue }
         context.notes.count("poissonDepth", Double(solver.depth))
-        return surface.mesh
+        return (surface.mesh, options.scale * extent / exp2(Double(solver.depth)))
       } catch let error as KernelError {
         failure = " (\(error))"
       }

@@ -52,10 +52,11 @@ struct SurfaceTrimming {
     context.notes.count(
       "trimmedShare",
       Double(isRemoved.count { $0 }) / Double(max(1, mesh.triangles.count)))
-    return GapClosing(options: options.closing)
-      .run(mesh, isRemoved: isRemoved, support: support) { point in
-        isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
-      }
+    var closing = GapClosing(options: options.closing)
+    closing.options.depth = Float(freeSpace.cellSize)
+    return closing.run(mesh, isRemoved: isRemoved, support: support) { point in
+      isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
+    }
   }
 
   /// Each vertex's distance to the nearest sample, in units of that sample's spacing.
