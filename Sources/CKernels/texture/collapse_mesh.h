@@ -131,7 +131,8 @@ class CollapseMesh {
     return shared != 2 || around_a == faces_a || around_b == faces_b;
   }
 
-  /// Makes `gone` the same vertex as `kept`, where `can_join`; returns how many triangles that took.
+  /// Makes `gone` the same vertex as `kept`, where `can_join`; returns how many triangles that
+  /// took.
   size_t join(uint32_t kept, uint32_t gone) {
     std::array<uint32_t, 2> dead;
     size_t count = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -10,57 +11,74 @@ namespace ck::texture {
 /// An edge whose ends become one. It is out of date once an end's version has gone on.
 struct Collapse {
   uint32_t a, b;
-  uint32_t version;
+  uint32_t version : 31;
+  /// Whether they do so at an end or in the middle, as the place of least error is barred.
+  uint32_t is_fallback : 1;
 };
 
-/// Collapses by rising cost, those of nearly equal cost (within 1/128) in the order in which they
-/// came: a list for each exponent and the first bits of the mantissa, so that nothing is sorted.
+/// Collapses by rising cost, those of nearly equal cost (within 1/128) in no special order: a stack
+/// for each exponent and the first bits of the mantissa, so that nothing is sorted. Stacks are
+/// lists of blocks, which memory likes better than single links.
 class CollapseQueue {
  public:
-  CollapseQueue() : first_(kBuckets, kNone), last_(kBuckets, kNone) {}
+  CollapseQueue() : tops_(kStacks, kNone) {}
 
   /// `cost` is not negative.
   void push(float cost, const Collapse& c) {
     uint32_t bits;
     std::memcpy(&bits, &cost, sizeof bits);
-    const uint32_t bucket = bits >> kDroppedBits;
-    uint32_t node = free_;
-    if (node == kNone) {
-      node = static_cast<uint32_t>(nodes_.size());
-      nodes_.push_back({c, kNone});
-    } else {
-      free_ = nodes_[node].next;
-      nodes_[node] = {c, kNone};
-    }
-    (first_[bucket] == kNone ? first_[bucket] : nodes_[last_[bucket]].next) = node;
-    last_[bucket] = node;
-    if (bucket < lowest_) lowest_ = bucket;
+    const uint32_t stack = bits >> kDroppedBits;
+    uint32_t& top = tops_[stack];
+    if (top == kNone || blocks_[top].count == kBlock) top = block_on(top);
+    Block& block = blocks_[top];
+    block.collapses[block.count++] = c;
+    if (stack < lowest_) lowest_ = stack;
   }
 
   /// Takes the cheapest out; false when there is none.
   bool pop(Collapse* c) {
-    while (lowest_ < kBuckets && first_[lowest_] == kNone) ++lowest_;
-    if (lowest_ == kBuckets) return false;
-    const uint32_t node = first_[lowest_];
-    *c = nodes_[node].collapse;
-    first_[lowest_] = nodes_[node].next;
-    nodes_[node].next = free_;
-    free_ = node;
+    while (lowest_ < kStacks && tops_[lowest_] == kNone) ++lowest_;
+    if (lowest_ == kStacks) return false;
+    uint32_t& top = tops_[lowest_];
+    Block& block = blocks_[top];
+    *c = block.collapses[--block.count];
+    if (block.count == 0) {
+      const uint32_t below = block.next;
+      block.next = free_;
+      free_ = top;
+      top = below;
+    }
     return true;
   }
 
  private:
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   static constexpr uint32_t kDroppedBits = 16;
-  static constexpr uint32_t kBuckets = 1u << (31 - kDroppedBits);
+  static constexpr uint32_t kStacks = 1u << (31 - kDroppedBits);
+  static constexpr uint32_t kBlock = 15;
 
-  struct Node {
-    Collapse collapse;
-    uint32_t next;
+  struct Block {
+    std::array<Collapse, kBlock> collapses;
+    uint32_t count, next;
   };
-  std::vector<Node> nodes_;
-  std::vector<uint32_t> first_, last_;
-  uint32_t free_ = kNone, lowest_ = kBuckets;
+
+  /// An empty block on top of another.
+  uint32_t block_on(uint32_t below) {
+    uint32_t block = free_;
+    if (block == kNone) {
+      block = static_cast<uint32_t>(blocks_.size());
+      blocks_.emplace_back();
+    } else {
+      free_ = blocks_[block].next;
+    }
+    blocks_[block].count = 0;
+    blocks_[block].next = below;
+    return block;
+  }
+
+  std::vector<Block> blocks_;
+  std::vector<uint32_t> tops_;  ///< the topmost block of each stack
+  uint32_t free_ = kNone, lowest_ = kStacks;
 };
 
 }  // namespace ck::texture

@@ -25,9 +25,9 @@ std::vector<Point> load_points(const InputMesh& input) {
   std::vector<Point> points(input.position_count);
   for (size_t i = 0; i < points.size(); ++i) {
     points[i] = input.point(i);
-    require(std::isfinite(points[i][0]) && std::isfinite(points[i][1]) &&
-                std::isfinite(points[i][2]),
-            "a mesh has a vertex that is not finite");
+    require(
+        std::isfinite(points[i][0]) && std::isfinite(points[i][1]) && std::isfinite(points[i][2]),
+        "a mesh has a vertex that is not finite");
   }
   return points;
 }
@@ -88,7 +88,7 @@ class Simplifier {
       if (++count % 8192 == 0) {
         step(control, static_cast<double>(start - alive_) / static_cast<double>(start - maximum));
       }
-      if (versions_[c.a] + versions_[c.b] == c.version) collapse(c.a, c.b);
+      if (versions_[c.a] + versions_[c.b] == c.version) collapse(c);
     }
   }
 
@@ -219,28 +219,48 @@ class Simplifier {
     vertices_[b].quadric += q;
   }
 
+  Target target_at(uint32_t a, uint32_t b, const Point& p) const {
+    Quadric q = vertices_[a].quadric;
+    q += vertices_[b].quadric;
+    return {q, p, std::max(0.0, q(p))};
+  }
+
+  /// The place of least error.
   Target target(uint32_t a, uint32_t b) const {
-    const Point &from = mesh_.point(a), &to = mesh_.point(b);
-    const Point along = to - from, middle = (from + to) * 0.5;
-    Target t;
-    t.quadric = vertices_[a].quadric;
-    t.quadric += vertices_[b].quadric;
-    t.position = t.quadric.minimizer(middle, kPull);
-    const Point away = t.position - middle;
-    if (dot(away, away) > kReach * kReach * dot(along, along)) t.position = middle;
-    t.error = std::max(0.0, t.quadric(t.position));
+    const Point along = mesh_.point(b) - mesh_.point(a), middle = mesh_.point(a) + along * 0.5;
+    Target t = target_at(a, b, middle);
+    const Point p = t.quadric.minimizer(middle, kPull), away = p - middle;
+    if (dot(away, away) > kReach * kReach * dot(along, along)) return t;
+    t.position = p;
+    t.error = std::max(0.0, t.quadric(p));
     return t;
+  }
+
+  /// The best of both ends and the middle where no triangle turns too far; false when there is
+  /// none.
+  bool find_fallback(uint32_t a, uint32_t b, Target* best) const {
+    bool is_found = false;
+    for (const double share : {0.5, 0.0, 1.0}) {
+      const Target t = target_at(a, b, mesh_.point(a) + (mesh_.point(b) - mesh_.point(a)) * share);
+      if ((is_found && t.error >= best->error) || !keeps_shape(a, b, t.position)) continue;
+      *best = t;
+      is_found = true;
+    }
+    return is_found;
+  }
+
+  void push(uint32_t a, uint32_t b, const Target& t, bool is_fallback) {
+    // What the collapse adds to the error counts, not what the surface around has lost before.
+    const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
+    const Point along = mesh_.point(a) - mesh_.point(b);
+    // Among edges without error the shortest go first.
+    const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
+    queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
   }
 
   void push(uint32_t first, uint32_t second) {
     const uint32_t a = std::min(first, second), b = std::max(first, second);
-    const Vertex &one = vertices_[a], &other = vertices_[b];
-    // What the collapse adds to the error counts, not what the surface around has lost before.
-    const double added = std::max(0.0, target(a, b).error - one.error - other.error);
-    const Point along = mesh_.point(a) - mesh_.point(b);
-    // Among edges without error the shortest go first.
-    const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
-    queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b]});
+    push(a, b, target(a, b), false);
   }
 
   void fill_queue() {
@@ -254,20 +274,23 @@ class Simplifier {
     });
   }
 
-  void collapse(uint32_t a, uint32_t b) {
+  void collapse(const Collapse& c) {
+    const uint32_t a = c.a, b = c.b;
     if (!mesh_.can_join(a, b)) return;
-    Target t = target(a, b);
-    if (!keeps_shape(a, b, t.position)) {
-      t.position = (mesh_.point(a) + mesh_.point(b)) * 0.5;
-      if (!keeps_shape(a, b, t.position)) return;
-      t.error = std::max(0.0, t.quadric(t.position));
+    Target t;
+    if (c.is_fallback) {
+      if (!find_fallback(a, b, &t)) return;
+    } else {
+      t = target(a, b);
+      if (!keeps_shape(a, b, t.position)) {
+        // Another place may cost far more: it waits for its turn.
+        if (find_fallback(a, b, &t)) push(a, b, t, true);
+        return;
+      }
     }
     alive_ -= mesh_.join(a, b);
     mesh_.move(a, t.position);
-    Vertex& kept = vertices_[a];
-    kept.quadric = t.quadric;
-    kept.error = t.error;
-    kept.is_border |= vertices_[b].is_border;
+    vertices_[a] = {t.quadric, t.error, vertices_[a].is_border || vertices_[b].is_border};
     ++versions_[a];
     ++versions_[b];
     homes_[b] = a;

@@ -18,14 +18,14 @@ struct InputMesh {
   size_t triangle_count;
 
   Point point(size_t index) const {
-    const auto* p = reinterpret_cast<const float*>(reinterpret_cast<const char*>(positions) +
-                                                   stride * index);
+    const auto* p =
+        reinterpret_cast<const float*>(reinterpret_cast<const char*>(positions) + stride * index);
     return {p[0], p[1], p[2]};
   }
 };
 
-/// Moves the vertices of a simplified mesh to where its triangles are nearest to the surface before,
-/// in the mean of the squares (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
+/// Moves the vertices of a simplified mesh to where its triangles are nearest to the surface
+/// before, in the mean of the squares (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
 ///
 /// Planes touch a round surface from outside, and a collapse knows only the planes around its
 /// vertex: what collapses leave is a little too small. Borders stay where they are.
@@ -52,7 +52,8 @@ class SurfaceFit {
   double place(Sample* s, uint32_t face) const;
   void group();
   void move_vertices();
-  bool keeps_sides(uint32_t v, const Point& p) const;
+  /// Moves a vertex unless that turns a triangle too far.
+  void move(uint32_t v, const Point& p);
 
   CollapseMesh& mesh_;
   std::vector<Sample> samples_;
@@ -60,6 +61,7 @@ class SurfaceFit {
   std::vector<Point> sides_;               ///< unit normals before the first move
   std::vector<Point> normals_;             ///< unit normals when samples were last looked for
   std::vector<uint32_t> movable_;
+  std::vector<Point> starts_;  ///< of those that are movable
 };
 
 }  // namespace ck::texture
