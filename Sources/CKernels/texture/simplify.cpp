@@ -47,17 +47,15 @@ std::vector<Face> load_faces(const InputMesh& input) {
     sorted.push_back({f, t});
   }
   std::sort(sorted.begin(), sorted.end());
-  std::vector<size_t> kept;
-  kept.reserve(sorted.size());
+  std::vector<bool> is_kept(input.triangle_count, false);
   for (size_t i = 0; i < sorted.size(); ++i) {
-    if (i == 0 || sorted[i].first != sorted[i - 1].first) kept.push_back(sorted[i].second);
+    is_kept[sorted[i].second] = i == 0 || sorted[i].first != sorted[i - 1].first;
   }
-  std::sort(kept.begin(), kept.end());
   std::vector<Face> faces;
-  faces.reserve(kept.size());
-  for (const size_t t : kept) {
+  faces.reserve(sorted.size());
+  for (size_t t = 0; t < is_kept.size(); ++t) {
     const uint32_t* corners = input.triangles + 3 * t;
-    faces.push_back({corners[0], corners[1], corners[2]});
+    if (is_kept[t]) faces.push_back({corners[0], corners[1], corners[2]});
   }
   return faces;
 }
