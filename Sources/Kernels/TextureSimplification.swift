@@ -3,7 +3,8 @@ import SceneModel
 
 extension Mesh {
   /// The mesh with at most `maximumTriangles`: quadric edge collapse (Garland and Heckbert,
-  /// SIGGRAPH 1997) that keeps the topology, outlines and sides of the surface.
+  /// SIGGRAPH 1997) that keeps the topology, outlines and sides of the surface; then its vertices
+  /// are moved to where it is nearest to the surface before (after Hoppe et al., SIGGRAPH 1993).
   ///
   /// Duplicate and degenerate triangles are dropped in any case. Colours and normals are not
   /// carried over. Where the topology forbids enough collapses, the smallest pieces go.

@@ -193,7 +193,8 @@ ck_status ck_occlusion(const ck_ray_scene* scene, const float* positions, size_t
                        float maximum_distance, const ck_control* control, float* openness);
 
 /// Collapses edges by quadric error (Garland and Heckbert, SIGGRAPH 1997) until `maximum_count`
-/// triangles are left. Keeps the surface's topology and never folds it; so it can stop early.
+/// triangles are left, then fits the vertices to the surface before (after Hoppe et al., SIGGRAPH
+/// 1993). Keeps the surface's topology and never folds it; so it can stop early.
 ///
 /// The first `*position_count` positions of `positions` are moved and compacted in place, so are
 /// the first `*triangle_count` triangles.

@@ -29,15 +29,21 @@ struct Quadric {
 
   /// Adds the plane through `p` with unit normal `n`.
   void add_plane(const Point& n, const Point& p, double weight) {
-    const double d = -dot(n, p);
+    const double d = dot(n, p);
+    add_direction(n, weight, weight * d);
+    constant += weight * d * d;
+  }
+
+  /// Adds planes of one unit normal `n`, but for the constant, by the sum of their weights and the
+  /// weighted sum of their distances from the origin.
+  void add_direction(const Point& n, double weight, double distance) {
     xx += weight * n[0] * n[0];
     xy += weight * n[0] * n[1];
     xz += weight * n[0] * n[2];
     yy += weight * n[1] * n[1];
     yz += weight * n[1] * n[2];
     zz += weight * n[2] * n[2];
-    linear = linear + n * (weight * d);
-    constant += weight * d * d;
+    linear = linear - n * distance;
   }
 
   Quadric& operator+=(const Quadric& o) {
@@ -59,9 +65,10 @@ struct Quadric {
     return p[0] * ax + p[1] * ay + p[2] * az + 2 * dot(linear, p) + constant;
   }
 
-  /// The point of least error, drawn a little to `anchor`, so that flat places have one too.
-  Point minimizer(const Point& anchor) const {
-    const double pull = 1e-3 * (xx + yy + zz) + 1e-300;
+  /// The point of least error, drawn to `anchor` by a share of the weight, so that flat places have
+  /// one too.
+  Point minimizer(const Point& anchor, double share) const {
+    const double pull = share * (xx + yy + zz) + 1e-300;
     const double a = xx + pull, d = yy + pull, f = zz + pull;
     const Point r = anchor * pull - linear;
     const double c00 = d * f - yz * yz, c01 = xz * yz - xy * f, c02 = xy * yz - xz * d;

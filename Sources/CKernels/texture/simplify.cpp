@@ -1,54 +1,76 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
-#include <queue>
+#include <utility>
 #include <vector>
 
 #include "ck_texture.h"
 #include "core/guard.h"
+#include "texture/collapse_mesh.h"
+#include "texture/collapse_queue.h"
 #include "texture/quadric.h"
-#include "texture/vec.h"
+#include "texture/surface_fit.h"
 
 namespace ck::texture {
 namespace {
 
-using Face = std::array<uint32_t, 3>;
+using Face = CollapseMesh::Face;
 
-struct Collapse {
-  float cost;
-  uint32_t a, b;
-  uint32_t version;
-  bool operator<(const Collapse& o) const {
-    if (cost != o.cost) return cost > o.cost;
-    return a != o.a ? a > o.a : b > o.b;
+/// A vertex is drawn to the middle of its edge by this share of its planes' weight, and is never
+/// farther from there than this many lengths of the edge: nearly parallel planes meet far away.
+constexpr double kPull = 1e-4, kReach = 2;
+
+std::vector<Point> load_points(const InputMesh& input) {
+  std::vector<Point> points(input.position_count);
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i] = input.point(i);
+    require(
+        std::isfinite(points[i][0]) && std::isfinite(points[i][1]) && std::isfinite(points[i][2]),
+        "a mesh has a vertex that is not finite");
   }
-};
+  return points;
+}
 
-struct Vertex {
-  Point position;
-  Quadric quadric;
-  std::vector<uint32_t> faces;
-  uint32_t version = 0;
-};
+/// The triangles without those that name a vertex twice or have the vertices of an earlier one.
+std::vector<Face> load_faces(const InputMesh& input) {
+  std::vector<std::pair<Face, size_t>> sorted;
+  sorted.reserve(input.triangle_count);
+  for (size_t t = 0; t < input.triangle_count; ++t) {
+    const uint32_t* corners = input.triangles + 3 * t;
+    Face f = {corners[0], corners[1], corners[2]};
+    for (const uint32_t v : f) {
+      require(v < input.position_count, "a triangle names a vertex that isn't there");
+    }
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+    std::sort(f.begin(), f.end());
+    sorted.push_back({f, t});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> is_kept(input.triangle_count, false);
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    is_kept[sorted[i].second] = i == 0 || sorted[i].first != sorted[i - 1].first;
+  }
+  std::vector<Face> faces;
+  faces.reserve(sorted.size());
+  for (size_t t = 0; t < is_kept.size(); ++t) {
+    const uint32_t* corners = input.triangles + 3 * t;
+    if (is_kept[t]) faces.push_back({corners[0], corners[1], corners[2]});
+  }
+  return faces;
+}
 
 class Simplifier {
  public:
-  Simplifier(const float* positions, size_t position_count, size_t stride,
-             const uint32_t* triangles, size_t triangle_count)
-      : vertices_(position_count) {
-    for (size_t i = 0; i < position_count; ++i) {
-      const Vec3 p = vec_at(positions, stride, i);
-      require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
-              "a mesh has a vertex that is not finite");
-      vertices_[i].position = {p.x, p.y, p.z};
-    }
-    load_faces(triangles, triangle_count);
-    for (uint32_t f = 0; f < faces_.size(); ++f) {
-      for (const uint32_t v : faces_[f]) vertices_[v].faces.push_back(f);
-    }
+  explicit Simplifier(const InputMesh& input)
+      : input_(input),
+        mesh_(load_points(input), load_faces(input)),
+        vertices_(input.position_count),
+        versions_(input.position_count, 0),
+        homes_(input.position_count),
+        alive_(mesh_.face_count()) {
+    std::iota(homes_.begin(), homes_.end(), 0u);
+    find_borders();
     add_quadrics();
   }
 
@@ -59,40 +81,35 @@ class Simplifier {
     fill_queue();
     const size_t start = alive_;
     size_t count = 0;
-    while (alive_ > maximum && !queue_.empty()) {
-      const Collapse c = queue_.top();
-      queue_.pop();
+    Collapse c;
+    while (alive_ > maximum && queue_.pop(&c)) {
       if (++count % 8192 == 0) {
         step(control, static_cast<double>(start - alive_) / static_cast<double>(start - maximum));
       }
-      Vertex &a = vertices_[c.a], &b = vertices_[c.b];
-      if (a.version + b.version != c.version || a.faces.empty() || b.faces.empty()) continue;
-      collapse(c.a, c.b);
+      if (versions_[c.a] + versions_[c.b] == c.version) collapse(c);
     }
   }
 
   /// Drops the smallest components until no more than `maximum` triangles and `maximum_pieces`
   /// components are left.
   void drop_components(size_t maximum, size_t maximum_pieces) {
-    std::vector<uint32_t> parents(vertices_.size());
+    std::vector<uint32_t> parents(mesh_.vertex_count());
     std::iota(parents.begin(), parents.end(), 0u);
-    const auto root = [&](uint32_t i) {
-      while (parents[i] != i) i = parents[i] = parents[parents[i]];
-      return i;
-    };
-    for (const Face& f : faces_) {
-      for (size_t k = 1; f[0] != kNone && k < 3; ++k) {
-        const uint32_t a = root(f[0]), b = root(f[k]);
+    for_alive([&](uint32_t i) {
+      const Face& f = mesh_.face(i);
+      for (size_t k = 1; k < 3; ++k) {
+        const uint32_t a = root(&parents, f[0]), b = root(&parents, f[k]);
         parents[std::max(a, b)] = std::min(a, b);
       }
-    }
-    std::vector<double> areas(vertices_.size(), 0);
-    std::vector<size_t> counts(vertices_.size(), 0);
-    for (const Face& f : faces_) {
-      if (f[0] == kNone) continue;
-      areas[root(f[0])] += std::sqrt(dot(normal(f), normal(f)));
-      ++counts[root(f[0])];
-    }
+    });
+    std::vector<double> areas(parents.size(), 0);
+    std::vector<size_t> counts(parents.size(), 0);
+    for_alive([&](uint32_t i) {
+      const Point n = mesh_.normal(mesh_.face(i));
+      const uint32_t piece = root(&parents, mesh_.face(i)[0]);
+      areas[piece] += std::sqrt(dot(n, n));
+      ++counts[piece];
+    });
     std::vector<uint32_t> order;
     for (uint32_t i = 0; i < counts.size(); ++i) {
       if (counts[i] > 0) order.push_back(i);
@@ -100,241 +117,210 @@ class Simplifier {
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
       return areas[a] != areas[b] ? areas[a] < areas[b] : a < b;
     });
-    std::vector<bool> is_dropped(vertices_.size(), false);
+    std::vector<bool> is_dropped(parents.size(), false);
     for (size_t k = 0; k + 1 < order.size(); ++k) {
       if (alive_ <= maximum && order.size() - k <= maximum_pieces) break;
       is_dropped[order[k]] = true;
       alive_ -= counts[order[k]];
     }
-    for (Face& f : faces_) {
-      if (f[0] == kNone || !is_dropped[root(f[0])]) continue;
-      for (const uint32_t v : f) vertices_[v].faces.clear();
-      f[0] = kNone;
-    }
+    for_alive([&](uint32_t i) {
+      if (is_dropped[root(&parents, mesh_.face(i)[0])]) mesh_.remove(i);
+    });
+  }
+
+  /// Makes up for what the collapses took off the surface.
+  void fit(const ck_control* control) {
+    if (!has_collapsed_) return;
+    for (uint32_t v = 0; v < homes_.size(); ++v) root(&homes_, v);
+    SurfaceFit(input_, homes_, &mesh_).run(control);
   }
 
   void copy(float* positions, size_t* position_count, size_t stride, uint32_t* triangles,
             size_t* triangle_count) const {
-    std::vector<uint32_t> ids(vertices_.size(), kNone);
+    std::vector<uint32_t> ids(mesh_.vertex_count());
     uint32_t vertex_count = 0;
-    size_t count = 0;
-    for (const Face& f : faces_) {
-      if (f[0] == kNone) continue;
-      for (const uint32_t v : f) {
-        if (ids[v] == kNone) ids[v] = 0;
-      }
-    }
-    for (size_t v = 0; v < ids.size(); ++v) {
-      if (ids[v] == kNone) continue;
+    for (uint32_t v = 0; v < ids.size(); ++v) {
+      if (!mesh_.is_used(v)) continue;
       ids[v] = vertex_count++;
       auto* p = reinterpret_cast<float*>(reinterpret_cast<char*>(positions) + stride * ids[v]);
-      for (size_t k = 0; k < 3; ++k) p[k] = static_cast<float>(vertices_[v].position[k]);
+      for (size_t k = 0; k < 3; ++k) p[k] = static_cast<float>(mesh_.point(v)[k]);
     }
-    for (const Face& f : faces_) {
-      if (f[0] == kNone) continue;
-      for (size_t k = 0; k < 3; ++k) triangles[3 * count + k] = ids[f[k]];
+    size_t count = 0;
+    for_alive([&](uint32_t i) {
+      for (size_t k = 0; k < 3; ++k) triangles[3 * count + k] = ids[mesh_.face(i)[k]];
       ++count;
-    }
+    });
     *position_count = vertex_count;
     *triangle_count = count;
   }
 
  private:
-  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  struct Vertex {
+    Quadric quadric;
+    double error = 0;  ///< of the quadric at the vertex
+    bool is_border = false;
+  };
 
-  void load_faces(const uint32_t* triangles, size_t count) {
-    std::vector<std::pair<Face, size_t>> sorted;
-    sorted.reserve(count);
-    for (size_t t = 0; t < count; ++t) {
-      Face f = {triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]};
-      for (const uint32_t v : f) {
-        require(v < vertices_.size(), "a triangle names a vertex that isn't there");
-      }
-      if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
-      std::sort(f.begin(), f.end());
-      sorted.push_back({f, t});
-    }
-    std::sort(sorted.begin(), sorted.end());
-    std::vector<size_t> kept;
-    for (size_t i = 0; i < sorted.size(); ++i) {
-      if (i == 0 || sorted[i].first != sorted[i - 1].first) kept.push_back(sorted[i].second);
-    }
-    std::sort(kept.begin(), kept.end());
-    for (const size_t t : kept) {
-      faces_.push_back({triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]});
-    }
-    alive_ = faces_.size();
+  /// Where an edge's ends go when they become one.
+  struct Target {
+    Quadric quadric;
+    Point position;
+    double error;
+  };
+
+  static uint32_t root(std::vector<uint32_t>* parents, uint32_t i) {
+    std::vector<uint32_t>& p = *parents;
+    uint32_t top = i;
+    while (p[top] != top) top = p[top];
+    while (p[i] != top) i = std::exchange(p[i], top);
+    return top;
   }
 
-  Point normal(const Face& f) const {
-    const Point& a = vertices_[f[0]].position;
-    return cross(vertices_[f[1]].position - a, vertices_[f[2]].position - a);
+  template <typename Body>
+  void for_alive(Body&& body) const {
+    for (uint32_t i = 0; i < mesh_.face_count(); ++i) {
+      if (mesh_.is_alive(i)) body(i);
+    }
+  }
+
+  void find_borders() {
+    for (uint32_t v = 0; v < vertices_.size(); ++v) vertices_[v].is_border = mesh_.is_border(v);
+  }
+
+  bool is_border(uint32_t a, uint32_t b) const {
+    return vertices_[a].is_border && vertices_[b].is_border && mesh_.shared_faces(a, b) == 1;
   }
 
   void add_quadrics() {
-    for (const Face& f : faces_) {
-      const Point n = normal(f);
+    for_alive([&](uint32_t i) {
+      const Face& f = mesh_.face(i);
+      const Point n = mesh_.normal(f);
       const double doubled = std::sqrt(dot(n, n));
-      if (!(doubled > 0)) continue;
+      if (!(doubled > 0)) return;
       Quadric q;
-      q.add_plane(n * (1 / doubled), vertices_[f[0]].position, doubled / 6);
+      q.add_plane(n * (1 / doubled), mesh_.point(f[0]), doubled / 6);
       for (size_t k = 0; k < 3; ++k) {
         vertices_[f[k]].quadric += q;
-        add_border(f[k], f[(k + 1) % 3], n * (1 / doubled));
+        if (is_border(f[k], f[(k + 1) % 3])) add_border(f[k], f[(k + 1) % 3], n * (1 / doubled));
       }
-    }
+    });
   }
 
   /// An upright plane along an edge that only one triangle has holds the outline in its place.
   void add_border(uint32_t a, uint32_t b, const Point& n) {
-    if (shared_faces(a, b) != 1) return;
-    const Point along = vertices_[b].position - vertices_[a].position;
-    const Point side = cross(along, n);
+    const Point side = cross(mesh_.point(b) - mesh_.point(a), n);
     const double length2 = dot(side, side);
     if (!(length2 > 0)) return;
     Quadric q;
-    q.add_plane(side * (1 / std::sqrt(length2)), vertices_[a].position, length2);
+    q.add_plane(side * (1 / std::sqrt(length2)), mesh_.point(a), length2);
     vertices_[a].quadric += q;
     vertices_[b].quadric += q;
   }
 
-  bool has(uint32_t face, uint32_t vertex) const {
-    const Face& f = faces_[face];
-    return f[0] == vertex || f[1] == vertex || f[2] == vertex;
+  Target target_at(uint32_t a, uint32_t b, const Point& p) const {
+    Quadric q = vertices_[a].quadric;
+    q += vertices_[b].quadric;
+    return {q, p, std::max(0.0, q(p))};
   }
 
-  size_t shared_faces(uint32_t a, uint32_t b) const {
-    const auto& list = vertices_[a].faces;
-    return static_cast<size_t>(
-        std::count_if(list.begin(), list.end(), [&](uint32_t f) { return has(f, b); }));
+  /// The place of least error.
+  Target target(uint32_t a, uint32_t b) const {
+    const Point along = mesh_.point(b) - mesh_.point(a), middle = mesh_.point(a) + along * 0.5;
+    Target t = target_at(a, b, middle);
+    const Point p = t.quadric.minimizer(middle, kPull), away = p - middle;
+    if (dot(away, away) > kReach * kReach * dot(along, along)) return t;
+    t.position = p;
+    t.error = std::max(0.0, t.quadric(p));
+    return t;
   }
 
-  void neighbors(uint32_t v, std::vector<uint32_t>* out) const {
-    out->clear();
-    for (const uint32_t f : vertices_[v].faces) {
-      for (const uint32_t w : faces_[f]) {
-        if (w != v) out->push_back(w);
-      }
+  /// The best of both ends and the middle where no triangle turns too far; false when there is
+  /// none.
+  bool find_fallback(uint32_t a, uint32_t b, Target* best) const {
+    bool is_found = false;
+    for (const double share : {0.5, 0.0, 1.0}) {
+      const Target t = target_at(a, b, mesh_.point(a) + (mesh_.point(b) - mesh_.point(a)) * share);
+      if ((is_found && t.error >= best->error) || !keeps_shape(a, b, t.position)) continue;
+      *best = t;
+      is_found = true;
     }
-    std::sort(out->begin(), out->end());
-    out->erase(std::unique(out->begin(), out->end()), out->end());
+    return is_found;
   }
 
-  Point target(uint32_t a, uint32_t b, Quadric* q) const {
-    *q = vertices_[a].quadric;
-    *q += vertices_[b].quadric;
-    return q->minimizer((vertices_[a].position + vertices_[b].position) * 0.5);
+  void push(uint32_t a, uint32_t b, const Target& t, bool is_fallback) {
+    // What the collapse adds to the error counts, not what the surface around has lost before.
+    const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
+    const Point along = mesh_.point(a) - mesh_.point(b);
+    // Among edges without error the shortest go first.
+    const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
+    queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
   }
 
   void push(uint32_t first, uint32_t second) {
     const uint32_t a = std::min(first, second), b = std::max(first, second);
-    Quadric q;
-    const Point p = target(a, b, &q);
-    const Point along = vertices_[a].position - vertices_[b].position;
-    // Among edges without error the shortest go first.
-    const double cost = std::max(0.0, q(p)) + 1e-9 * dot(along, along) * dot(along, along);
-    queue_.push({static_cast<float>(cost), a, b, vertices_[a].version + vertices_[b].version});
+    push(a, b, target(a, b), false);
   }
 
   void fill_queue() {
     queue_ = {};
-    for (const Face& f : faces_) {
-      if (f[0] == kNone) continue;
+    for_alive([&](uint32_t i) {
+      const Face& f = mesh_.face(i);
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = f[k], b = f[(k + 1) % 3];
-        if (a < b || shared_faces(a, b) == 1) push(a, b);
+        if (a < b || is_border(a, b)) push(a, b);
+      }
+    });
+  }
+
+  void collapse(const Collapse& c) {
+    const uint32_t a = c.a, b = c.b;
+    if (!mesh_.can_join(a, b)) return;
+    Target t;
+    if (c.is_fallback) {
+      if (!find_fallback(a, b, &t)) return;
+    } else {
+      t = target(a, b);
+      if (!keeps_shape(a, b, t.position)) {
+        // Another place may cost far more: it waits for its turn.
+        if (find_fallback(a, b, &t)) push(a, b, t, true);
+        return;
       }
     }
+    alive_ -= mesh_.join(a, b);
+    mesh_.move(a, t.position);
+    vertices_[a] = {t.quadric, t.error, vertices_[a].is_border || vertices_[b].is_border};
+    ++versions_[a];
+    ++versions_[b];
+    homes_[b] = a;
+    has_collapsed_ = true;
+    mesh_.for_neighbors(a, [&](uint32_t v) { push(a, v); });
   }
 
-  /// Whether the surface stays a surface: the vertices next to both ends are those of the shared
-  /// triangles, and no two borders meet.
-  bool keeps_topology(uint32_t a, uint32_t b) {
-    neighbors(a, &around_a_);
-    neighbors(b, &around_b_);
-    std::vector<uint32_t>& common = common_;
-    common.clear();
-    std::set_intersection(around_a_.begin(), around_a_.end(), around_b_.begin(), around_b_.end(),
-                          std::back_inserter(common));
-    const size_t shared = shared_faces(a, b);
-    if (shared == 0 || shared > 2 || common.size() != shared) return false;
-    // A tetrahedron is the smallest closed surface.
-    if (around_a_.size() + around_b_.size() - common.size() - 2 < 3) return false;
-    if (shared == 2 && is_border(a, around_a_) && is_border(b, around_b_)) return false;
-    return true;
-  }
-
-  bool is_border(uint32_t v, const std::vector<uint32_t>& around) const {
-    return around.size() != vertices_[v].faces.size();
+  bool keeps_shape(uint32_t a, uint32_t b, const Point& p) const {
+    return keeps_sides(a, b, p) && keeps_sides(b, a, p);
   }
 
   /// Whether the triangles that stay at `v` keep their side when it moves to `p`.
-  bool keeps_shape(uint32_t v, uint32_t other, const Point& p) const {
-    for (const uint32_t i : vertices_[v].faces) {
-      const Face& f = faces_[i];
-      if (has(i, other)) continue;
-      std::array<Point, 3> moved;
-      for (size_t k = 0; k < 3; ++k) moved[k] = f[k] == v ? p : vertices_[f[k]].position;
-      const Point before = normal(f);
-      const Point after = cross(moved[1] - moved[0], moved[2] - moved[0]);
+  bool keeps_sides(uint32_t v, uint32_t other, const Point& p) const {
+    return mesh_.all_faces(v, [&](uint32_t i) {
+      if (mesh_.has(i, other)) return true;
+      const Point before = mesh_.normal(mesh_.face(i));
+      const Point after = mesh_.normal(mesh_.face(i), v, p);
       const double before2 = dot(before, before), after2 = dot(after, after);
       if (!(after2 > 0)) return false;
-      if (before2 > 0 && dot(before, after) < minimum_cosine_ * std::sqrt(before2 * after2)) {
-        return false;
-      }
-    }
-    return true;
+      return !(before2 > 0) || dot(before, after) >= minimum_cosine_ * std::sqrt(before2 * after2);
+    });
   }
 
-  void collapse(uint32_t a, uint32_t b) {
-    if (!keeps_topology(a, b)) return;
-    Quadric q;
-    Point p = target(a, b, &q);
-    if (!keeps_shape(a, b, p) || !keeps_shape(b, a, p)) {
-      p = (vertices_[a].position + vertices_[b].position) * 0.5;
-      if (!keeps_shape(a, b, p) || !keeps_shape(b, a, p)) return;
-    }
-    Vertex &kept = vertices_[a], &gone = vertices_[b];
-    kept.position = p;
-    kept.quadric = q;
-    std::vector<uint32_t> faces;
-    for (const uint32_t f : kept.faces) {
-      if (!has(f, b)) {
-        faces.push_back(f);
-        continue;
-      }
-      for (const uint32_t v : faces_[f]) {
-        if (v != a && v != b) erase(&vertices_[v].faces, f);
-      }
-      --alive_;
-    }
-    for (const uint32_t f : gone.faces) {
-      if (has(f, a)) {
-        faces_[f][0] = kNone;
-        continue;
-      }
-      for (uint32_t& v : faces_[f]) {
-        if (v == b) v = a;
-      }
-      faces.push_back(f);
-    }
-    kept.faces = std::move(faces);
-    gone.faces = {};
-    kept.version += gone.version + 1;
-    neighbors(a, &around_a_);
-    for (const uint32_t v : around_a_) push(a, v);
-  }
-
-  static void erase(std::vector<uint32_t>* list, uint32_t value) {
-    list->erase(std::remove(list->begin(), list->end(), value), list->end());
-  }
-
+  InputMesh input_;
+  CollapseMesh mesh_;
   std::vector<Vertex> vertices_;
-  std::vector<Face> faces_;
-  std::priority_queue<Collapse> queue_;
-  std::vector<uint32_t> around_a_, around_b_, common_;
+  std::vector<uint32_t> versions_;  ///< how often each vertex has changed
+  std::vector<uint32_t> homes_;     ///< which vertex each one went into
+  CollapseQueue queue_;
   size_t alive_ = 0;
   double minimum_cosine_ = 0;
+  bool has_collapsed_ = false;
 };
 
 }  // namespace
@@ -347,14 +333,15 @@ ck_status ck_simplify(float* positions, size_t* position_count, size_t position_
     ck::require(positions && position_count && triangles && triangle_count,
                 "an argument is missing");
     ck::step(control, 0);
-    ck::texture::Simplifier simplifier(positions, *position_count, position_stride, triangles,
-                                       *triangle_count);
+    ck::texture::Simplifier simplifier(
+        {positions, *position_count, position_stride, triangles, *triangle_count});
     // No closed piece has fewer than four triangles: many crumbs would take the budget.
     simplifier.drop_components(*triangle_count, std::max<size_t>(1, maximum_count / 16));
     // What is refused in one pass may be allowed after its surroundings have changed. A limit on
     // the triangles' shape does harm: it stops what would mend the slivers of the input.
     for (const double cosine : {0.2, 0.2, 0.0}) simplifier.run(maximum_count, cosine, control);
     simplifier.drop_components(maximum_count, maximum_count);
+    simplifier.fit(control);
     simplifier.copy(positions, position_count, position_stride, triangles, triangle_count);
   });
 }

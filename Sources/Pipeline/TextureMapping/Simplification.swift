@@ -2,7 +2,8 @@ import Kernels
 import SceneModel
 
 /// Reduces a surface to the triangle budget of a detail level, before it is textured: quadric edge
-/// collapse (Garland and Heckbert, SIGGRAPH 1997).
+/// collapse (Garland and Heckbert, SIGGRAPH 1997), then a least-squares fit of the vertices to the
+/// surface before (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
 package struct Simplification: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Upper bound of the number of triangles.
