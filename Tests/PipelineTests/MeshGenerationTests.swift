@@ -17,14 +17,31 @@ import Testing
     let centers = reconstruction.poses.compactMap { $0?.center }
     scene.addBall(
       center: .zero, radius: 0.5, label: 1, centers: centers + centers.map { -$0 }, keeps: keeps)
-    var cloud = scene.cloud
+    return (withVisibility(scene.cloud) { $1 < photoCount }, reconstruction)
+  }
+
+  /// The cloud with the photos for which `sees` says so.
+  func withVisibility(
+    _ all: PointCloud, sees: (SIMD3<Double>, Int) -> Bool
+  ) -> PointCloud {
+    var cloud = all
     cloud.photoIndices = []
     for index in 0..<cloud.count {
-      let seen = scene.cloud.visiblePhotos(of: index).filter { Int($0) < photoCount }
+      let point = SIMD3<Double>(cloud.positions[index])
+      let seen = all.visiblePhotos(of: index).filter { sees(point, Int($0)) }
       cloud.photoIndices.append(contentsOf: seen)
       cloud.photoOffsets[index + 1] = UInt32(cloud.photoIndices.count)
     }
-    return (cloud, reconstruction)
+    return cloud
+  }
+
+  func isHidden(
+    _ point: SIMD3<Double>, from center: SIMD3<Double>, byBallAt middle: SIMD3<Double>,
+    radius: Double
+  ) -> Bool {
+    let direction = (center - point).normalized
+    let along = (middle - point).dot(direction)
+    return along > 0 && (point + along * direction - middle).length < radius
   }
 
   /// Edges with one face only.
@@ -152,8 +169,11 @@ import Testing
     let centers = reconstruction.poses.compactMap { $0?.center }
     scene.addBall(center: [0, 0.35, 0], radius: 0.5, label: 1, centers: centers) { $0.y > 0 }
     scene.addPlane(radius: 2, label: 0, centers: centers) { $0.x * $0.x + $0.z * $0.z > 0.15 }
+    let cloud = withVisibility(scene.cloud) { point, photo in
+      !isHidden(point, from: centers[photo], byBallAt: [0, 0.35, 0], radius: 0.49)
+    }
     let context = StageContext()
-    let mesh = try MeshGeneration().run(scene.cloud, reconstruction, context)
+    let mesh = try MeshGeneration().run(cloud, reconstruction, context)
     #expect(context.notes.warnings.isEmpty)
     #expect(openEdges(mesh) == 0)
     #expect(mesh.positions.allSatisfy { $0.y > -0.03 && $0.y < 0.88 })
