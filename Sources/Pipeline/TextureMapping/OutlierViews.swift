@@ -20,6 +20,8 @@ struct OutlierViews: Sendable {
     var thingArea: Float = 400
     /// Share of the tolerance that is enough beside what stands out.
     var weakShare: Float = 0.5
+    /// How like a thing's colour one beside it must be, if nothing else tells: 0 is the surface's.
+    var likeness: Float = 0.7
     /// Rings of triangles around a thing that its rim may reach.
     var rings = 2
   }
@@ -31,60 +33,66 @@ struct OutlierViews: Sendable {
   func run(
     _ views: FaceViews, topology: MeshTopology, _ context: StageContext
   ) throws -> [Bool] {
-    var medians = [SIMD3<Float>](repeating: .zero, count: views.faceCount)
-    var excess = [Float](repeating: 0, count: views.entries.count)
-    for face in 0..<views.faceCount {
-      if face % 16384 == 0 { try context.step(face, of: views.faceCount) }
-      medians[face] = rate(face, of: views, &excess)
-    }
+    let first = try rated(views, without: nil, context)
     let neighbors = FaceNeighbors(topology, faceCount: views.faceCount)
-    var isStranger = excess.map { $0 > 1 }
-    var rims: [[Int]] = []
-    for thing in things(excess, views, neighbors) {
+    var isStranger = [Bool](repeating: false, count: views.entries.count)
+    var strangers: [[Int]] = []
+    for thing in things(first.excess, views, neighbors) {
       for entry in thing { isStranger[entry] = true }
-      let look = Look(thing.filter { excess[$0] > 1 }, views, medians)
-      rims.append(
-        thing + extend(thing, where: views, neighbors, excess, look, &isStranger))
+      let look = Look(thing.filter { first.excess[$0] > 1 }, views, first.medians)
+      strangers.append(
+        extend(thing, over: views, neighbors, first.excess, look, &isStranger))
     }
+    // Two things on one triangle outvote its surface; without them it is judged anew.
+    let second = try rated(views, without: isStranger, context)
+    for entry in views.entries.indices where second.excess[entry] > 1 { isStranger[entry] = true }
     var isOutlier = isStranger
-    for rim in rims { grow(rim, views, neighbors, &isOutlier) }
+    for thing in strangers { grow(thing, views, neighbors, &isOutlier) }
     for face in 0..<views.faceCount where views.range(of: face).allSatisfy({ isOutlier[$0] }) {
       for entry in views.range(of: face) { isOutlier[entry] = isStranger[entry] }
     }
     return isOutlier
   }
 
-  /// How far each view of a triangle is from the median, as a share of what is tolerated; of two
-  /// views neither stands out, but they may differ. Returns the median.
+  /// The median colour of each triangle, and how far each view is from it, as a share of what is
+  /// tolerated. Of two views neither stands out, but they may differ.
+  private func rated(
+    _ views: FaceViews, without isStranger: [Bool]?, _ context: StageContext
+  ) throws -> (medians: [SIMD3<Float>], excess: [Float]) {
+    var medians = [SIMD3<Float>](repeating: .zero, count: views.faceCount)
+    var excess = [Float](repeating: 0, count: views.entries.count)
+    for face in 0..<views.faceCount {
+      if face % 16384 == 0 { try context.step(face, of: views.faceCount) }
+      let entries = views.range(of: face).filter { !(isStranger?[$0] ?? false) }
+      medians[face] = rate(entries, of: views, &excess)
+    }
+    return (medians, excess)
+  }
+
   private func rate(
-    _ face: Int, of views: FaceViews, _ excess: inout [Float]
+    _ entries: [Int], of views: FaceViews, _ excess: inout [Float]
   ) -> SIMD3<Float> {
-    let range = views.range(of: face)
+    let colors = entries.map { views.entries[$0].color }
     var median = SIMD3<Float>.zero
     var deviation = SIMD3<Float>.zero
     for channel in 0..<3 {
-      let values = range.map { views.entries[$0].color[channel] }
-      median[channel] = values.upperMedian
-      deviation[channel] = values.map { abs($0 - median[channel]) }.upperMedian
+      median[channel] = colors.map { $0[channel] }.upperMedian
+      deviation[channel] = colors.map { abs($0[channel] - median[channel]) }.upperMedian
     }
-    if range.count < options.minimumViews {
-      for index in range {
-        for other in range {
-          let difference = views.entries[index].color - views.entries[other].color
-          let share = pointwiseMax(difference, -difference).max() / options.colorTolerance
-          excess[index] = max(excess[index], min(1, share))
-        }
+    let tolerance = SIMD3<Float>(repeating: options.colorTolerance)
+    if entries.count == 2 {
+      let share = Self.largest((colors[0] - colors[1]) / tolerance)
+      for entry in entries { excess[entry] = min(1, share) }
+    } else if entries.count >= options.minimumViews {
+      let limit = pointwiseMax(deviation * (1.4826 * options.deviations), tolerance)
+      for (entry, color) in zip(entries, colors) {
+        excess[entry] = Self.largest((color - median) / limit)
       }
-      return median
-    }
-    let limit = pointwiseMax(
-      deviation * (1.4826 * options.deviations), SIMD3(repeating: options.colorTolerance))
-    for index in range {
-      let difference = views.entries[index].color - median
-      excess[index] = (pointwiseMax(difference, -difference) / limit).max()
     }
     return median
   }
+
+  private static func largest(_ v: SIMD3<Float>) -> Float { pointwiseMax(v, -v).max() }
 
   /// Connected entries of one view that stand out a little, of which many stand out clearly.
   private func things(
@@ -111,21 +119,21 @@ struct OutlierViews: Sendable {
     views.range(of: Int(views.entries[entry].face)).count >= options.minimumViews
   }
 
-  /// Follows a thing over triangles that too few views see, by its colour. Returns what it found.
+  /// Follows a thing by its colour over triangles that too few views see, or that other things
+  /// hide as well. Returns all of it.
   private func extend(
-    _ thing: [Int], where views: FaceViews, _ neighbors: FaceNeighbors, _ excess: [Float],
+    _ thing: [Int], over views: FaceViews, _ neighbors: FaceNeighbors, _ excess: [Float],
     _ look: Look, _ isStranger: inout [Bool]
   ) -> [Int] {
-    let all = neighbors.flood(from: thing, in: views) { other in
-      guard !isStranger[other], !isJudged(other, views) else { return false }
+    neighbors.flood(from: thing, in: views) { other in
+      guard !isStranger[other] else { return false }
       let isAlone = views.range(of: Int(views.entries[other].face)).count == 1
-      guard isAlone || excess[other] > options.weakShare,
-        look.isThing(views.entries[other].color)
-      else { return false }
+      let mayDiffer = !isJudged(other, views) && (isAlone || excess[other] > options.weakShare)
+      let share = look.share(of: views.entries[other].color)
+      guard share > (mayDiffer ? 0.5 : options.likeness) else { return false }
       isStranger[other] = true
       return true
     }
-    return Array(all[thing.count...])
   }
 
   private func grow(
@@ -147,8 +155,8 @@ struct OutlierViews: Sendable {
 
   /// What sets a thing's colours apart from the surface behind it: the mean of both.
   private struct Look {
-    var thing = SIMD3<Float>.zero
-    var surface = SIMD3<Float>.zero
+    private var thing = SIMD3<Float>.zero
+    private var surface = SIMD3<Float>.zero
 
     init(_ entries: [Int], _ views: FaceViews, _ medians: [SIMD3<Float>]) {
       let share = 1 / Float(max(1, entries.count))
@@ -158,10 +166,10 @@ struct OutlierViews: Sendable {
       }
     }
 
-    /// Whether a colour is nearer to the thing's, along the line between both.
-    func isThing(_ color: SIMD3<Float>) -> Bool {
+    /// Where a colour is on the line from the surface's, 0, to the thing's, 1.
+    func share(of color: SIMD3<Float>) -> Float {
       let way = thing - surface
-      return (color - surface).dot(way) > 0.5 * way.squaredLength
+      return (color - surface).dot(way) / max(way.squaredLength, 1e-6)
     }
   }
 }
