@@ -40,6 +40,8 @@ package struct ChartPlacement: Hashable, Sendable {
   /// Turns by 90° from x to y.
   package var quarterTurns: Int
   package var offset: SIMD2<Float>
+  /// The atlas that holds it.
+  package var atlas: Int
 
   /// The texel position of a point of the chart's plane.
   package func texel(_ p: SIMD2<Float>) -> SIMD2<Float> {
@@ -55,17 +57,19 @@ package struct ChartPlacement: Hashable, Sendable {
   }
 }
 
-/// Packs charts by their shape into a square at the largest common scale.
+/// Packs charts by their shape into squares at the largest common scale.
 package struct ChartPacking: Hashable, Codable, Sendable {
-  /// Side of the square in texels.
+  /// Side of the squares in texels.
   package var side: Int
+  package var atlasCount: Int
   /// Empty texels around each chart.
   package var padding: Int
   /// Upper bound of the texels a unit of length at density 1.
   package var maximumScale: Float
 
-  package init(side: Int, padding: Int, maximumScale: Float) {
+  package init(side: Int, atlasCount: Int = 1, padding: Int, maximumScale: Float) {
     self.side = side
+    self.atlasCount = atlasCount
     self.padding = padding
     self.maximumScale = maximumScale
   }
@@ -80,7 +84,8 @@ package struct ChartPacking: Hashable, Codable, Sendable {
     }
     var raw = [ck_chart_placement](repeating: ck_chart_placement(), count: density.count)
     var options = ck_pack_options(
-      side: Int32(clamping: side), padding: Int32(clamping: padding), maximum_scale: maximumScale)
+      side: Int32(clamping: side), atlas_count: Int32(clamping: atlasCount),
+      padding: Int32(clamping: padding), maximum_scale: maximumScale)
     try withKernel(control) { control in
       corners.withUnsafeFloats { corners in
         ck_pack_charts(
@@ -89,7 +94,8 @@ package struct ChartPacking: Hashable, Codable, Sendable {
     }
     return raw.map {
       ChartPlacement(
-        scale: $0.scale, quarterTurns: Int($0.quarter_turns), offset: [$0.offset.0, $0.offset.1])
+        scale: $0.scale, quarterTurns: Int($0.quarter_turns), offset: [$0.offset.0, $0.offset.1],
+        atlas: Int($0.atlas))
     }
   }
 }

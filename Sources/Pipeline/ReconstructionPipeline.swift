@@ -238,7 +238,9 @@ package final class ReconstructionPipeline {
         options: .init(maximumTriangles: specification.maximumTriangles)
       ).run(dense, context.part(from: 0, to: 0.1))
       return try TextureMapping(
-        options: .init(textureSide: specification.textureSide, maps: specification.maps)
+        options: .init(
+          textureSide: specification.textureSide, maximumAtlases: specification.maximumAtlases,
+          maps: specification.maps)
       ).run(
         mesh, dense: dense, reconstruction: reconstruction, images: images,
         context.part(from: 0.1, to: 1))

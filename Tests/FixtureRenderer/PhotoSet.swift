@@ -12,20 +12,38 @@ struct PhotoSet {
   var quality: Float
   /// Writes cameras and surface in a frame with z up instead of y.
   var isZUp = false
+  /// The scene from other places, to compare a model with: photos that are not in `images`.
+  var held: RenderedScene?
 
-  /// Writes `images/*.jpg`, `gt/cameras.json` and `gt/mesh.ply`.
+  /// Writes `images/*.jpg`, `gt/cameras.json` and `gt/mesh.ply`, and the photos that are held out to
+  /// `holdout` with masks of the object.
   func write(to folder: URL, _ control: KernelControl) throws {
     for index in scene.poses.indices {
       var bytes = try ImageCodec.encodeJPEG(scene.photo(index, control), quality: quality)
       if hasMetadata { bytes = ExifWriter.jpeg(bytes, with: exif) }
       try writeFile(bytes, folder.appendingPathComponent("images/\(RenderedScene.name(index))"))
     }
+    try writeHeld(to: folder.appendingPathComponent("holdout"), control)
     try writeFile(Array(camerasJSON.utf8), folder.appendingPathComponent("gt/cameras.json"))
     var mesh = scene.object
     mesh.normals = []
     if isZUp { mesh.positions = mesh.positions.map { SIMD3($0.x, -$0.z, $0.y) } }
     try writeFile(PLY.encode(mesh), folder.appendingPathComponent("gt/mesh.ply"))
   }
+
+  private func writeHeld(to folder: URL, _ control: KernelControl) throws {
+    guard let held else { return }
+    for index in held.poses.indices {
+      let name = Self.heldName(index)
+      try writeFile(
+        ImageCodec.encodePNG(held.photo(index, control)), folder.appendingPathComponent(name))
+      try writeFile(
+        ImageCodec.encodePNG(held.mask(index)),
+        folder.appendingPathComponent(name.replacingOccurrences(of: ".png", with: "_mask.png")))
+    }
+  }
+
+  private static func heldName(_ index: Int) -> String { "held_\(index).png" }
 
   /// As of a full-frame sensor, 36 mm wide.
   private var exif: ExifFields {
@@ -42,18 +60,28 @@ struct PhotoSet {
   /// A list of name, K, R and t: `x_camera = R x_world + t`, x right, y down, z forward, pixel
   /// origin at the corner of the top-left pixel.
   private var camerasJSON: String {
-    let camera = scene.camera
+    var entries = scene.poses.enumerated().map {
+      entry(RenderedScene.name($0), $1, of: scene.camera)
+    }
+    if let held {
+      entries += held.poses.enumerated().map {
+        entry(Self.heldName($0), $1, of: held.camera, more: ", \"holdout\": true")
+      }
+    }
+    return "[\n" + entries.joined(separator: ",\n") + "\n]\n"
+  }
+
+  private func entry(
+    _ name: String, _ pose: RigidTransform, of camera: Camera, more: String = ""
+  ) -> String {
     let k = [
       [camera.focalLength.x, 0, camera.principalPoint.x],
       [0, camera.focalLength.y, camera.principalPoint.y], [0, 0, 1],
     ]
-    let entries = scene.poses.enumerated().map { index, pose in
-      let m = pose.rotation.matrix
-      let r = [m.row0, m.row1, m.row2].map { isZUp ? [$0.x, -$0.z, $0.y] : [$0.x, $0.y, $0.z] }
-      let t = [pose.translation.x, pose.translation.y, pose.translation.z]
-      return "{\"name\": \"\(RenderedScene.name(index))\", \"K\": \(k), \"R\": \(r), \"t\": \(t)}"
-    }
-    return "[\n" + entries.joined(separator: ",\n") + "\n]\n"
+    let m = pose.rotation.matrix
+    let r = [m.row0, m.row1, m.row2].map { isZUp ? [$0.x, -$0.z, $0.y] : [$0.x, $0.y, $0.z] }
+    let t = [pose.translation.x, pose.translation.y, pose.translation.z]
+    return "{\"name\": \"\(name)\", \"K\": \(k), \"R\": \(r), \"t\": \(t)\(more)}"
   }
 }
 

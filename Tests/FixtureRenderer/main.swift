@@ -7,6 +7,7 @@ import TestSupport
 //
 //   render-fixtures <folder> faint             a set of low texture, to compare sensitivities on
 //   render-fixtures <folder> dense [name …]    sets to judge the dense stage on, by name or all
+//   render-fixtures <folder> texture [name …]  sets to judge the texture on, with photos held out
 //   render-fixtures <folder> ring [count]      a set of many photos, 160 if not said
 //
 // The sets for the dense stage have their surface and cameras in a frame with z up; the table, at
@@ -23,6 +24,12 @@ case "faint":
 case "dense":
   for scene in DenseScene.allCases where words.count == 1 || words.contains(scene.rawValue) {
     try write(PhotoSet(scene: scene.scene(), quality: 0.92, isZUp: true), scene.rawValue)
+  }
+case "texture":
+  for scene in TextureScene.allCases where words.count == 1 || words.contains(scene.rawValue) {
+    try write(
+      PhotoSet(scene: scene.scene(), quality: 0.92, isZUp: true, held: TextureScene.held()),
+      "texture-\(scene.rawValue)")
   }
 case "ring":
   let count = words.dropFirst().first.flatMap { Int($0) } ?? 160

@@ -110,19 +110,22 @@ typedef struct {
   /// Turns by 90° from x to y.
   int32_t quarter_turns;
   float offset[2];
+  /// The atlas that holds the chart.
+  int32_t atlas;
 } ck_chart_placement;
 
-/// The atlas to pack charts into.
+/// The atlases to pack charts into.
 typedef struct {
-  /// Side of the square atlas in texels.
+  /// Side of the square atlases in texels.
   int32_t side;
+  int32_t atlas_count;
   /// Empty texels around each chart.
   int32_t padding;
   /// Upper bound of the texels a unit of length.
   float maximum_scale;
 } ck_pack_options;
 
-/// Packs charts into a square at the largest common scale that fits; by their shape, not by their
+/// Packs charts into squares at the largest common scale that fits; by their shape, not by their
 /// bounding box. `corners` are the plane coordinates of each triangle's three corners (6 floats);
 /// `density` scales each chart relative to the others (1: the common scale).
 ck_status ck_pack_charts(const float* corners, const int32_t* charts, size_t triangle_count,

@@ -13,6 +13,8 @@ namespace ck::texture {
 namespace {
 
 constexpr int kWord = 64;
+/// The share of the texture that charts may fill at the first try; hardly any set fills more.
+constexpr double kHopedUsage = 0.8;
 
 /// A black and white picture, 64 cells a word.
 struct Bitmap {
@@ -58,6 +60,36 @@ struct Stamp {
   Bitmap cells;
   /// Texel coordinates of the stamp's corner before it is moved to its place.
   Vec2 origin;
+  /// The row with the longest run of cells, and its length.
+  int widest_row = 0, widest = 0;
+};
+
+/// The length of the longest run of cells of a row that are set, or that are not.
+int longest_run(const Bitmap& bitmap, int y, bool value) {
+  int longest = 0, run = 0;
+  for (int x = 0; x < bitmap.width; ++x) {
+    run = bitmap.get(x, y) == value ? run + 1 : 0;
+    longest = std::max(longest, run);
+  }
+  return longest;
+}
+
+/// An atlas that fills.
+struct Sheet {
+  Bitmap taken;
+  /// The longest run of free cells of each row.
+  std::vector<int> gaps;
+
+  explicit Sheet(int side) : taken(side, side), gaps(static_cast<size_t>(side), side) {}
+
+  void take(const Bitmap& cells, int x0, int y0) {
+    for (int y = 0; y < cells.height; ++y) {
+      for (int x = 0; x < cells.width; ++x) {
+        if (cells.get(x, y)) taken.set(x0 + x, y0 + y);
+      }
+      gaps[static_cast<size_t>(y0 + y)] = longest_run(taken, y0 + y, false);
+    }
+  }
 };
 
 Vec2 turned(Vec2 p, int quarter_turns) {
@@ -103,19 +135,36 @@ class Packer {
     });
   }
 
-  /// The largest scale, to two percent, at which everything fits.
+  /// The largest scale, to one percent, at which everything fits.
   std::vector<ck_chart_placement> run(const ck_control* control) {
-    const double side = options_.side;
-    double scale = area_ > 0 ? std::sqrt(0.9 * side * side / area_) : 1;
-    if (options_.maximum_scale > 0) scale = std::min<double>(scale, options_.maximum_scale);
-    std::vector<ck_chart_placement> placements(shapes_.size());
-    constexpr int kMaximumTries = 400;
-    for (int i = 0; i < kMaximumTries; ++i) {
-      step(control, static_cast<double>(i) / (i + 10.0));
-      if (try_scale(static_cast<float>(scale), control, &placements)) return placements;
-      scale *= failed_early_ ? 0.93 : 0.98;
+    const double texels = static_cast<double>(options_.side) * options_.side * options_.atlas_count;
+    const auto scale_of = [&](double usage) {
+      const double scale = area_ > 0 ? std::sqrt(usage * texels / area_) : 1;
+      return options_.maximum_scale > 0 ? std::min<double>(scale, options_.maximum_scale) : scale;
+    };
+    std::vector<ck_chart_placement> best(shapes_.size()), placements(shapes_.size());
+    double scale = scale_of(kHopedUsage), too_large = 0;
+    constexpr int kMaximumTries = 200;
+    int tries = 0;
+    while (!try_scale(static_cast<float>(scale), control, &best)) {
+      step(control, static_cast<double>(tries) / (tries + 10.0));
+      if (++tries == kMaximumTries) {
+        throw Degenerate("the charts don't fit into the texture; ask for a larger one");
+      }
+      too_large = scale;
+      scale *= 0.96;
     }
-    throw Degenerate("the charts don't fit into the texture; ask for a larger one");
+    while (too_large > 1.01 * scale) {
+      step(control, 0.9);
+      const double between = std::sqrt(scale * too_large);
+      if (try_scale(static_cast<float>(between), control, &placements)) {
+        scale = between;
+        best.swap(placements);
+      } else {
+        too_large = between;
+      }
+    }
+    return best;
   }
 
  private:
@@ -131,54 +180,66 @@ class Packer {
 
   bool try_scale(float scale, const ck_control* control,
                  std::vector<ck_chart_placement>* placements) {
-    Bitmap atlas(grid_, grid_);
+    std::vector<Sheet> sheets(static_cast<size_t>(options_.atlas_count), Sheet(grid_));
     for (size_t k = 0; k < order_.size(); ++k) {
       if (k % 16 == 0) step(control, 0.5);
-      if (!place(order_[k], scale, &atlas, &(*placements)[order_[k]])) {
-        failed_early_ = k * 10 < order_.size() * 7;
-        return false;
-      }
+      if (!place(order_[k], scale, &sheets, &(*placements)[order_[k]])) return false;
     }
     return true;
   }
 
-  bool place(size_t chart, float scale, Bitmap* atlas, ck_chart_placement* placement) const {
+  /// Puts a chart into the first atlas that has room.
+  bool place(size_t chart, float scale, std::vector<Sheet>* sheets,
+             ck_chart_placement* placement) const {
     const float own = scale * density_[chart];
-    int best_turn = -1, best_x = 0, best_y = grid_;
-    Stamp best;
-    for (int turn = 0; turn < 4; ++turn) {
-      Stamp stamp = make_stamp(chart, own, turn);
-      int x = 0, y = 0;
-      if (!find(*atlas, stamp.cells, best_y, &x, &y)) continue;
-      // The lowest top edge wins; all four turns of a small chart would only cost time.
-      if (best_turn < 0 || y + stamp.cells.height < best_y + best.cells.height) {
-        best_turn = turn;
+    const std::vector<Stamp> stamps = make_stamps(chart, own);
+    for (size_t s = 0; s < sheets->size(); ++s) {
+      Sheet& sheet = (*sheets)[s];
+      size_t best = stamps.size();
+      int best_x = 0, best_y = grid_;
+      for (size_t turn = 0; turn < stamps.size(); ++turn) {
+        int x = 0, y = 0;
+        if (!find(sheet, stamps[turn], best_y, &x, &y)) continue;
+        // The lowest top edge wins.
+        if (best < stamps.size() &&
+            y + stamps[turn].cells.height >= best_y + stamps[best].cells.height) {
+          continue;
+        }
+        best = turn;
         best_x = x;
         best_y = y;
-        best = std::move(stamp);
       }
-      if (best.cells.width * best.cells.height <= 64) break;
+      if (best == stamps.size()) continue;
+      const Stamp& stamp = stamps[best];
+      sheet.take(stamp.cells, best_x, best_y);
+      placement->scale = own;
+      placement->quarter_turns = static_cast<int32_t>(best);
+      placement->offset[0] = static_cast<float>(best_x * cell_) - stamp.origin.x;
+      placement->offset[1] = static_cast<float>(best_y * cell_) - stamp.origin.y;
+      placement->atlas = static_cast<int32_t>(s);
+      return true;
     }
-    if (best_turn < 0) return false;
-    for (int y = 0; y < best.cells.height; ++y) {
-      for (int x = 0; x < best.cells.width; ++x) {
-        if (best.cells.get(x, y)) atlas->set(best_x + x, best_y + y);
-      }
-    }
-    placement->scale = own;
-    placement->quarter_turns = best_turn;
-    placement->offset[0] = static_cast<float>(best_x * cell_) - best.origin.x;
-    placement->offset[1] = static_cast<float>(best_y * cell_) - best.origin.y;
-    return true;
+    return false;
+  }
+
+  /// The turns that are worth trying: those of a small chart would only cost time.
+  std::vector<Stamp> make_stamps(size_t chart, float scale) const {
+    std::vector<Stamp> stamps;
+    stamps.push_back(make_stamp(chart, scale, 0));
+    const int cells = stamps[0].cells.width * stamps[0].cells.height;
+    const int turns = cells <= 64 ? 1 : cells <= 1024 ? 2 : 4;
+    for (int turn = 1; turn < turns; ++turn) stamps.push_back(make_stamp(chart, scale, turn));
+    return stamps;
   }
 
   /// The first place from the top, then from the left, where no cell is taken twice.
-  bool find(const Bitmap& atlas, const Bitmap& cells, int last_y, int* found_x,
-            int* found_y) const {
+  bool find(const Sheet& sheet, const Stamp& stamp, int last_y, int* found_x, int* found_y) const {
+    const Bitmap& cells = stamp.cells;
     if (cells.width > grid_ || cells.height > grid_) return false;
     for (int y = 0; y <= std::min(grid_ - cells.height, last_y); ++y) {
+      if (sheet.gaps[static_cast<size_t>(y + stamp.widest_row)] < stamp.widest) continue;
       for (int x = 0; x <= grid_ - cells.width;) {
-        const int jump = collision(atlas, cells, x, y);
+        const int jump = collision(sheet.taken, cells, x, y);
         if (jump == 0) {
           *found_x = x;
           *found_y = y;
@@ -231,6 +292,12 @@ class Packer {
       }
       cover(p, pad / static_cast<float>(cell_), &stamp.cells);
     }
+    for (int y = 0; y < stamp.cells.height; ++y) {
+      const int run = longest_run(stamp.cells, y, true);
+      if (run <= stamp.widest) continue;
+      stamp.widest = run;
+      stamp.widest_row = y;
+    }
     return stamp;
   }
 
@@ -273,7 +340,6 @@ class Packer {
   double area_ = 0;
   int cell_ = 1;
   int grid_ = 0;
-  bool failed_early_ = false;
 };
 
 }  // namespace
@@ -285,6 +351,8 @@ ck_status ck_pack_charts(const float* corners, const int32_t* charts, size_t tri
   return ck::guarded([&] {
     ck::require(corners && charts && density && options && placements, "an argument is missing");
     ck::require(options->side >= 16 && options->padding >= 0, "the texture is too small");
+    ck::require(options->atlas_count > 0 && options->atlas_count <= 1024,
+                "the number of textures is out of range");
     ck::texture::Packer packer(corners, charts, triangle_count, density, chart_count, *options);
     const auto result = packer.run(control);
     std::copy(result.begin(), result.end(), placements);

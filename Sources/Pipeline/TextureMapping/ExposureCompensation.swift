@@ -20,8 +20,8 @@ struct ExposureCompensation: Sendable {
 
   var options = Options()
 
-  /// RGB gains by view.
-  func run(_ views: FaceViews, viewCount: Int, _ context: StageContext) throws -> [SIMD3<Float>] {
+  /// Gains by view.
+  func run(_ views: FaceViews, viewCount: Int, _ context: StageContext) throws -> [ExposureGain] {
     var logGains = [SIMD3<Double>](repeating: .zero, count: viewCount)
     for round in 0..<options.rounds {
       try context.step(round, of: options.rounds)
@@ -37,8 +37,9 @@ struct ExposureCompensation: Sendable {
     let limit = options.maximumGain
     return logGains.map { gain in
       let value = SIMD3<Float>(Float(exp(gain.x)), Float(exp(gain.y)), Float(exp(gain.z)))
-      return value.clamped(
-        lowerBound: SIMD3(repeating: 1 / limit), upperBound: SIMD3(repeating: limit))
+      return ExposureGain(
+        factors: value.clamped(
+          lowerBound: SIMD3(repeating: 1 / limit), upperBound: SIMD3(repeating: limit)))
     }
   }
 
@@ -52,7 +53,8 @@ struct ExposureCompensation: Sendable {
       let value = entry.color[channel]
       // Near black and white the sensor no longer follows the light.
       guard entry.cosine >= options.minimumCosine, value > 6, value < 246 else { continue }
-      items.append((Int(entry.view), log(Double(value)), Double(entry.cosine)))
+      items.append(
+        (Int(entry.view), log(Double(value + ExposureGain.foot)), Double(entry.cosine)))
     }
     guard items.count >= 2 else { return }
     let corrected = items.map { $0.log + gains[$0.view][channel] }.sorted()

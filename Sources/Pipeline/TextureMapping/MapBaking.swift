@@ -17,34 +17,35 @@ struct MapBaking: Sendable {
 
   var options = Options()
 
-  func run(
+  /// What all textures of a model are baked from.
+  struct Prepared {
+    fileprivate var maps: Set<TextureMap>
+    fileprivate var roughness: Float
+    fileprivate var source: BakeSource?
+    /// Of each triangle's corners.
+    fileprivate var openness: [Float]?
+  }
+
+  /// Gets ready to bake `maps` onto `mesh`, whose triangles are those of `scene`.
+  func prepared(
     _ maps: Set<TextureMap>, mesh: Mesh, scene: RayScene, dense: Mesh, layout: AtlasLayout,
-    charts: [Int32], canvas: TextureCanvas, _ context: StageContext
-  ) throws -> [TextureMap: RasterImage] {
-    var images: [TextureMap: RasterImage] = [:]
+    charts: [Int32], _ context: StageContext
+  ) throws -> Prepared {
+    var result = Prepared(maps: maps, roughness: options.roughness)
     let diagonal = mesh.bounds.map { ($0.max - $0.min).length } ?? 1
     if maps.contains(.normal) || maps.contains(.displacement) {
-      let part = context.part(from: 0, to: 0.6)
-      let source = try source(mesh, dense, layout, charts, reach: options.reach * diagonal, part)
-      let baked = try canvas.bake(
-        source, displacement: maps.contains(.displacement), part.control)
-      if maps.contains(.normal) { images[.normal] = baked.normals }
-      images[.displacement] = baked.displacement
+      let part = context.part(from: 0, to: 0.5)
+      result.source = try source(
+        mesh, dense, layout, charts, reach: options.reach * diagonal, part)
     }
     if maps.contains(.ambientOcclusion) {
-      let control = context.part(from: 0.6, to: 1).control
       let openness = try scene.openness(
         at: mesh.positions, normals: mesh.normals, rays: options.occlusionRays,
-        maximumDistance: options.occlusionReach * diagonal, control)
-      let values = mesh.triangles.flatMap { $0.vertices.map { openness[$0] } }
-      images[.ambientOcclusion] = try canvas.gray(cornerValues: values, control)
+        maximumDistance: options.occlusionReach * diagonal,
+        context.part(from: 0.5, to: 1).control)
+      result.openness = mesh.triangles.flatMap { $0.vertices.map { openness[$0] } }
     }
-    if maps.contains(.roughness) {
-      images[.roughness] = RasterImage(
-        width: layout.side, height: layout.side, channels: 1,
-        filledWith: UInt8((options.roughness * 255).rounded()))
-    }
-    return images
+    return result
   }
 
   private func source(
@@ -58,6 +59,30 @@ struct MapBaking: Sendable {
       maximumDistance: reach, cornerNormals: normals,
       cornerTangents: TangentFrames().run(mesh, texels: layout.corners, charts: charts),
       dense: try RayScene(dense, context.control), denseNormals: denseNormals)
+  }
+}
+
+extension MapBaking.Prepared {
+  /// Bakes the maps of the triangles that the canvas has.
+  func run(on canvas: TextureCanvas, _ context: StageContext) throws -> [TextureMap: RasterImage] {
+    var images: [TextureMap: RasterImage] = [:]
+    if let source {
+      let baked = try canvas.bake(
+        source, displacement: maps.contains(.displacement),
+        context.part(from: 0, to: 0.9).control)
+      if maps.contains(.normal) { images[.normal] = baked.normals }
+      images[.displacement] = baked.displacement
+    }
+    if let openness {
+      images[.ambientOcclusion] = try canvas.gray(
+        cornerValues: openness, context.part(from: 0.9, to: 1).control)
+    }
+    if maps.contains(.roughness) {
+      images[.roughness] = RasterImage(
+        width: canvas.side, height: canvas.side, channels: 1,
+        filledWith: UInt8((roughness * 255).rounded()))
+    }
+    return images
   }
 }
 

@@ -6,8 +6,10 @@ import SceneModel
 /// Color!", ECCV 2014) and bakes what the simplified surface lost into maps.
 package struct TextureMapping: Sendable {
   package struct Options: Sendable {
-    /// Upper bound of the texture's side in texels; it is halved while the photos don't fill it.
+    /// Upper bound of the textures' side in texels; it is halved while the photos don't fill it.
     package var textureSide = 4096
+    /// Upper bound of the number of textures; more than one only where the photos fill it.
+    package var maximumAtlases = 1
     package var maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
 
     var observation = ViewObservation.Options()
@@ -21,10 +23,11 @@ package struct TextureMapping: Sendable {
     var baking = MapBaking.Options()
 
     package init(
-      textureSide: Int = 4096,
+      textureSide: Int = 4096, maximumAtlases: Int = 1,
       maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
     ) {
       self.textureSide = textureSide
+      self.maximumAtlases = maximumAtlases
       self.maps = maps
     }
   }
@@ -57,7 +60,7 @@ package struct TextureMapping: Sendable {
     let gains = try ExposureCompensation(options: options.exposure)
       .run(seen, viewCount: views.count, context.part(from: 0.3, to: 0.33))
     let rated = try ViewCandidates(options: options.candidates)
-      .run(seen, gains: gains, context.part(from: 0.33, to: 0.35))
+      .run(seen, gains: gains, topology: topology, context.part(from: 0.33, to: 0.35))
     let labels = try ViewSelection(options: options.selection)
       .run(rated, mesh: mesh, topology: topology, context.part(from: 0.35, to: 0.4))
     let weights = try ViewBlending(options: options.blending)
@@ -68,26 +71,45 @@ package struct TextureMapping: Sendable {
 
     let map = try Charting(options: options.charting)
       .run(mesh, rated: rated, labels: labels, context.part(from: 0.46, to: 0.5))
-    let layout = try AtlasPacking(options: .init(maximumSide: options.textureSide))
-      .run(map, context.part(from: 0.5, to: 0.6))
-    let canvas = try TextureCanvas(
-      scene, corners: layout.corners, side: layout.side, context.part(from: 0.6, to: 0.62).control)
-    context.notes.count("textureSide", Double(layout.side))
-    context.notes.count("textureUsage", canvas.usage)
-    context.notes.count("texelsPerPixel", Double(layout.magnification))
-
-    var maps = try MapBaking(options: options.baking)
-      .run(
+    let layout = try AtlasPacking(
+      options: .init(maximumSide: options.textureSide, maximumAtlases: options.maximumAtlases)
+    ).run(map, context.part(from: 0.5, to: 0.6))
+    let baking = try MapBaking(options: options.baking)
+      .prepared(
         options.maps, mesh: mesh, scene: scene, dense: dense, layout: layout, charts: map.charts,
-        canvas: canvas, context.part(from: 0.62, to: 0.8))
-    if options.maps.contains(.diffuseColor) {
-      try TexturePainting(options: options.painting)
-        .run(
-          on: canvas, weights: weights, leveling: leveling, gains: gains, views: views,
-          source: source, magnification: layout.magnification, context.part(from: 0.8, to: 0.98))
-      maps[.diffuseColor] = try canvas.colors(context.part(from: 0.98, to: 1).control)
-    }
+        context.part(from: 0.6, to: 0.66))
+    let painting = TexturePainting(
+      options: options.painting, weights: weights, leveling: leveling, gains: gains, views: views,
+      source: source, magnification: layout.magnification)
+    let maps = try images(
+      of: layout, scene: scene, baking, painting, context.part(from: 0.66, to: 1))
     return assembled(mesh, layout, maps)
+  }
+
+  /// The maps of each texture, one texture after the other: while one is painted, it takes three
+  /// times the memory of its image.
+  private func images(
+    of layout: AtlasLayout, scene: RayScene, _ baking: MapBaking.Prepared,
+    _ painting: TexturePainting, _ context: StageContext
+  ) throws -> [[TextureMap: RasterImage]] {
+    let share = 1 / Double(layout.count)
+    var usage = 0.0
+    let images = try (0..<layout.count).map { atlas in
+      let part = context.part(from: share * Double(atlas), to: share * Double(atlas + 1))
+      let canvas = try TextureCanvas(
+        scene, corners: layout.corners(in: atlas), side: layout.side,
+        part.part(from: 0, to: 0.1).control)
+      usage += canvas.usage * share
+      var maps = try baking.run(on: canvas, part.part(from: 0.1, to: 0.4))
+      if options.maps.contains(.diffuseColor) {
+        try painting.run(
+          on: canvas, faces: layout.faces(in: atlas), part.part(from: 0.4, to: 0.95))
+        maps[.diffuseColor] = try canvas.colors(part.part(from: 0.95, to: 1).control)
+      }
+      return maps
+    }
+    context.notes.count("textureUsage", usage)
+    return images
   }
 
   private func checked(_ input: Mesh) throws -> Mesh {
@@ -99,29 +121,44 @@ package struct TextureMapping: Sendable {
     return mesh
   }
 
-  /// Corners with equal coordinates at one vertex share them.
+  /// Puts the triangles in the order of their textures. Corners with equal coordinates at one vertex
+  /// share them, within a texture.
   private func assembled(
-    _ mesh: Mesh, _ layout: AtlasLayout, _ maps: [TextureMap: RasterImage]
+    _ mesh: Mesh, _ layout: AtlasLayout, _ maps: [[TextureMap: RasterImage]]
   ) -> TexturedMesh {
+    var result = TexturedMesh(
+      mesh: mesh, textureCoordinates: [], textureTriangles: [], atlases: [])
+    result.mesh.triangles.removeAll(keepingCapacity: true)
+    result.textureTriangles.reserveCapacity(mesh.triangles.count)
+    for (atlas, maps) in maps.enumerated() {
+      let start = result.mesh.triangles.count
+      append(layout.faces(in: atlas), of: mesh, layout, to: &result)
+      result.atlases.append(
+        TextureAtlas(triangles: start..<result.mesh.triangles.count, maps: maps))
+    }
+    return result
+  }
+
+  private func append(
+    _ faces: [Int], of mesh: Mesh, _ layout: AtlasLayout, to result: inout TexturedMesh
+  ) {
     let side = Float(layout.side)
-    var coordinates: [SIMD2<Float>] = []
     var known = [[UInt32]](repeating: [], count: mesh.positions.count)
-    var triangles: [Triangle] = []
-    triangles.reserveCapacity(mesh.triangles.count)
-    for (face, triangle) in mesh.triangles.enumerated() {
+    for face in faces {
+      let triangle = mesh.triangles[face]
       let indices = triangle.vertices.enumerated().map { corner, vertex in
         let texel = layout.corners[3 * face + corner]
         let uv = SIMD2(texel.x / side, 1 - texel.y / side)
           .clamped(lowerBound: .zero, upperBound: .one)
-        if let index = known[vertex].first(where: { coordinates[Int($0)] == uv }) { return index }
-        coordinates.append(uv)
-        known[vertex].append(UInt32(coordinates.count - 1))
-        return UInt32(coordinates.count - 1)
+        if let index = known[vertex].first(where: { result.textureCoordinates[Int($0)] == uv }) {
+          return index
+        }
+        result.textureCoordinates.append(uv)
+        known[vertex].append(UInt32(result.textureCoordinates.count - 1))
+        return UInt32(result.textureCoordinates.count - 1)
       }
-      triangles.append(Triangle(indices[0], indices[1], indices[2]))
+      result.mesh.triangles.append(triangle)
+      result.textureTriangles.append(Triangle(indices[0], indices[1], indices[2]))
     }
-    return TexturedMesh(
-      mesh: mesh, textureCoordinates: coordinates, textureTriangles: triangles,
-      atlases: [TextureAtlas(triangles: 0..<mesh.triangles.count, maps: maps)])
   }
 }

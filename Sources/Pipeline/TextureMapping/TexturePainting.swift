@@ -9,31 +9,45 @@ struct TexturePainting: Sendable {
   }
 
   var options = Options()
+  var weights: CornerWeights
+  var leveling: LevelingOffsets
+  /// By view number, as `views`.
+  var gains: [ExposureGain]
+  var views: [ID<Photo>]
+  var source: ViewSource
+  /// Texels for a photo's pixel, along a line.
+  var magnification: Float
 
-  /// Paints the canvas; `views` are the photos by view number.
-  func run(
-    on canvas: TextureCanvas, weights: CornerWeights, leveling: LevelingOffsets,
-    gains: [SIMD3<Float>], views: [ID<Photo>], source: ViewSource, magnification: Float,
-    _ context: StageContext
-  ) throws {
+  /// Paints `faces` on the canvas.
+  func run(on canvas: TextureCanvas, faces: [Int], _ context: StageContext) throws {
     var paints = [[FacePaint]](repeating: [], count: views.count + 1)
-    for face in 0..<(weights.offsets.count / 3) {
+    for face in faces {
       for paint in Self.paints(of: face, weights, leveling) {
         paints[Int(paint.view) + 1].append(paint.value)
       }
     }
+    for (index, gain) in gains.enumerated() { Self.add(gain.offset, to: &paints[index + 1]) }
     try canvas.paint(paints[0], from: nil, context.part(from: 0, to: 0).control)
     for (index, photo) in views.enumerated() {
       try context.step(index, of: views.count)
       guard !paints[index + 1].isEmpty else { continue }
-      let view = try source.view(photo, pixels(of: photo, source, magnification))
+      let view = try source.view(photo, pixels(of: photo))
       try canvas.paint(
-        paints[index + 1], from: view, gain: gains[index], context.part(from: 0, to: 0).control)
+        paints[index + 1], from: view, gain: gains[index].factors,
+        context.part(from: 0, to: 0).control)
+    }
+  }
+
+  private static func add(_ offset: SIMD3<Float>, to paints: inout [FacePaint]) {
+    for index in paints.indices {
+      paints[index].offsets.0 += offset
+      paints[index].offsets.1 += offset
+      paints[index].offsets.2 += offset
     }
   }
 
   /// A small texture needs no large photos: two pixels a texel are enough.
-  private func pixels(of photo: ID<Photo>, _ source: ViewSource, _ magnification: Float) -> Int {
+  private func pixels(of photo: ID<Photo>) -> Int {
     let camera = source.reconstruction.camera(of: photo)
     let useful = Float(camera.width * camera.height) * 4 * magnification * magnification
     return min(options.maximumPixels, max(100_000, Int(min(useful, 1e9))))

@@ -32,8 +32,12 @@ import Testing
   private func samples(
     _ model: TexturedMesh
   ) throws -> [(position: SIMD3<Float>, color: SIMD3<Float>)] {
-    let image = try #require(model.atlases[0].maps[.diffuseColor])
-    return zip(model.mesh.triangles, model.textureTriangles).map { t, uv in
+    let images = try model.atlases.flatMap { atlas in
+      let image = try #require(atlas.maps[.diffuseColor])
+      return atlas.triangles.map { _ in image }
+    }
+    return zip(images, zip(model.mesh.triangles, model.textureTriangles)).map { image, triangle in
+      let (t, uv) = triangle
       let positions = model.mesh.positions
       let p = positions[Int(t.a)] + positions[Int(t.b)] + positions[Int(t.c)]
       let coordinates = model.textureCoordinates
@@ -126,6 +130,28 @@ import Testing
     #expect(one.textureCoordinates == two.textureCoordinates)
     #expect(one.textureTriangles == two.textureTriangles)
     #expect(one.atlases[0].maps == two.atlases[0].maps)
+  }
+
+  @Test func whatOneTextureCannotHoldGoesIntoSeveral() throws {
+    let scene = SphereScene(viewCount: 12, color: Self.color)
+    let maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
+    let model = try texture(scene, side: 128, maps: maps) { $0.maximumAtlases = 3 }
+    #expect(model.atlases.count == 3)
+    var next = 0
+    for atlas in model.atlases {
+      #expect(atlas.triangles.lowerBound == next && !atlas.triangles.isEmpty)
+      next = atlas.triangles.upperBound
+      #expect(Set(atlas.maps.keys) == maps)
+      #expect(atlas.maps.values.allSatisfy { $0.width == 128 })
+    }
+    #expect(next == mesh.triangles.count)
+    #expect(Set(model.mesh.triangles).count == mesh.triangles.count)
+    for sample in try samples(model) {
+      let difference = sample.color - Self.color(sample.position)
+      #expect(pointwiseMax(difference, -difference).max() < 12)
+    }
+    // Where one is enough there is one.
+    #expect(try texture(scene, side: 2048) { $0.maximumAtlases = 3 }.atlases.count == 1)
   }
 
   @Test func coarsePhotosGetASmallTexture() throws {

@@ -21,8 +21,11 @@ import Testing
   }
 
   private func rate(_ entries: [[FaceObservation]]) throws -> RatedViews {
-    try ViewCandidates().run(
-      views(entries), gains: entries.map { _ in .one }, StageContext())
+    let mesh = Mesh(
+      positions: [.zero, [1, 0, 0], [0, 1, 0]], triangles: [Triangle(0, 1, 2)])
+    return try ViewCandidates().run(
+      views(entries), gains: entries.map { _ in .none }, topology: MeshTopology(mesh),
+      StageContext())
   }
 
   @Test func frontalLargeAndClearViewsAreBetter() throws {
@@ -49,6 +52,88 @@ import Testing
     #expect(rated.views.entries.count == 2)
   }
 
+  @Test func anOverexposedViewIsWorse() throws {
+    let bright = SIMD3<Float>(245, 240, 230)
+    let rated = try ViewCandidates().run(
+      views([observation(color: bright), observation(color: bright * 0.8)]),
+      gains: [.none, ExposureGain(factors: SIMD3(repeating: 1.22))],
+      topology: MeshTopology(Mesh(positions: [], triangles: [])), StageContext())
+    #expect(rated.qualities[1] > 2 * rated.qualities[0])
+  }
+
+  /// A strip of a grid is hidden by a thing that in its middle has the colour of the surface.
+  @Test func aThingIsLeftOutWithItsRimAndWhatLooksAlike() throws {
+    let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
+    let gray = SIMD3<Float>(repeating: 100)
+    let byView = (0..<4).map { view in
+      mesh.triangles.enumerated().map { face, triangle in
+        let middle = triangle.vertices.reduce(.zero) { $0 + mesh.positions[$1] } / 3
+        let distance = abs(middle.x - 0.5)
+        let isHidden = view == 1 && distance < 0.2
+        // 9 gray levels are within the tolerance.
+        let stranger: SIMD3<Float> = distance < 0.1 ? gray + 9 : [180, 60, 60]
+        return FaceObservation(
+          face: Int32(face), area: 10, cosine: 0.8, gradient: 1,
+          color: isHidden ? stranger : gray)
+      }
+    }
+    let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
+    let isOutlier = try OutlierViews().run(
+      views, topology: MeshTopology(mesh), StageContext())
+    for (entry, isOutlier) in zip(views.entries, isOutlier) {
+      let triangle = mesh.triangles[Int(entry.face)]
+      let middle = triangle.vertices.reduce(.zero) { $0 + mesh.positions[$1] } / 3
+      let distance = abs(middle.x - 0.5)
+      if entry.view != 1 || distance > 0.3 { #expect(!isOutlier) }
+      if entry.view == 1, distance < 0.22 { #expect(isOutlier) }
+    }
+  }
+
+  /// The same strip; its lower end is seen by one photo alone, and by two a little higher.
+  @Test func aThingIsFollowedWhereFewPhotosSeeTheSurface() throws {
+    let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
+    func middle(_ face: Int) -> SIMD3<Float> {
+      mesh.triangles[face].vertices.reduce(.zero) { $0 + mesh.positions[$1] } / 3
+    }
+    let byView = (0..<4).map { view in
+      mesh.triangles.indices.compactMap { face -> FaceObservation? in
+        let p = middle(face)
+        if p.y < 0.2, view != 1 { return nil }
+        if p.y < 0.4, view > 1 { return nil }
+        let isHidden = view == 1 && abs(p.x - 0.5) < 0.2
+        return FaceObservation(
+          face: Int32(face), area: 10, cosine: 0.8, gradient: 1,
+          color: isHidden ? [180, 60, 60] : SIMD3(repeating: 100))
+      }
+    }
+    let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
+    let isOutlier = try OutlierViews().run(views, topology: MeshTopology(mesh), StageContext())
+    for (entry, isOutlier) in zip(views.entries, isOutlier) {
+      let distance = abs(middle(Int(entry.face)).x - 0.5)
+      if entry.view != 1 || distance > 0.3 { #expect(!isOutlier) }
+      if entry.view == 1, distance < 0.2 { #expect(isOutlier) }
+    }
+    // Beside the thing the only view stays.
+    let beside = zip(views.entries, isOutlier).filter {
+      middle(Int($0.0.face)).y < 0.2 && abs(middle(Int($0.0.face)).x - 0.5) > 0.2
+    }
+    #expect(beside.allSatisfy { !$0.1 })
+  }
+
+  @Test func aSpeckDoesNotSpread() throws {
+    let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
+    let byView = (0..<4).map { view in
+      mesh.triangles.indices.map {
+        FaceObservation(
+          face: Int32($0), area: 10, cosine: 0.8, gradient: 1,
+          color: view == 1 && $0 == 400 ? [180, 60, 60] : SIMD3(repeating: 100))
+      }
+    }
+    let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
+    let isOutlier = try OutlierViews().run(views, topology: MeshTopology(mesh), StageContext())
+    #expect(isOutlier.count { $0 } == 1)
+  }
+
   @Test func gainsOfPhotosAreFound() throws {
     // Three photos see 300 triangles; the second is darker, the third brighter in red.
     let truth: [SIMD3<Float>] = [.one, .init(repeating: 0.8), [1.25, 1, 1]]
@@ -58,13 +143,16 @@ import Testing
     }
     let byView = truth.map { gain in
       colors.enumerated().map { face, color in
-        FaceObservation(face: Int32(face), area: 10, cosine: 0.8, gradient: 1, color: color * gain)
+        // As exposure acts on what sRGB stores.
+        FaceObservation(
+          face: Int32(face), area: 10, cosine: 0.8, gradient: 1,
+          color: (color + ExposureGain.foot) * gain - ExposureGain.foot)
       }
     }
     let gains = try ExposureCompensation().run(
       FaceViews(faceCount: 300, observationsByView: byView), viewCount: 3, StageContext())
     for view in 1..<3 {
-      let relative = gains[view] * truth[view] / (gains[0] * truth[0])
+      let relative = gains[view].factors * truth[view] / (gains[0].factors * truth[0])
       #expect((relative - .one).length < 0.03)
     }
   }
@@ -78,8 +166,8 @@ import Testing
       }
     }
     let rated = try ViewCandidates().run(
-      FaceViews(faceCount: count, observationsByView: byView), gains: [.one, .one],
-      StageContext())
+      FaceViews(faceCount: count, observationsByView: byView), gains: [.none, .none],
+      topology: MeshTopology(mesh), StageContext())
     let labels = (0..<count).map { $0 == 0 ? Int32(-1) : Int32($0 * 2 / count) }
     let weights = try ViewBlending().run(
       rated, labels: labels, mesh: mesh, topology: MeshTopology(mesh), StageContext())

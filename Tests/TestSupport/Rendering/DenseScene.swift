@@ -74,7 +74,7 @@ package enum DenseScene: String, CaseIterable, Sendable {
     }
   }
 
-  private static func pose(
+  static func pose(
     turn: Double, degrees: Double, height: Double = 0.125
   ) -> RigidTransform {
     let target = SIMD3<Double>(0, height, 0)

@@ -38,7 +38,7 @@ extension RenderedScene {
     let width = camera.width
     let sights = try control.parallelMap(camera.height) { row in
       (0..<width).map {
-        sight(along: ray(through: SIMD2(Double($0), Double(row)) + 0.5, of: index))
+        sight(through: SIMD2(Double($0), Double(row)) + 0.5, of: index)
       }
     }
     let light = try control.parallelMap(camera.height) { row in
@@ -76,7 +76,7 @@ extension RenderedScene {
     for sample in 0..<side * side {
       let offset = SIMD2(Double(sample % side), Double(sample / side)) + 0.5
       let pixel = SIMD2(Double(column), Double(row)) + offset / Double(side)
-      sum += sight(along: ray(through: pixel, of: index)).radiance
+      sum += sight(through: pixel, of: index).radiance
     }
     return sum / Float(side * side)
   }

@@ -31,6 +31,8 @@ package struct RenderedScene: Sendable {
   /// A lens and exposures of their own for each photo, and rays spent where there are edges; nil
   /// casts the same rays everywhere and shows the light as it is.
   package var photography: Photography?
+  /// What hides a part of the object in some photos.
+  package var intruder: Intruder?
 
   let surfaces: [Surface]
   private let caster: RayCaster
@@ -161,7 +163,7 @@ package struct RenderedScene: Sendable {
       for sample in 0..<samplesPerSide * samplesPerSide {
         let offset = SIMD2(Double(sample % samplesPerSide), Double(sample / samplesPerSide)) + 0.5
         let pixel = SIMD2(Double(column), Double(row)) + offset / Double(samplesPerSide)
-        sum += radiance(ray(through: pixel, of: index))
+        sum += sight(through: pixel, of: index).radiance
       }
       let linear = sum / Float(samplesPerSide * samplesPerSide)
       let noise = generator.normal3() * self.noise
@@ -180,17 +182,29 @@ package struct RenderedScene: Sendable {
     /// Infinite where there is nothing.
     var depth = Float.infinity
     var normal = SIMD3<Float>.zero
+    /// −1 where there is nothing.
     var surface = -1
     var isLit = false
+
+    /// The surface that isn't of the scene.
+    static let intruder = Int.max
   }
 
-  private func radiance(
-    _ ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)
-  ) -> SIMD3<Float> {
-    sight(along: ray).radiance
+  /// What photo `index` shows at a pixel.
+  func sight(through pixel: SIMD2<Double>, of index: Int) -> Sight {
+    let ray = ray(through: pixel, of: index)
+    let behind = sight(along: ray)
+    guard let intruder, let center = intruder.center(in: index),
+      let before = intruder.sight(
+        from: ray.origin, along: ray.direction,
+        center: SIMD3<Float>(poses[index].inverse * SIMD3<Double>(center)),
+        footprint: 1 / Float(camera.focalLength.x)),
+      before.depth < behind.depth
+    else { return behind }
+    return before
   }
 
-  func sight(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> Sight {
+  private func sight(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> Sight {
     guard let hit = caster.hit(from: ray.origin, along: ray.direction) else {
       // A plain backdrop without detail, a little lighter towards the top.
       let height = 0.5 + 0.5 * ray.direction.normalized.y
