@@ -68,7 +68,10 @@ import Testing
       }
     }
     func strayTexels(_ masks: [RasterImage?]) throws -> Int {
-      let model = try TextureMapping(options: .init(textureSide: 256, maps: [.diffuseColor])).run(
+      var options = TextureMapping.Options(textureSide: 256, maps: [.diffuseColor])
+      // Without masks nothing else is to tell what is beside them.
+      if masks.isEmpty { options.candidates.outliers.colorTolerance = .infinity }
+      let model = try TextureMapping(options: options).run(
         mesh, dense: mesh, reconstruction: reconstruction,
         images: ImageStore(images: photos, masks: masks), StageContext())
       let texture = try #require(model.atlases[0].maps[.diffuseColor])

@@ -102,6 +102,13 @@ struct ViewSource: Sendable {
   /// The view of a photo, at most so many pixels large.
   var view: @Sendable (ID<Photo>, Int) throws -> PinholeView
 
+  /// Pixels of a full photo, in the mean of those that are registered.
+  var pixelsPerPhoto: Float {
+    let cameras = reconstruction.registered.map { reconstruction.camera(of: $0) }
+    let sum = cameras.reduce(Float(0)) { $0 + Float($1.width) * Float($1.height) }
+    return sum / Float(max(1, cameras.count))
+  }
+
   /// Pixels of the full photo for one of the view.
   func areaFactor(of view: PinholeView) -> Float {
     let full = reconstruction.camera(of: view.photo).focalLength

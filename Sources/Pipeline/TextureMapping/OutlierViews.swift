@@ -16,7 +16,7 @@ struct OutlierViews: Sendable {
     var deviations: Float = 3
     /// The least number of views that tell which of them is the odd one.
     var minimumViews = 3
-    /// Pixels of a photo that stand out side by side and are a thing.
+    /// Pixels of a photo that stand out side by side and are a thing; in large photos it takes more.
     var thingArea: Float = 400
     /// Share of the tolerance that is enough beside what stands out.
     var weakShare: Float = 0.5

@@ -12,6 +12,8 @@ package struct TextureMapping: Sendable {
     package var maximumAtlases = 1
     package var maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
 
+    /// What stands out over so large a share of a photo is a thing before the surface.
+    var thingShare: Float = 0.001
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()
     var candidates = ViewCandidates.Options()
@@ -59,7 +61,10 @@ package struct TextureMapping: Sendable {
       .run(scene, views: views, source: source, context.part(from: 0, to: 0.3))
     let gains = try ExposureCompensation(options: options.exposure)
       .run(seen, viewCount: views.count, context.part(from: 0.3, to: 0.33))
-    let rated = try ViewCandidates(options: options.candidates)
+    var candidates = options.candidates
+    candidates.outliers.thingArea = max(
+      candidates.outliers.thingArea, options.thingShare * source.pixelsPerPhoto)
+    let rated = try ViewCandidates(options: candidates)
       .run(seen, gains: gains, topology: topology, context.part(from: 0.33, to: 0.35))
     let labels = try ViewSelection(options: options.selection)
       .run(rated, mesh: mesh, topology: topology, context.part(from: 0.35, to: 0.4))
