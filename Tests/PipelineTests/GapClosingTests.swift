@@ -52,6 +52,26 @@ import Testing
     #expect(closed.triangles == mesh.triangles)
   }
 
+  @Test func balloonOverAFewFacesGoes() {
+    let (mesh, _) = dome(radius: 10)
+    // Of a sheet with a dome only the outermost cells are kept.
+    let isRemoved = mesh.triangles.map { triangle in
+      triangle.vertices.allSatisfy {
+        max(abs(mesh.positions[$0].x), abs(mesh.positions[$0].z)) < 18.5
+      }
+    }
+    var closing = GapClosing()
+    closing.options.closesLarge = false
+    closing.options.smallShare = 0.95
+    let kept = isRemoved.count { !$0 }
+    #expect(closing.run(mesh, isRemoved: isRemoved) { _ in false }.triangles.count == kept)
+    // As a closure of an object it stays.
+    closing.options.closesLarge = true
+    closing.options.smallShare = 0.05
+    let closed = closing.run(mesh, isRemoved: isRemoved) { _ in false }
+    #expect(closed.triangles == mesh.triangles)
+  }
+
   @Test func largeGapOfASceneStaysOpen() {
     let (mesh, isDome) = dome(radius: 10)
     var closing = GapClosing()

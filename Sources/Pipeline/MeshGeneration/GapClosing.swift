@@ -51,6 +51,8 @@ struct GapClosing {
       let triangles = faces.map { mesh.triangles[$0] }
       let share = mesh.extent(of: triangles).map { Double($0 / size) } ?? 1
       let isSmall = share < options.smallShare
+      // A balloon with more surface than what holds it is no gap: stray samples made it.
+      if isSmall || !options.closesLarge, mesh.area(of: triangles) > gaps.rimArea[gap] { continue }
       let isTiny = share < options.tinyShare && options.closesLarge
       if isSmall,
         result.freeShare(of: triangles, depth: options.depth, isFree) < options.smallFreeShare
@@ -117,6 +119,8 @@ private struct Gaps {
   let isEnclosed: [Bool]
   /// Vertices between kept and removed faces.
   let isRim: [Bool]
+  /// The area of the largest connected part that a gap borders on.
+  let rimArea: [Double]
   private let removed: [Int]
   private let members: Members
 
@@ -142,6 +146,27 @@ private struct Gaps {
     count = components.count
     members = Members(of: components.components, count: components.count)
     isEnclosed = Self.areEnclosed(mesh, removed, components, isKept)
+    rimArea = Self.rimAreas(mesh, isRemoved, removed, components)
+  }
+
+  private static func rimAreas(
+    _ mesh: Mesh, _ isRemoved: [Bool], _ removed: [Int], _ gaps: MeshComponents
+  ) -> [Double] {
+    let kept = mesh.triangles.indices.filter { !isRemoved[$0] }.map { mesh.triangles[$0] }
+    let parts = MeshComponents(kept, vertexCount: mesh.positions.count)
+    var areas = [Double](repeating: 0, count: parts.count)
+    var partOfVertex = [Int32](repeating: -1, count: mesh.positions.count)
+    for (triangle, part) in zip(kept, parts.components) {
+      areas[Int(part)] += mesh.area(of: [triangle])
+      for vertex in triangle.vertices { partOfVertex[vertex] = part }
+    }
+    var result = [Double](repeating: 0, count: gaps.count)
+    for (face, gap) in zip(removed, gaps.components) {
+      for vertex in mesh.triangles[face].vertices where partOfVertex[vertex] >= 0 {
+        result[Int(gap)] = max(result[Int(gap)], areas[Int(partOfVertex[vertex])])
+      }
+    }
+    return result
   }
 
   func faces(of gap: Int) -> [Int] { members[gap].map { removed[Int($0)] } }
@@ -280,6 +305,13 @@ extension Mesh {
     mesh.positions += lid.middles
     mesh.triangles += lid.triangles
     return mesh
+  }
+
+  fileprivate func area(of faces: [Triangle]) -> Double {
+    faces.reduce(0) { sum, face in
+      let (a, b, c) = corners(of: face)
+      return sum + Double((b - a).cross(c - a).length) / 2
+    }
   }
 
   /// The share of some faces' area that photos look through.
