@@ -76,8 +76,8 @@ struct OutlierViews: Sendable {
     var median = SIMD3<Float>.zero
     var deviation = SIMD3<Float>.zero
     for channel in 0..<3 {
-      median[channel] = colors.map { $0[channel] }.upperMedian
-      deviation[channel] = colors.map { abs($0[channel] - median[channel]) }.upperMedian
+      median[channel] = colors.map { $0[channel] }.upperMedian ?? 0
+      deviation[channel] = colors.map { abs($0[channel] - median[channel]) }.upperMedian ?? 0
     }
     let tolerance = SIMD3<Float>(repeating: options.colorTolerance)
     if entries.count == 2 {
@@ -213,9 +213,4 @@ struct FaceNeighbors: Sendable {
       if let other = views.index(of: Int(faces[place]), in: view) { body(other) }
     }
   }
-}
-
-extension Array where Element == Float {
-  /// The middle value, the higher of two; 0 of none.
-  var upperMedian: Float { isEmpty ? 0 : sorted()[count / 2] }
 }

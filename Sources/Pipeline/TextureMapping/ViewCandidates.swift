@@ -54,7 +54,7 @@ struct ViewCandidates: Sendable {
     let sharpness = range.map {
       rated.views.entries[$0].gradient * rated.views.entries[$0].area.squareRoot()
     }
-    let typical = max(sharpness.upperMedian, 1e-3)
+    let typical = max(sharpness.upperMedian ?? 0, 1e-3)
     var (sum, weight) = (SIMD3<Float>.zero, Float(0))
     for (index, sharp) in zip(range, sharpness) {
       let entry = rated.views.entries[index]

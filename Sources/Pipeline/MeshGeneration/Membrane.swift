@@ -1,0 +1,80 @@
+import SceneModel
+
+/// A part of a surface whose free vertices are drawn to the mean of their neighbours: the solution of
+/// Laplace's equation on its graph, by conjugate gradients.
+struct Membrane: Sendable {
+  /// The free vertices, by their number in the mesh.
+  private(set) var vertices: [Int] = []
+  /// Neighbours of each free vertex: free ones by their place in `vertices`, fixed ones as −1 − vertex.
+  private var offsets: [Int] = [0]
+  private var neighbours: [Int] = []
+
+  init(_ triangles: [Triangle], isFixed: [Bool]) {
+    let edges = triangles.flatMap(\.edges).flatMap { [$0, SIMD2($0.y, $0.x)] }
+      .filter { !isFixed[Int($0.x)] }
+      .sorted { ($0.x, $0.y) < ($1.x, $1.y) }
+    var places: [UInt32: Int] = [:]
+    for edge in edges where places[edge.x] == nil {
+      places[edge.x] = vertices.count
+      vertices.append(Int(edge.x))
+    }
+    var last: SIMD2<UInt32>?
+    for edge in edges where edge != last {
+      if let last, last.x != edge.x { offsets.append(neighbours.count) }
+      neighbours.append(places[edge.y] ?? -1 - Int(edge.y))
+      last = edge
+    }
+    if !vertices.isEmpty { offsets.append(neighbours.count) }
+  }
+
+  /// Moves the free vertices.
+  func tighten(_ positions: inout [SIMD3<Float>], iterations: Int) {
+    guard !vertices.isEmpty else { return }
+    var x = vertices.map { SIMD3<Double>(positions[$0]) }
+    var residual = vertices.indices.map { pull($0, x, positions) }
+    var direction = residual
+    var energy = Self.dot(residual, residual)
+    let enough = energy * 1e-10
+    for _ in 0..<iterations {
+      guard energy.max() > enough.max() else { break }
+      let product = vertices.indices.map { applied($0, direction) }
+      let step = Self.ratio(energy, Self.dot(direction, product))
+      for i in vertices.indices {
+        x[i] += step * direction[i]
+        residual[i] -= step * product[i]
+      }
+      let next = Self.dot(residual, residual)
+      let turn = Self.ratio(next, energy)
+      for i in vertices.indices { direction[i] = residual[i] + turn * direction[i] }
+      energy = next
+    }
+    for (place, vertex) in vertices.enumerated() { positions[vertex] = SIMD3<Float>(x[place]) }
+  }
+
+  /// The sum over the neighbours of their difference to a vertex.
+  private func pull(
+    _ place: Int, _ x: [SIMD3<Double>], _ positions: [SIMD3<Float>]
+  ) -> SIMD3<Double> {
+    neighbours[offsets[place]..<offsets[place + 1]].reduce(SIMD3<Double>.zero) {
+      $0 + ($1 >= 0 ? x[$1] : SIMD3<Double>(positions[-1 - $1])) - x[place]
+    }
+  }
+
+  /// The graph Laplacian of the free vertices times a vector.
+  private func applied(_ place: Int, _ vector: [SIMD3<Double>]) -> SIMD3<Double> {
+    let range = offsets[place]..<offsets[place + 1]
+    return neighbours[range].reduce(Double(range.count) * vector[place]) {
+      $1 >= 0 ? $0 - vector[$1] : $0
+    }
+  }
+
+  /// The scalar products of the three coordinates, each a system of its own.
+  private static func dot(_ a: [SIMD3<Double>], _ b: [SIMD3<Double>]) -> SIMD3<Double> {
+    zip(a, b).reduce(SIMD3<Double>.zero) { $0 + $1.0 * $1.1 }
+  }
+
+  private static func ratio(_ a: SIMD3<Double>, _ b: SIMD3<Double>) -> SIMD3<Double> {
+    let isZero = b .<= 0
+    return (a / b.replacing(with: 1, where: isZero)).replacing(with: 0, where: isZero)
+  }
+}

@@ -1,0 +1,49 @@
+import SceneModel
+
+extension Mesh {
+  /// A fan over each border of removed faces; its vertices beyond the surface's own are the middles.
+  func lid(isRemoved: [Bool]) -> (middles: [SIMD3<Float>], triangles: [Triangle]) {
+    let open = openEdges
+    var next: [UInt32: UInt32] = [:]
+    for (triangle, isRemoved) in zip(triangles, isRemoved) where isRemoved {
+      for edge in triangle.edges where open.contains(edge) { next[edge.x] = edge.y }
+    }
+    var result: (middles: [SIMD3<Float>], triangles: [Triangle]) = ([], [])
+    for start in next.keys.sorted() {
+      var border: [UInt32] = []
+      var vertex = start
+      while let following = next.removeValue(forKey: vertex) {
+        border.append(vertex)
+        vertex = following
+      }
+      guard vertex == start, border.count > 2 else { continue }
+      let middle = UInt32(positions.count + result.middles.count)
+      let sum = border.reduce(SIMD3<Float>.zero) { $0 + positions[Int($1)] }
+      result.middles.append(sum / Float(border.count))
+      result.triangles += zip(border, border.dropFirst() + [start]).map { Triangle($1, $0, middle) }
+    }
+    return result
+  }
+
+  /// The edges that have a face on their left only.
+  var openEdges: Set<SIMD2<UInt32>> {
+    var open = Set<SIMD2<UInt32>>()
+    for triangle in triangles {
+      for edge in triangle.edges where open.remove([edge.y, edge.x]) == nil { open.insert(edge) }
+    }
+    return open
+  }
+
+  /// The mesh with such fans.
+  func adding(_ lid: (middles: [SIMD3<Float>], triangles: [Triangle])) -> Mesh {
+    var mesh = self
+    mesh.positions += lid.middles
+    mesh.triangles += lid.triangles
+    return mesh
+  }
+}
+
+extension Triangle {
+  /// The directed edges.
+  var edges: [SIMD2<UInt32>] { [[a, b], [b, c], [c, a]] }
+}

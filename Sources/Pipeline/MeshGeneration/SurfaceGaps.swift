@@ -1,0 +1,84 @@
+import SceneModel
+
+/// The removed faces of a mesh by the gap that they close.
+struct SurfaceGaps: Sendable {
+  let count: Int
+  /// Whether the kept faces go all around a gap.
+  let isEnclosed: [Bool]
+  /// Vertices between kept and removed faces.
+  let isRim: [Bool]
+  /// The area of each gap.
+  let areas: [Float]
+  /// The area of the largest connected part that a gap borders on.
+  let rimAreas: [Float]
+  private let removed: [Int]
+  private let members: Members
+
+  init(_ mesh: Mesh, isRemoved: [Bool]) {
+    removed = isRemoved.indices.filter { isRemoved[$0] }
+    var isKept = [Bool](repeating: false, count: mesh.positions.count)
+    for (triangle, isRemoved) in zip(mesh.triangles, isRemoved) where !isRemoved {
+      for vertex in triangle.vertices { isKept[vertex] = true }
+    }
+    isRim = isKept
+    // Gaps that meet at a vertex only are two: faces of one have edges in common.
+    var numbers: [SIMD2<UInt32>: UInt32] = [:]
+    let byEdges = removed.map { face in
+      let edges = mesh.triangles[face].edges.map { edge -> UInt32 in
+        let key = SIMD2(min(edge.x, edge.y), max(edge.x, edge.y))
+        let number = numbers[key] ?? UInt32(numbers.count)
+        numbers[key] = number
+        return number
+      }
+      return Triangle(edges[0], edges[1], edges[2])
+    }
+    let components = MeshComponents(byEdges, vertexCount: numbers.count)
+    count = components.count
+    members = Members(of: components.components, count: components.count)
+    isEnclosed = Self.areEnclosed(mesh, removed, components, isKept)
+    let faceAreas = mesh.triangleAreas()
+    var areas = [Float](repeating: 0, count: components.count)
+    for (face, gap) in zip(removed, components.components) { areas[Int(gap)] += faceAreas[face] }
+    self.areas = areas
+    rimAreas = Self.rimAreas(mesh, faceAreas, isRemoved, removed, components)
+  }
+
+  private static func rimAreas(
+    _ mesh: Mesh, _ faceAreas: [Float], _ isRemoved: [Bool], _ removed: [Int],
+    _ gaps: MeshComponents
+  ) -> [Float] {
+    let kept = mesh.triangles.indices.filter { !isRemoved[$0] }
+    let parts = MeshComponents(
+      kept.map { mesh.triangles[$0] }, vertexCount: mesh.positions.count)
+    var areas = [Float](repeating: 0, count: parts.count)
+    var partOfVertex = [Int32](repeating: -1, count: mesh.positions.count)
+    for (face, part) in zip(kept, parts.components) {
+      areas[Int(part)] += faceAreas[face]
+      for vertex in mesh.triangles[face].vertices { partOfVertex[vertex] = part }
+    }
+    var result = [Float](repeating: 0, count: gaps.count)
+    for (face, gap) in zip(removed, gaps.components) {
+      for vertex in mesh.triangles[face].vertices where partOfVertex[vertex] >= 0 {
+        result[Int(gap)] = max(result[Int(gap)], areas[Int(partOfVertex[vertex])])
+      }
+    }
+    return result
+  }
+
+  func faces(of gap: Int) -> [Int] { members[gap].map { removed[Int($0)] } }
+
+  /// A gap is enclosed when it has a rim and all of its edges have a face on both sides.
+  private static func areEnclosed(
+    _ mesh: Mesh, _ removed: [Int], _ components: MeshComponents, _ isKept: [Bool]
+  ) -> [Bool] {
+    let open = mesh.openEdges
+    var hasRim = [Bool](repeating: false, count: components.count)
+    var isOpen = hasRim
+    for (face, gap) in zip(removed, components.components) {
+      let triangle = mesh.triangles[face]
+      if triangle.vertices.contains(where: { isKept[$0] }) { hasRim[Int(gap)] = true }
+      if triangle.edges.contains(where: open.contains) { isOpen[Int(gap)] = true }
+    }
+    return zip(hasRim, isOpen).map { $0 && !$1 }
+  }
+}
