@@ -87,29 +87,45 @@ package final class TextureCanvas {
     return result
   }
 
-  /// Values, 0…1, of each triangle's corners, interpolated.
-  package func gray(cornerValues: [Float], _ control: KernelControl) throws -> RasterImage {
-    guard cornerValues.count == 3 * scene.triangleCount else {
-      throw KernelError.invalidArgument("values and corners differ in number")
-    }
-    var result = RasterImage(width: side, height: side, channels: 1)
-    try withKernel(control) {
-      ck_atlas_copy_corner_values(handle, cornerValues, $0, &result.pixels)
-    }
-    return result
-  }
-
   /// The dense surface's normals and its distance, as seen from the surface that is textured.
   package func bake(
     _ source: BakeSource, displacement: Bool, _ control: KernelControl
   ) throws -> (normals: RasterImage, displacement: RasterImage?) {
+    var image = RasterImage(width: side, height: side, channels: 3)
+    var heights = displacement ? RasterImage(width: side, height: side, channels: 1) : nil
+    try with(source, control) { raw, control in
+      guard heights != nil else { return ck_atlas_bake(handle, &raw, control, &image.pixels, nil) }
+      var pixels = [UInt8](repeating: 0, count: side * side)
+      defer { heights?.pixels = pixels }
+      return ck_atlas_bake(handle, &raw, control, &image.pixels, &pixels)
+    }
+    return (image, heights)
+  }
+
+  /// The share of the sky that the dense surface leaves open above each texel within
+  /// `maximumDistance`, cosine-weighted; 255 is all of it.
+  ///
+  /// Texels share rays with those around them, 16 times `raysPerTexel` in all.
+  package func occlusion(
+    _ source: BakeSource, raysPerTexel: Int, maximumDistance: Float, _ control: KernelControl
+  ) throws -> RasterImage {
+    var image = RasterImage(width: side, height: side, channels: 1)
+    try with(source, control) { raw, control in
+      ck_atlas_occlusion(
+        handle, &raw, max(0, raysPerTexel), maximumDistance, control, &image.pixels)
+    }
+    return image
+  }
+
+  private func with(
+    _ source: BakeSource, _ control: KernelControl,
+    _ body: (inout ck_bake_source, UnsafePointer<ck_control>) -> ck_status
+  ) throws {
     guard source.cornerNormals.count == 3 * scene.triangleCount,
       source.cornerTangents.count == 3 * scene.triangleCount
     else { throw KernelError.invalidArgument("corner normals and corners differ in number") }
     let normals = source.cornerNormals.flatMap { [$0.x, $0.y, $0.z] }
     let tangents = source.cornerTangents.flatMap { [$0.x, $0.y, $0.z, $0.w] }
-    var image = RasterImage(width: side, height: side, channels: 3)
-    var heights = displacement ? RasterImage(width: side, height: side, channels: 1) : nil
     try withKernel(control) { control in
       normals.withUnsafeBufferPointer { normals in
         tangents.withUnsafeBufferPointer { tangents in
@@ -118,21 +134,15 @@ package final class TextureCanvas {
               maximum_distance: source.maximumDistance, corner_normals: normals.baseAddress,
               corner_tangents: tangents.baseAddress, dense: source.dense.handle,
               dense_normals: denseNormals, dense_normals_stride: MemoryLayout<SIMD3<Float>>.stride)
-            guard heights != nil else {
-              return ck_atlas_bake(handle, &raw, control, &image.pixels, nil)
-            }
-            var pixels = [UInt8](repeating: 0, count: side * side)
-            defer { heights?.pixels = pixels }
-            return ck_atlas_bake(handle, &raw, control, &image.pixels, &pixels)
+            return body(&raw, control)
           }
         }
       }
     }
-    return (image, heights)
   }
 }
 
-/// What normals and heights are baked from.
+/// What the maps are baked from that are not colour.
 package struct BakeSource: Sendable {
   /// How far from the textured surface the dense one is looked for, in world units.
   package var maximumDistance: Float

@@ -98,29 +98,6 @@ package final class RayScene: Sendable {
     }
     return result
   }
-
-  /// The share of the sky, 0…1, that each position sees above its normal within
-  /// `maximumDistance`; cosine-weighted, by a fixed set of `rays`.
-  package func openness(
-    at positions: [SIMD3<Float>], normals: [SIMD3<Float>], rays: Int, maximumDistance: Float,
-    _ control: KernelControl
-  ) throws -> [Float] {
-    guard positions.count == normals.count else {
-      throw KernelError.invalidArgument("positions and normals differ in number")
-    }
-    var openness = [Float](repeating: 1, count: positions.count)
-    let stride = MemoryLayout<SIMD3<Float>>.stride
-    try withKernel(control) { control in
-      positions.withUnsafeFloats { positions in
-        normals.withUnsafeFloats { normals in
-          ck_occlusion(
-            handle, positions, stride, normals, stride, openness.count, rays, maximumDistance,
-            control, &openness)
-        }
-      }
-    }
-    return openness
-  }
 }
 
 extension ck_pinhole {

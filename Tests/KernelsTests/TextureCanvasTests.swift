@@ -67,6 +67,27 @@ import Testing
     #expect(baked.displacement == nil)
   }
 
+  @Test func nothingIsAboveAPlane() throws {
+    let open = try canvas().occlusion(
+      source(dense: plane), raysPerTexel: 4, maximumDistance: 10, KernelControl())
+    #expect(open.pixels.allSatisfy { $0 == 255 })
+  }
+
+  @Test func aLongWallTakesItsFormFactorFromTheSky() throws {
+    var dense = plane
+    SyntheticMesh.append(
+      SyntheticMesh.grid(cells: 4, origin: [1, -40, 0], u: [0, 0, 1], v: [0, 80, 0]), to: &dense)
+    let open = try canvas().occlusion(
+      source(dense: dense), raysPerTexel: 8, maximumDistance: 100, KernelControl())
+    for x in stride(from: 12, to: 54, by: 3) {
+      let distance = 1 - ((Float(x) + 0.5 - 8) / 24 - 1)
+      let formFactor = (1 - distance / (1 + distance * distance).squareRoot()) / 2
+      for y in [16, 30, 41] {
+        #expect(abs(Float(pixel(open, x, y)[0]) / 255 - (1 - formFactor)) < 0.025)
+      }
+    }
+  }
+
   @Test func weightsOffsetsAndGainsAddUp() throws {
     let canvas = try canvas()
     #expect(abs(canvas.usage - 48 * 48 / Double(64 * 64)) < 0.02)

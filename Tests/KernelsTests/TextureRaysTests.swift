@@ -62,28 +62,6 @@ import Testing
     #expect(seen.count == 2 * 4 * 4)
   }
 
-  @Test func opennessOfAPlaneAndOfACorner() throws {
-    var corner = SyntheticMesh.grid(cells: 8, origin: [0, 0, 0], u: [0, 0, 1], v: [1, 0, 0])
-    let floorCount = corner.positions.count
-    SyntheticMesh.append(
-      SyntheticMesh.grid(cells: 8, origin: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0]), to: &corner)
-    SyntheticMesh.append(
-      SyntheticMesh.grid(cells: 8, origin: [0, 0, 0], u: [0, 1, 0], v: [0, 0, 1]), to: &corner)
-    let scene = try RayScene(corner, KernelControl())
-    let floor = (0..<floorCount).map { corner.positions[$0] }
-    let openness = try scene.openness(
-      at: floor, normals: floor.map { _ in [0, 1, 0] }, rays: 256, maximumDistance: 10,
-      KernelControl())
-    func value(at p: SIMD3<Float>) -> Float? { floor.firstIndex(of: p).map { openness[$0] } }
-    // Next to two walls a quarter of the sky is left; far from them nearly all.
-    #expect(abs((value(at: [0.125, 0, 0.125]) ?? 0) - 0.3) < 0.1)
-    #expect((value(at: [1, 0, 1]) ?? 0) > 0.75)
-    let plane = SyntheticMesh.grid(cells: 4, origin: [0, 0, 0], u: [0, 0, 1], v: [1, 0, 0])
-    let open = try RayScene(plane, KernelControl()).openness(
-      at: plane.positions, normals: plane.normals, rays: 64, maximumDistance: 10, KernelControl())
-    #expect(open.allSatisfy { $0 == 1 })
-  }
-
   @Test func badMeshesAreRefused() {
     #expect(throws: KernelError.self) { try RayScene(Mesh(), KernelControl()) }
     let missing = Mesh(positions: [.zero], triangles: [.init(0, 1, 2)])

@@ -166,10 +166,6 @@ ck_status ck_atlas_paint(ck_atlas* atlas, const ck_pinhole* view, const uint8_t*
 /// Writes `side² × 3` bytes, the space between the charts filled from their rims.
 ck_status ck_atlas_copy_colors(const ck_atlas* atlas, const ck_control* control, uint8_t* rgb);
 
-/// Writes values given at each triangle's corners (3 floats, 0…1) as `side²` gray bytes.
-ck_status ck_atlas_copy_corner_values(const ck_atlas* atlas, const float* values,
-                                      const ck_control* control, uint8_t* gray);
-
 /// What the maps that compare two surfaces need to know.
 typedef struct {
   /// How far from the simplified surface the dense one is looked for, in world units.
@@ -190,10 +186,12 @@ typedef struct {
 ck_status ck_atlas_bake(const ck_atlas* atlas, const ck_bake_source* source,
                         const ck_control* control, uint8_t* rgb, uint8_t* displacement);
 
-/// The share of the sky that each position sees, cosine-weighted, by a fixed set of rays.
-ck_status ck_occlusion(const ck_ray_scene* scene, const float* positions, size_t position_stride,
-                       const float* normals, size_t normal_stride, size_t count, size_t rays,
-                       float maximum_distance, const ck_control* control, float* openness);
+/// Writes `side²` bytes: the share of the sky, cosine-weighted, that the dense surface leaves open
+/// above each texel within `maximum_distance`; 255 is all of it. Texels share rays with those
+/// around them, 16 times `rays_per_texel` in all.
+ck_status ck_atlas_occlusion(const ck_atlas* atlas, const ck_bake_source* source,
+                             size_t rays_per_texel, float maximum_distance,
+                             const ck_control* control, uint8_t* gray);
 
 /// Collapses edges by quadric error (Garland and Heckbert, SIGGRAPH 1997) until `maximum_count`
 /// triangles are left, then fits the vertices to the surface before (after Hoppe et al., SIGGRAPH

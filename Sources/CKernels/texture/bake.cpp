@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "texture/atlas.h"
+#include "texture/bake.h"
 
 namespace ck::texture {
 namespace {
@@ -18,29 +18,6 @@ void encode(Vec3 n, uint8_t* pixel) {
 }
 
 Vec3 at(const float* p) { return {p[0], p[1], p[2]}; }
-
-/// The dense surface's point nearest along the normal, inwards or outwards, that faces the same
-/// way.
-bool nearest_along(const ck_bake_source& source, Vec3 position, Vec3 normal, Hit* best,
-                   float* height) {
-  bool found = false;
-  const float reach = source.maximum_distance;
-  // From outside inwards: the first surface that is met is the one that is seen.
-  for (const float sign : {1.0f, -1.0f}) {
-    Hit hit;
-    // A little overlap, so that a surface at distance 0 isn't missed by both.
-    const Vec3 origin = position - normal * (sign * reach * 1e-3f);
-    if (!intersect(*source.dense, origin, normal * sign, 0, reach, &hit)) continue;
-    if (dot(source.dense->face_normals[hit.triangle], normal) <= 0.1f) continue;
-    const float h = sign * (hit.distance - reach * 1e-3f);
-    if (!found || std::fabs(h) < std::fabs(*height)) {
-      *best = hit;
-      *height = h;
-      found = true;
-    }
-  }
-  return found;
-}
 
 Vec3 dense_normal(const ck_bake_source& source, const Hit& hit) {
   const auto& t = source.dense->triangles[hit.triangle];
@@ -60,20 +37,15 @@ class FaceBaker {
     atlas_.for_each_texel(face_, [&](int x, int y, size_t texel) {
       const Vec3 w = TexelMap::clamped(
           map_.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-      const float* n = source_.corner_normals + 9 * face_;
-      const Vec3 normal = normalized(at(n) * w.x + at(n + 3) * w.y + at(n + 6) * w.z);
-      const Vec3 position = atlas_.scene.corner(face_, 0) * w.x +
-                            atlas_.scene.corner(face_, 1) * w.y +
-                            atlas_.scene.corner(face_, 2) * w.z;
-      Hit hit;
-      float height = 0;
+      const BasePoint base = base_point(atlas_, source_, face_, w);
+      DensePoint dense;
       Vec3 local = {0, 0, 1};
-      if (nearest_along(source_, position, normal, &hit, &height)) {
-        local = in_tangent_frame(dense_normal(source_, hit), normal, w);
+      if (find_dense(source_, base, &dense)) {
+        local = in_tangent_frame(dense.normal, base.normal, w);
       }
       encode(local, rgb + 3 * texel);
       if (displacement) {
-        const float share = height / source_.maximum_distance;
+        const float share = dense.height / source_.maximum_distance;
         displacement[texel] =
             static_cast<uint8_t>(std::clamp(std::lround(127.5f + 127.5f * share), 0L, 255L));
       }
@@ -97,6 +69,32 @@ class FaceBaker {
 };
 
 }  // namespace
+
+BasePoint base_point(const ck_atlas& atlas, const ck_bake_source& source, size_t face, Vec3 w) {
+  const float* n = source.corner_normals + 9 * face;
+  return {atlas.scene.corner(face, 0) * w.x + atlas.scene.corner(face, 1) * w.y +
+              atlas.scene.corner(face, 2) * w.z,
+          normalized(at(n) * w.x + at(n + 3) * w.y + at(n + 6) * w.z)};
+}
+
+bool find_dense(const ck_bake_source& source, const BasePoint& base, DensePoint* point) {
+  bool found = false;
+  const float reach = source.maximum_distance;
+  // From outside inwards: the first surface that is met is the one that is seen.
+  for (const float sign : {1.0f, -1.0f}) {
+    Hit hit;
+    // A little overlap, so that a surface at distance 0 isn't missed by both.
+    const Vec3 origin = base.position - base.normal * (sign * reach * 1e-3f);
+    if (!intersect(*source.dense, origin, base.normal * sign, 0, reach, &hit)) continue;
+    if (dot(source.dense->face_normals[hit.triangle], base.normal) <= 0.1f) continue;
+    const float height = sign * (hit.distance - reach * 1e-3f);
+    if (found && std::fabs(height) >= std::fabs(point->height)) continue;
+    *point = {base.position + base.normal * height, dense_normal(source, hit), height};
+    found = true;
+  }
+  return found;
+}
+
 }  // namespace ck::texture
 
 ck_status ck_atlas_bake(const ck_atlas* atlas, const ck_bake_source* source,

@@ -1,22 +1,25 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/parallel.h"
-#include "texture/ray_scene.h"
+#include "texture/bake.h"
 
 namespace ck::texture {
 namespace {
 
-/// Directions of the upper hemisphere, denser at the top as the cosine, evenly spread: Hammersley
-/// points on the disc, lifted onto the sphere.
+/// Texels share their rays: each of a square of so many a side casts its own part of one set.
+constexpr size_t kSquare = 4;
+constexpr size_t kParts = kSquare * kSquare;
+
+/// Directions of the upper hemisphere, denser at the top as the cosine: a Fibonacci spiral on the
+/// disc, lifted onto the sphere. Every 16th of them from any of the first 16 on go all around, too.
 std::vector<Vec3> cosine_directions(size_t count) {
   std::vector<Vec3> directions(count);
   for (size_t i = 0; i < count; ++i) {
-    double radical = 0, digit = 0.5;
-    for (size_t n = i; n > 0; n >>= 1, digit *= 0.5) radical += (n & 1) ? digit : 0;
     const double r2 = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double r = std::sqrt(r2), angle = 2 * 3.14159265358979323846 * radical;
+    const double r = std::sqrt(r2), angle = 2.399963229728653 * static_cast<double>(i);
     directions[i] = {static_cast<float>(r * std::cos(angle)),
                      static_cast<float>(r * std::sin(angle)),
                      static_cast<float>(std::sqrt(1 - r2))};
@@ -24,32 +27,119 @@ std::vector<Vec3> cosine_directions(size_t count) {
   return directions;
 }
 
+/// Ambient occlusion by interleaved sampling (Keller and Heidrich, EGWR 2001): a few rays a texel,
+/// other ones at its neighbours, and the mean over as many texels as share the whole set.
+class Openness {
+ public:
+  Openness(const ck_atlas& atlas, const ck_bake_source& source, size_t rays_per_texel, float reach)
+      : atlas_(atlas),
+        source_(source),
+        reach_(reach),
+        lift_(5e-4f * atlas.scene.diagonal),
+        directions_(cosine_directions(kParts * rays_per_texel)),
+        positions_(atlas.faces.size()),
+        open_(atlas.faces.size(), 0),
+        spacings_(atlas.corners.size() / 6, 0) {}
+
+  void cast(const ck_control* control) {
+    for_each_face(atlas_, control, [&](size_t face) {
+      const float* corners = atlas_.corners.data() + 6 * face;
+      const TexelMap map(corners);
+      if (!map.is_valid) return;
+      spacings_[face] = spacing(face, map);
+      atlas_.for_each_texel(face, [&](int x, int y, size_t texel) {
+        const Vec3 w = TexelMap::clamped(
+            map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const BasePoint base = base_point(atlas_, source_, face, w);
+        DensePoint point{base.position, base.normal};
+        find_dense(source_, base, &point);
+        positions_[texel] = base.position;
+        const size_t part =
+            static_cast<size_t>(y) % kSquare * kSquare + static_cast<size_t>(x) % kSquare;
+        open_[texel] = open_share(point, part);
+      });
+    });
+  }
+
+  void gather(const ck_control* control, uint8_t* gray) const {
+    const auto side = static_cast<size_t>(atlas_.side);
+    parallel_for(control, side, [&](size_t y) {
+      for (size_t x = 0; x < side; ++x) {
+        const size_t texel = y * side + x;
+        if (atlas_.faces[texel] < 0) continue;
+        const float mean = mean_around(static_cast<int>(x), static_cast<int>(y));
+        gray[texel] = static_cast<uint8_t>(std::lround(255 * std::clamp(mean, 0.0f, 1.0f)));
+      }
+    });
+  }
+
+ private:
+  /// How far apart neighbouring texels of a face are in space, at most.
+  float spacing(size_t face, const TexelMap& map) const {
+    const Vec3 a = atlas_.scene.corner(face, 0);
+    const Vec3 b = atlas_.scene.corner(face, 1) - a, c = atlas_.scene.corner(face, 2) - a;
+    return length(b * map.w1.x + c * map.w2.x) + length(b * map.w1.y + c * map.w2.y);
+  }
+
+  float open_share(const DensePoint& point, size_t part) const {
+    Vec3 u, v;
+    frame_around(point.normal, &u, &v);
+    const Vec3 origin = point.position + point.normal * lift_;
+    size_t open = 0, count = 0;
+    for (size_t i = part; i < directions_.size(); i += kParts, ++count) {
+      const Vec3 d = directions_[i];
+      const Vec3 direction = u * d.x + v * d.y + point.normal * d.z;
+      open += !is_occluded(*source_.dense, origin, direction, lift_, reach_);
+    }
+    return static_cast<float>(open) / static_cast<float>(count);
+  }
+
+  /// The mean over five by five texels, those at the rim halved, so that each part of the rays has
+  /// the same weight; over those only that are neighbours in space, too.
+  float mean_around(int x, int y) const {
+    constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
+    const size_t center = atlas_.index(x, y);
+    const float near = 4 * spacings_[static_cast<size_t>(atlas_.faces[center])];
+    float sum = 0, weight = 0;
+    for (int dy = -2; dy <= 2; ++dy) {
+      for (int dx = -2; dx <= 2; ++dx) {
+        const int nx = x + dx, ny = y + dy;
+        if (nx < 0 || ny < 0 || nx >= atlas_.side || ny >= atlas_.side) continue;
+        const size_t texel = atlas_.index(nx, ny);
+        if (atlas_.faces[texel] < 0) continue;
+        if (length(positions_[texel] - positions_[center]) > near) continue;
+        const float w =
+            kWeights[static_cast<size_t>(dy + 2)] * kWeights[static_cast<size_t>(dx + 2)];
+        sum += w * open_[texel];
+        weight += w;
+      }
+    }
+    return weight > 0 ? sum / weight : open_[center];
+  }
+
+  const ck_atlas& atlas_;
+  const ck_bake_source& source_;
+  float reach_, lift_;
+  std::vector<Vec3> directions_;
+  /// Where each texel is on the simplified surface.
+  std::vector<Vec3> positions_;
+  std::vector<float> open_;
+  std::vector<float> spacings_;
+};
+
 }  // namespace
 }  // namespace ck::texture
 
-ck_status ck_occlusion(const ck_ray_scene* scene, const float* positions, size_t position_stride,
-                       const float* normals, size_t normal_stride, size_t count, size_t rays,
-                       float maximum_distance, const ck_control* control, float* openness) {
+ck_status ck_atlas_occlusion(const ck_atlas* atlas, const ck_bake_source* source,
+                             size_t rays_per_texel, float maximum_distance,
+                             const ck_control* control, uint8_t* gray) {
   return ck::guarded([&] {
-    using ck::texture::Vec3;
-    ck::require(scene && positions && normals && openness && rays > 0, "an argument is missing");
-    const std::vector<Vec3> directions = ck::texture::cosine_directions(rays);
-    const float lift = 5e-4f * scene->diagonal;
-    constexpr size_t kChunk = 256;
-    ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      const size_t end = std::min(count, (chunk + 1) * kChunk);
-      for (size_t i = chunk * kChunk; i < end; ++i) {
-        const Vec3 n = ck::texture::normalized(ck::texture::vec_at(normals, normal_stride, i));
-        Vec3 u, v;
-        ck::texture::frame_around(n, &u, &v);
-        const Vec3 origin = ck::texture::vec_at(positions, position_stride, i) + n * lift;
-        size_t open = 0;
-        for (const Vec3& d : directions) {
-          const Vec3 direction = u * d.x + v * d.y + n * d.z;
-          open += !ck::texture::is_occluded(*scene, origin, direction, lift, maximum_distance);
-        }
-        openness[i] = static_cast<float>(open) / static_cast<float>(rays);
-      }
-    });
+    ck::require(atlas && source && source->dense && gray, "an argument is missing");
+    ck::require(rays_per_texel > 0 && rays_per_texel <= 256, "too many rays for a texel");
+    std::fill(gray, gray + atlas->faces.size(), uint8_t{255});
+    ck::texture::Openness openness(*atlas, *source, rays_per_texel, maximum_distance);
+    openness.cast(control);
+    openness.gather(control, gray);
+    ck::texture::fill_uncovered(atlas->faces, atlas->side, 1, control, gray);
   });
 }

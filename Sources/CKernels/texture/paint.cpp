@@ -127,22 +127,3 @@ ck_status ck_atlas_copy_colors(const ck_atlas* atlas, const ck_control* control,
     ck::texture::fill_uncovered(atlas->faces, atlas->side, 3, control, rgb);
   });
 }
-
-ck_status ck_atlas_copy_corner_values(const ck_atlas* atlas, const float* values,
-                                      const ck_control* control, uint8_t* gray) {
-  return ck::guarded([&] {
-    ck::require(atlas && values && gray, "an argument is missing");
-    ck::texture::for_each_face(*atlas, control, [&](size_t face) {
-      const ck::texture::TexelMap map(atlas->corners.data() + 6 * face);
-      const float* v = values + 3 * face;
-      if (!map.is_valid) return;
-      atlas->for_each_texel(face, [&](int x, int y, size_t texel) {
-        const ck::texture::Vec3 w = ck::texture::TexelMap::clamped(
-            map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-        const float value = w.x * v[0] + w.y * v[1] + w.z * v[2];
-        gray[texel] = static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
-      });
-    });
-    ck::texture::fill_uncovered(atlas->faces, atlas->side, 1, control, gray);
-  });
-}

@@ -21,6 +21,16 @@ struct AtlasLayout: Sendable {
     guard count > 1 else { return corners }
     return corners.indices.map { atlases[$0 / 3] == atlas ? corners[$0] : .zero }
   }
+
+  /// The same layout with textures of another size.
+  func scaled(toSide side: Int) -> AtlasLayout {
+    var result = self
+    let factor = Float(side) / Float(self.side)
+    result.side = side
+    result.magnification *= factor
+    result.corners = corners.map { $0 * factor }
+    return result
+  }
 }
 
 /// Packs all charts into one square texture, or into several where the photos show more than one

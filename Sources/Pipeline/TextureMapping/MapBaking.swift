@@ -6,10 +6,13 @@ struct MapBaking: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// How far the dense surface may be from the textured one, as a share of the mesh's diagonal.
     var reach: Float = 0.01
-    /// Rays a vertex for ambient occlusion.
-    var occlusionRays = 96
+    /// Rays a texel for ambient occlusion; sixteen texels share theirs.
+    var occlusionRays = 6
     /// Length of these rays, as a share of the mesh's diagonal.
     var occlusionReach: Float = 0.3
+    /// Texels of the maps that vary little, ambient occlusion and roughness, in all textures
+    /// together: a side is halved while there are more.
+    var smoothTexels = 5_000_000
     /// One value for the whole surface: photos alone don't tell gloss from colour. UsdPreviewSurface
     /// models of photogrammetry programs commonly use it for unpolished things.
     var roughness: Float = 0.9
@@ -20,10 +23,13 @@ struct MapBaking: Sendable {
   /// What all textures of a model are baked from.
   struct Prepared {
     fileprivate var maps: Set<TextureMap>
-    fileprivate var roughness: Float
+    fileprivate var options: Options
+    fileprivate var scene: RayScene
+    fileprivate var layout: AtlasLayout
+    /// The layout of the maps that vary little.
+    fileprivate var smooth: AtlasLayout
     fileprivate var source: BakeSource?
-    /// Of each triangle's corners.
-    fileprivate var openness: [Float]?
+    fileprivate var diagonal: Float
   }
 
   /// Gets ready to bake `maps` onto `mesh`, whose triangles are those of `scene`.
@@ -31,21 +37,16 @@ struct MapBaking: Sendable {
     _ maps: Set<TextureMap>, mesh: Mesh, scene: RayScene, dense: Mesh, layout: AtlasLayout,
     charts: [Int32], _ context: StageContext
   ) throws -> Prepared {
-    var result = Prepared(maps: maps, roughness: options.roughness)
     let diagonal = mesh.bounds.map { ($0.max - $0.min).length } ?? 1
-    if maps.contains(.normal) || maps.contains(.displacement) {
-      let part = context.part(from: 0, to: 0.5)
-      result.source = try source(
-        mesh, dense, layout, charts, reach: options.reach * diagonal, part)
-    }
-    if maps.contains(.ambientOcclusion) {
-      let openness = try scene.openness(
-        at: mesh.positions, normals: mesh.normals, rays: options.occlusionRays,
-        maximumDistance: options.occlusionReach * diagonal,
-        context.part(from: 0.5, to: 1).control)
-      result.openness = mesh.triangles.flatMap { $0.vertices.map { openness[$0] } }
-    }
-    return result
+    var side = layout.side
+    while side > 512, layout.count * side * side > options.smoothTexels { side /= 2 }
+    let needsDense = !maps.isDisjoint(with: [.normal, .displacement, .ambientOcclusion])
+    return Prepared(
+      maps: maps, options: options, scene: scene, layout: layout,
+      smooth: layout.scaled(toSide: side),
+      source: needsDense
+        ? try source(mesh, dense, layout, charts, reach: options.reach * diagonal, context) : nil,
+      diagonal: diagonal)
   }
 
   private func source(
@@ -63,26 +64,38 @@ struct MapBaking: Sendable {
 }
 
 extension MapBaking.Prepared {
-  /// Bakes the maps of the triangles that the canvas has.
-  func run(on canvas: TextureCanvas, _ context: StageContext) throws -> [TextureMap: RasterImage] {
+  /// Bakes the maps of the triangles of one texture, whose canvas it is.
+  func run(
+    on canvas: TextureCanvas, atlas: Int, _ context: StageContext
+  ) throws -> [TextureMap: RasterImage] {
     var images: [TextureMap: RasterImage] = [:]
-    if let source {
+    if let source, maps.contains(.normal) || maps.contains(.displacement) {
       let baked = try canvas.bake(
         source, displacement: maps.contains(.displacement),
-        context.part(from: 0, to: 0.9).control)
+        context.part(from: 0, to: 0.5).control)
       if maps.contains(.normal) { images[.normal] = baked.normals }
       images[.displacement] = baked.displacement
     }
-    if let openness {
-      images[.ambientOcclusion] = try canvas.gray(
-        cornerValues: openness, context.part(from: 0.9, to: 1).control)
+    if let source, maps.contains(.ambientOcclusion) {
+      let part = context.part(from: 0.5, to: 1)
+      images[.ambientOcclusion] = try smoothCanvas(canvas, atlas, part).occlusion(
+        source, raysPerTexel: options.occlusionRays,
+        maximumDistance: options.occlusionReach * diagonal, part.control)
     }
     if maps.contains(.roughness) {
       images[.roughness] = RasterImage(
-        width: canvas.side, height: canvas.side, channels: 1,
-        filledWith: UInt8((roughness * 255).rounded()))
+        width: smooth.side, height: smooth.side, channels: 1,
+        filledWith: UInt8((options.roughness * 255).rounded()))
     }
     return images
+  }
+
+  private func smoothCanvas(
+    _ canvas: TextureCanvas, _ atlas: Int, _ context: StageContext
+  ) throws -> TextureCanvas {
+    guard smooth.side < layout.side else { return canvas }
+    return try TextureCanvas(
+      scene, corners: smooth.corners(in: atlas), side: smooth.side, gutter: 1, context.control)
   }
 }
 

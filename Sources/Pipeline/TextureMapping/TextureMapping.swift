@@ -105,7 +105,7 @@ package struct TextureMapping: Sendable {
         scene, corners: layout.corners(in: atlas), side: layout.side,
         part.part(from: 0, to: 0.1).control)
       usage += canvas.usage * share
-      var maps = try baking.run(on: canvas, part.part(from: 0.1, to: 0.4))
+      var maps = try baking.run(on: canvas, atlas: atlas, part.part(from: 0.1, to: 0.4))
       if options.maps.contains(.diffuseColor) {
         try painting.run(
           on: canvas, faces: layout.faces(in: atlas), part.part(from: 0.4, to: 0.95))
