@@ -64,7 +64,8 @@ var cliDependencies: [Target.Dependency] = [
         .linkedLibrary("opencv_imgcodecs"),
         .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
         .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"), .linkedLibrary("exif"),
-        .linkedLibrary("jpeg"), .linkedLibrary("png"), .linkedLibrary("xxhash"),
+        .linkedLibrary("jpeg"), .linkedLibrary("png"), .linkedLibrary("deflate"),
+        .linkedLibrary("xxhash"),
       ]),
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(

@@ -27,6 +27,26 @@ import Testing
     #expect(try ImageHeader(bytes) == ImageHeader(format: .png, width: 48, height: 32))
   }
 
+  @Test func pngKeepsGradientsAndNoiseOfAnySize() throws {
+    var random = SplitMix64(seed: 5)
+    for (width, height) in [(1, 1), (1, 9), (17, 1), (33, 21), (300, 5)] {
+      var image = RasterImage(width: width, height: height, channels: 3)
+      for y in 0..<height {
+        for x in 0..<(3 * width) {
+          // Rows that suit different filters: flat, rising, slanted, noise.
+          image.pixels[3 * width * y + x] =
+            switch y % 4 {
+            case 0: 200
+            case 1: UInt8(truncatingIfNeeded: 5 * x)
+            case 2: UInt8(truncatingIfNeeded: 3 * x + 11 * y)
+            default: UInt8.random(in: 0...255, using: &random)
+            }
+        }
+      }
+      #expect(try ImageCodec.decode(ImageCodec.encodePNG(image)) == image)
+    }
+  }
+
   @Test func jpegIsCloseAndDeterministic() throws {
     let image = pattern()
     let bytes = try ImageCodec.encodeJPEG(image, quality: 0.95)

@@ -139,27 +139,23 @@ ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, 
     ck::require(width > 0 && height > 0, "an image without pixels can't be encoded");
     ck::require(channels == 1 || channels == 3 || (channels == 4 && codec == ck_codec_png),
                 "this number of channels can't be encoded");
-    const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels));
-    // Of its own, since OpenCV would write into a matrix of the right size that it is given.
-    cv::Mat swapped;
-    switch (channels) {
-      case 3:
-        cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR);
-        break;
-      case 4:
-        cv::cvtColor(source, swapped, cv::COLOR_RGBA2BGRA);
-        break;
-      default:
-        swapped = source;
-    }
     auto result = std::make_unique<ck_bytes>();
-    const bool png = codec == ck_codec_png;
-    const std::vector<int> options =
-        png ? std::vector<int>{cv::IMWRITE_PNG_COMPRESSION, 6, cv::IMWRITE_PNG_STRATEGY,
-                               cv::IMWRITE_PNG_STRATEGY_FILTERED}
-            : std::vector<int>{cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1};
-    if (!cv::imencode(png ? ".png" : ".jpg", swapped, result->data, options)) {
-      throw std::runtime_error("the image can't be encoded");
+    if (codec == ck_codec_png) {
+      result->data = ck::encode_png(pixels, width, height, channels);
+    } else {
+      const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels));
+      // Of its own, since OpenCV would write into a matrix of the right size that it is given.
+      cv::Mat swapped;
+      if (channels == 3) {
+        cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR);
+      } else {
+        swapped = source;
+      }
+      const std::vector<int> options{cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE,
+                                     1};
+      if (!cv::imencode(".jpg", swapped, result->data, options)) {
+        throw std::runtime_error("the image can't be encoded");
+      }
     }
     *encoded = result.release();
   });
