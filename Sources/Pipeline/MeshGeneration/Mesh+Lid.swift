@@ -3,10 +3,10 @@ import SceneModel
 extension Mesh {
   /// A fan over each border of removed faces; its vertices beyond the surface's own are the middles.
   func lid(isRemoved: [Bool]) -> (middles: [SIMD3<Float>], triangles: [Triangle]) {
-    let open = openEdges
+    let edges = DirectedEdges(of: self)
     var next: [UInt32: UInt32] = [:]
     for (triangle, isRemoved) in zip(triangles, isRemoved) where isRemoved {
-      for edge in triangle.edges where open.contains(edge) { next[edge.x] = edge.y }
+      for edge in triangle.edges where edges.isOpen(edge) { next[edge.x] = edge.y }
     }
     var result: (middles: [SIMD3<Float>], triangles: [Triangle]) = ([], [])
     for start in next.keys.sorted() {
@@ -23,15 +23,6 @@ extension Mesh {
       result.triangles += zip(border, border.dropFirst() + [start]).map { Triangle($1, $0, middle) }
     }
     return result
-  }
-
-  /// The edges that have a face on their left only.
-  var openEdges: Set<SIMD2<UInt32>> {
-    var open = Set<SIMD2<UInt32>>()
-    for triangle in triangles {
-      for edge in triangle.edges where open.remove([edge.y, edge.x]) == nil { open.insert(edge) }
-    }
-    return open
   }
 
   /// The mesh with such fans.

@@ -39,25 +39,31 @@ struct MeshCleaning {
   /// Faces with three different, finite corners and an area, each once.
   private func properTriangles(_ mesh: Mesh) -> [Triangle] {
     let isFinite = mesh.positions.map { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite }
-    var seen = Set<Triangle>()
-    return mesh.triangles.filter { t in
-      guard t.a != t.b, t.b != t.c, t.c != t.a,
-        [t.a, t.b, t.c].allSatisfy({ Int($0) < isFinite.count && isFinite[Int($0)] })
+    let proper = mesh.triangles.filter { t in
+      guard t.a != t.b, t.b != t.c, t.c != t.a, Int(max(t.a, t.b, t.c)) < isFinite.count,
+        isFinite[Int(t.a)], isFinite[Int(t.b)], isFinite[Int(t.c)]
       else { return false }
       let (a, b, c) = mesh.corners(of: t)
-      guard (b - a).cross(c - a).squaredLength > 0 else { return false }
-      let sorted = [t.a, t.b, t.c].sorted()
-      return seen.insert(Triangle(sorted[0], sorted[1], sorted[2])).inserted
+      return (b - a).cross(c - a).squaredLength > 0
+    }
+    var counts = [Int32](repeating: 0, count: mesh.positions.count)
+    for t in proper { counts[Int(min(t.a, t.b, t.c))] += 1 }
+    var seen = VertexLists(capacities: counts, empty: SIMD2<UInt32>())
+    return proper.filter { t in
+      let (low, high) = (min(t.a, t.b, t.c), max(t.a, t.b, t.c))
+      let others = SIMD2(t.a ^ t.b ^ t.c ^ low ^ high, high)
+      guard !seen.contains(others, at: low) else { return false }
+      seen.append(others, at: low)
+      return true
     }
   }
 
   /// Drops the later faces where an edge has more than one face a side.
   private func removeNonManifoldEdges(_ mesh: inout Mesh) {
-    var edges = Set<UInt64>(minimumCapacity: mesh.triangles.count * 3)
-    mesh.triangles = mesh.triangles.filter { t in
-      let directed = [(t.a, t.b), (t.b, t.c), (t.c, t.a)].map { UInt64($0) << 32 | UInt64($1) }
-      guard directed.allSatisfy({ !edges.contains($0) }) else { return false }
-      edges.formUnion(directed)
+    var edges = DirectedEdges(roomFor: mesh.triangles, vertexCount: mesh.positions.count)
+    mesh.triangles = mesh.triangles.filter { triangle in
+      guard !edges.containsEdge(of: triangle) else { return false }
+      edges.insert(triangle)
       return true
     }
   }
@@ -76,7 +82,7 @@ struct MeshCleaning {
 
   private func removeLooseVertices(_ mesh: inout Mesh) {
     var numbers = [UInt32?](repeating: nil, count: mesh.positions.count)
-    for t in mesh.triangles { for v in [t.a, t.b, t.c] { numbers[Int(v)] = 0 } }
+    for t in mesh.triangles { for vertex in t.vertices { numbers[vertex] = 0 } }
     var positions: [SIMD3<Float>] = []
     for index in numbers.indices where numbers[index] != nil {
       numbers[index] = UInt32(positions.count)
@@ -94,7 +100,7 @@ struct MeshCleaning {
     for t in mesh.triangles {
       let (a, b, c) = mesh.corners(of: t)
       let normal = SIMD3<Double>(b - a).cross(SIMD3<Double>(c - a))
-      for v in [t.a, t.b, t.c] { sums[Int(v)] += normal }
+      for vertex in t.vertices { sums[vertex] += normal }
     }
     return sums.map { sum in
       let normal = SIMD3<Float>(sum.normalized)

@@ -71,13 +71,13 @@ struct SurfaceGaps: Sendable {
   private static func areEnclosed(
     _ mesh: Mesh, _ removed: [Int], _ components: MeshComponents, _ isKept: [Bool]
   ) -> [Bool] {
-    let open = mesh.openEdges
+    let edges = DirectedEdges(of: mesh)
     var hasRim = [Bool](repeating: false, count: components.count)
     var isOpen = hasRim
     for (face, gap) in zip(removed, components.components) {
       let triangle = mesh.triangles[face]
       if triangle.vertices.contains(where: { isKept[$0] }) { hasRim[Int(gap)] = true }
-      if triangle.edges.contains(where: open.contains) { isOpen[Int(gap)] = true }
+      if triangle.edges.contains(where: edges.isOpen) { isOpen[Int(gap)] = true }
     }
     return zip(hasRim, isOpen).map { $0 && !$1 }
   }

@@ -16,6 +16,8 @@ struct ExposureCompensation: Sendable {
     var maximumGain: Float = 2.5
     /// Observations more oblique than this cosine don't count.
     var minimumCosine: Float = 0.35
+    /// Triangles that are looked at, at least, of a surface that has more: every nth.
+    var sufficientFaces = 200_000
   }
 
   var options = Options()
@@ -23,11 +25,12 @@ struct ExposureCompensation: Sendable {
   /// Gains by view.
   func run(_ views: FaceViews, viewCount: Int, _ context: StageContext) throws -> [ExposureGain] {
     var logGains = [SIMD3<Double>](repeating: .zero, count: viewCount)
+    let step = max(1, views.faceCount / max(1, options.sufficientFaces))
     for round in 0..<options.rounds {
       try context.step(round, of: options.rounds)
       for channel in 0..<3 {
         var system = PairwiseDifferences(count: viewCount)
-        for face in 0..<views.faceCount {
+        for face in stride(from: 0, to: views.faceCount, by: step) {
           add(face, channel, of: views, logGains, to: &system)
         }
         let solution = try system.solve(prior: options.prior, context.control)
