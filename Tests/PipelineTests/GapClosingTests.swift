@@ -52,6 +52,16 @@ import Testing
     #expect(closed.triangles == mesh.triangles)
   }
 
+  @Test func nothingLooksThroughWhatLiesOnTheSupport() {
+    let (mesh, isDome) = dome(radius: 15)
+    let open = GapClosing().run(mesh, isRemoved: isDome) { $0.x > 0 }
+    #expect(open.triangles.count == isDome.count { !$0 })
+    let support = StandingPlane(normal: [0, 1, 0], offset: -0.1, band: 0.1)
+    let closed = GapClosing().run(mesh, isRemoved: isDome, support: support) { $0.x > 0 }
+    #expect(closed.triangles == mesh.triangles)
+    #expect(closed.positions[41 * 20 + 20].y == -0.1)
+  }
+
   @Test func balloonOverAFewFacesGoes() {
     let (mesh, _) = dome(radius: 10)
     // Of a sheet with a dome only the outermost cells are kept.

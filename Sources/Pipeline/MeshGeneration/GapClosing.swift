@@ -66,25 +66,31 @@ struct GapClosing {
     guard isSmall || options.closesLarge else { return false }
     // A balloon with more surface than what holds it is no gap: stray samples made it.
     if isSmall, gaps.areas[gap] > gaps.rimAreas[gap] { return false }
-    func freeShare() -> Double { mesh.freeShare(of: triangles, depth: options.depth, isFree) }
+    func freeShare(_ laid: Set<Int> = []) -> Double {
+      mesh.freeShare(of: triangles, laid: laid, depth: options.depth, isFree)
+    }
     if isSmall, freeShare() < options.smallFreeShare { return true }
-    tighten(triangles, of: &mesh, gaps.isRim, contact)
+    let laid = tighten(triangles, of: &mesh, gaps.isRim, contact)
     let isTiny = share < options.tinyShare && options.closesLarge
-    return isTiny || freeShare() < options.membraneFreeShare
+    return isTiny || freeShare(laid) < options.membraneFreeShare
   }
 
-  /// Draws a membrane across a gap and lays down on the support what is close above it.
+  /// Draws a membrane across a gap and lays down on the support what is close above it: those
+  /// vertices.
   private func tighten(
     _ triangles: [Triangle], of mesh: inout Mesh, _ isRim: [Bool], _ contact: Contact?
-  ) {
+  ) -> Set<Int> {
     let membrane = Membrane(triangles, isFixed: isRim)
     membrane.tighten(&mesh.positions, iterations: options.iterations)
-    guard let contact else { return }
+    guard let contact else { return [] }
     var isFixed = isRim
+    var laid = Set<Int>()
     for vertex in membrane.vertices where contact.lay(&mesh.positions[vertex]) {
       isFixed[vertex] = true
+      laid.insert(vertex)
     }
     Membrane(triangles, isFixed: isFixed).tighten(&mesh.positions, iterations: options.iterations)
+    return laid
   }
 }
 
@@ -112,9 +118,10 @@ private struct Contact {
 }
 
 extension Mesh {
-  /// The share of some faces' area that photos look through.
+  /// The share of some faces' area that photos look through. Nothing looks through what is laid on
+  /// the support, whatever rays just above it say.
   fileprivate func freeShare(
-    of faces: [Triangle], depth: Float, _ isFree: (SIMD3<Float>) -> Bool
+    of faces: [Triangle], laid: Set<Int>, depth: Float, _ isFree: (SIMD3<Float>) -> Bool
   ) -> Double {
     var (free, all) = (0.0, 0.0)
     for face in faces {
@@ -122,6 +129,7 @@ extension Mesh {
       let normal = (b - a).cross(c - a)
       let area = Double(normal.length)
       all += area
+      if !laid.isEmpty, face.vertices.allSatisfy(laid.contains) { continue }
       if isFree(center(of: face) - depth * normal.normalized) { free += area }
     }
     return all > 0 ? free / all : 0

@@ -1,12 +1,14 @@
 import Kernels
 import SceneModel
 
-/// Makes a mesh fit for use: large components of proper faces, edges with two faces at most, no
-/// loose vertices, with normals and colours.
+/// Makes a mesh fit for use: large components of proper faces, edges with two faces at most, no loose
+/// vertices, with normals and colours.
 struct MeshCleaning {
   struct Options: Hashable, Codable, Sendable {
     /// Components with a smaller share of the largest one's area go.
     var minimumComponentShare = 0.02
+    /// An edge that is shorter than this share of the surface's size has no length.
+    var coincidence: Float = 1e-6
     /// Samples that give a vertex its colour.
     var colorNeighbours = 4
 
@@ -18,9 +20,10 @@ struct MeshCleaning {
   /// `samples` give the colours; none are set where it is empty.
   func run(_ mesh: Mesh, samples: PointCloud, _ context: StageContext) throws -> Mesh {
     var result = mesh
-    result.triangles = properTriangles(mesh)
+    result.triangles = joiningCoincidentCorners(mesh)
+    result.triangles = properTriangles(result)
     try context.control.step(0.2)
-    removeNonManifoldEdges(&result)
+    result = result.splitIntoManifold()
     try context.control.step(0.4)
     keepLargeComponents(&result)
     removeLooseVertices(&result)
@@ -36,34 +39,46 @@ struct MeshCleaning {
     return result
   }
 
-  /// Faces with three different, finite corners and an area, each once.
-  private func properTriangles(_ mesh: Mesh) -> [Triangle] {
-    let isFinite = mesh.positions.map { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite }
-    let proper = mesh.triangles.filter { t in
-      guard t.a != t.b, t.b != t.c, t.c != t.a, Int(max(t.a, t.b, t.c)) < isFinite.count,
-        isFinite[Int(t.a)], isFinite[Int(t.b)], isFinite[Int(t.c)]
-      else { return false }
+  /// The triangles with one vertex for those that an edge without length joins: marching cubes makes
+  /// them where the surface runs through a corner of its grid. To drop such faces without that
+  /// would leave holes.
+  private func joiningCoincidentCorners(_ mesh: Mesh) -> [Triangle] {
+    guard let bounds = mesh.bounds else { return [] }
+    let triangles = mesh.triangles.filter { Int(max($0.a, $0.b, $0.c)) < mesh.positions.count }
+    let limit = options.coincidence * (bounds.max - bounds.min).length
+    var sets = DisjointSets(count: mesh.positions.count)
+    for t in triangles {
       let (a, b, c) = mesh.corners(of: t)
-      return (b - a).cross(c - a).squaredLength > 0
+      if (b - a).squaredLength <= limit * limit { sets.join(Int(t.a), Int(t.b)) }
+      if (c - b).squaredLength <= limit * limit { sets.join(Int(t.b), Int(t.c)) }
+      if (a - c).squaredLength <= limit * limit { sets.join(Int(t.c), Int(t.a)) }
     }
-    var counts = [Int32](repeating: 0, count: mesh.positions.count)
-    for t in proper { counts[Int(min(t.a, t.b, t.c))] += 1 }
-    var seen = VertexLists(capacities: counts, empty: SIMD2<UInt32>())
-    return proper.filter { t in
-      let (low, high) = (min(t.a, t.b, t.c), max(t.a, t.b, t.c))
-      let others = SIMD2(t.a ^ t.b ^ t.c ^ low ^ high, high)
-      guard !seen.contains(others, at: low) else { return false }
-      seen.append(others, at: low)
-      return true
+    return triangles.map { t in
+      Triangle(
+        UInt32(sets.root(Int(t.a))), UInt32(sets.root(Int(t.b))),
+        UInt32(sets.root(Int(t.c))))
     }
   }
 
-  /// Drops the later faces where an edge has more than one face a side.
-  private func removeNonManifoldEdges(_ mesh: inout Mesh) {
-    var edges = DirectedEdges(roomFor: mesh.triangles, vertexCount: mesh.positions.count)
-    mesh.triangles = mesh.triangles.filter { triangle in
-      guard !edges.containsEdge(of: triangle) else { return false }
-      edges.insert(triangle)
+  /// Faces with three different corners and an area, each once, and without those that lie back to
+  /// back.
+  private func properTriangles(_ mesh: Mesh) -> [Triangle] {
+    let proper = mesh.triangles.filter { t in
+      guard t.a != t.b, t.b != t.c, t.c != t.a else { return false }
+      let (a, b, c) = mesh.corners(of: t)
+      return (b - a).cross(c - a).squaredLength > 0
+    }.map(\.lowestFirst)
+    var counts = [Int32](repeating: 0, count: mesh.positions.count)
+    for t in proper { counts[Int(t.a)] += 1 }
+    var faces = VertexLists(capacities: counts, empty: SIMD2<UInt32>())
+    for t in proper where !faces.contains([t.b, t.c], at: t.a) {
+      faces.append([t.b, t.c], at: t.a)
+    }
+    var seen = VertexLists(capacities: counts, empty: SIMD2<UInt32>())
+    return proper.filter { t in
+      guard !faces.contains([t.c, t.b], at: t.a), !seen.contains([t.b, t.c], at: t.a)
+      else { return false }
+      seen.append([t.b, t.c], at: t.a)
       return true
     }
   }
@@ -127,5 +142,13 @@ struct MeshCleaning {
       guard weights > 0 else { return .zero }
       return SIMD3<UInt8>((sum / weights).rounded(.toNearestOrAwayFromZero))
     }
+  }
+}
+
+extension Triangle {
+  /// The same triangle, turned so that its lowest vertex comes first.
+  fileprivate var lowestFirst: Triangle {
+    if a < b && a < c { return self }
+    return b < c ? Triangle(b, c, a) : Triangle(c, a, b)
   }
 }

@@ -7,26 +7,15 @@ struct MeshComponents: Sendable {
   let count: Int
 
   init(_ triangles: [Triangle], vertexCount: Int) {
-    var parents = (0..<Int32(vertexCount)).map { $0 }
-    func root(_ vertex: Int32) -> Int32 {
-      var v = vertex
-      while parents[Int(v)] != v {
-        parents[Int(v)] = parents[Int(parents[Int(v)])]
-        v = parents[Int(v)]
-      }
-      return v
-    }
+    var sets = DisjointSets(count: vertexCount)
     for triangle in triangles {
-      let a = root(Int32(triangle.a))
-      for other in [triangle.b, triangle.c] {
-        let (r, s) = (root(a), root(Int32(other)))
-        if r != s { parents[Int(max(r, s))] = min(r, s) }
-      }
+      sets.join(Int(triangle.a), Int(triangle.b))
+      sets.join(Int(triangle.a), Int(triangle.c))
     }
     var numbers = [Int32](repeating: -1, count: vertexCount)
     var next: Int32 = 0
     components = triangles.map { triangle in
-      let r = Int(root(Int32(triangle.a)))
+      let r = sets.root(Int(triangle.a))
       if numbers[r] < 0 {
         numbers[r] = next
         next += 1
