@@ -142,7 +142,12 @@ bool Sheet::candidates(const Stamp& stamp, const Summary& summary, int block_row
     if (summary.gaps[static_cast<size_t>(block_row + run.row)] < run.length()) return false;
   }
   const int words = summary.spread[0].words();
-  std::fill(free->begin(), free->end(), ~uint64_t{0});
+  // Further to the right the stamp would stick out.
+  const int last = (side_ - stamp.texels.width()) / summary.block;
+  for (int w = 0; w < words; ++w) {
+    const int count = std::clamp(last + 1 - w * Bitmap::kWord, 0, Bitmap::kWord);
+    (*free)[static_cast<size_t>(w)] = count > 0 ? ~uint64_t{0} >> (Bitmap::kWord - count) : 0;
+  }
   for (const Stamp::Run& run : stamp.core) {
     // Two overlapping powers of two make up any length.
     const int level = Bitmap::kWord / 2 - 1 - __builtin_clz(static_cast<unsigned>(run.length()));
