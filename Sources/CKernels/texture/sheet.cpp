@@ -92,21 +92,32 @@ Sheet::Summary::Summary(int block_side, int blocks)
   for (int length = 1; length <= blocks; length *= 2) spread.emplace_back(blocks, blocks);
 }
 
-Sheet::Sheet(int side) : side_(side), taken_(side, side), gaps_(static_cast<size_t>(side), side) {
+Sheet::Sheet(int side)
+    : side_(side),
+      taken_(side, side),
+      gaps_(static_cast<size_t>(side), side),
+      tried_(static_cast<size_t>((kTiny + 1) * (kTiny + 1)), 0) {
   for (int level = 0; level < Stamp::kLevels; ++level) {
     const int block = Stamp::block_side(level);
     summaries_.emplace_back(block, (side + block - 1) / block);
   }
 }
 
-bool Sheet::find(const Stamp& stamp, int limit, int* found_x, int* found_y) const {
+bool Sheet::find(const Stamp& stamp, int limit, int* found_x, int* found_y) {
   const Summary& summary = summaries_[static_cast<size_t>(stamp.level)];
   const int last_x = side_ - stamp.texels.width();
   const int last_y = std::min(side_, limit) - stamp.texels.height();
   if (last_x < 0 || last_y < 0) return false;
   std::vector<uint64_t> free(static_cast<size_t>(summary.spread[0].words()));
+  // Where one as small found no place, the next won't look.
+  const bool is_tiny = stamp.texels.width() <= kTiny && stamp.texels.height() <= kTiny;
+  int none = 0;
+  int& first =
+      is_tiny
+          ? tried_[static_cast<size_t>(stamp.texels.height() * (kTiny + 1) + stamp.texels.width())]
+          : none;
   int row = 0;
-  for (int block_row = 0; block_row * summary.block <= last_y; ++block_row) {
+  for (int block_row = first; block_row * summary.block <= last_y; ++block_row) {
     if (!candidates(stamp, summary, block_row, &free)) continue;
     const int end = std::min(last_y, (block_row + 1) * summary.block - 1);
     for (int y = block_row * summary.block; y <= end; ++y) {
@@ -126,6 +137,7 @@ bool Sheet::find(const Stamp& stamp, int limit, int* found_x, int* found_y) cons
         if (jump == 0) {
           *found_x = x;
           *found_y = y;
+          first = block_row;
           return true;
         }
         x += jump;

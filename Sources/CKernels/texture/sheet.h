@@ -47,7 +47,7 @@ class Sheet {
 
   /// The first place from the top, then from the left, where the stamp is on free texels and ends
   /// above `limit`.
-  bool find(const Stamp& stamp, int limit, int* x, int* y) const;
+  bool find(const Stamp& stamp, int limit, int* x, int* y);
 
   /// Takes the stamp's texels and those around it.
   void take(const Stamp& stamp, int padding, int x, int y);
@@ -76,6 +76,9 @@ class Sheet {
   /// The longest run of free texels of each row.
   std::vector<int> gaps_;
   std::vector<Summary> summaries_;
+  /// The row of blocks that received the last stamp of a height and width.
+  static constexpr int kTiny = 16;
+  std::vector<int> tried_;
 };
 
 }  // namespace ck::texture
