@@ -90,8 +90,8 @@ ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, cons
 typedef struct {
   /// Half the opening of the cone that holds all normals of a chart, in radians, below π/2.
   float maximum_angle;
-  /// Charts with a smaller share of the surface's area are joined to a neighbour where that does not
-  /// fold them.
+  /// Charts with a smaller share of the surface's area are joined to a neighbour where that does
+  /// not fold them.
   float minimum_share;
 } ck_chart_options;
 
