@@ -60,7 +60,7 @@ import Testing
       RayScene(mesh, KernelControl()), corners: texels, side: side, KernelControl())
     #expect(canvas.overlapCount == 0)
     // The padding weighs more in a small texture.
-    #expect(canvas.usage > (side < 512 ? 0.6 : 0.68))
+    #expect(canvas.usage > (side < 512 ? 0.5 : 0.6))
     for face in mesh.triangles.indices {
       let (a, b, c) = (texels[3 * face], texels[3 * face + 1], texels[3 * face + 2])
       // Counter-clockwise with y up is clockwise with y down.
@@ -176,7 +176,7 @@ import Testing
     }
     #expect(closePairs == 0)
     let usage = Float(texelCharts.count { $0 >= 0 }) / Float(side * side)
-    #expect(usage > (side < 512 ? 0.6 : 0.7))
+    #expect(usage > (side < 512 ? 0.55 : 0.65))
     let again = try packing.run(
       corners: corners, charts: charts, density: density, KernelControl(threadCount: 2))
     #expect(again == placements)
