@@ -189,8 +189,9 @@ import Testing
     }
     let (charts, axes) = try ChartClustering().run(mesh, KernelControl())
     var faces = [[Int]](repeating: [], count: mesh.positions.count)
-    for (face, t) in mesh.triangles.enumerated() {
-      for vertex in t.vertices { faces[vertex].append(face) }
+    let vertices = mesh.triangles.map { [Int($0.a), Int($0.b), Int($0.c)] }
+    for (face, corners) in vertices.enumerated() {
+      for vertex in corners { faces[vertex].append(face) }
     }
     var reached = [Bool](repeating: false, count: charts.count)
     var components = 0
@@ -199,9 +200,8 @@ import Testing
       reached[start] = true
       var open = [start]
       while let face = open.popLast() {
-        let vertices = mesh.triangles[face].vertices
-        for other in vertices.flatMap({ faces[$0] }) where !reached[other] {
-          let shared = mesh.triangles[other].vertices.count { vertices.contains($0) }
+        for other in vertices[face].flatMap({ faces[$0] }) where !reached[other] {
+          let shared = vertices[other].count { vertices[face].contains($0) }
           guard shared >= 2, charts[other] == charts[face] else { continue }
           reached[other] = true
           open.append(other)
