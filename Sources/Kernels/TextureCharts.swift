@@ -3,12 +3,14 @@ import SceneModel
 
 /// Groups triangles into charts that can be laid flat without folding.
 ///
-/// Hierarchical face clustering (Garland, Willmott and Heckbert, I3D 2001) on cones of normals.
+/// Hierarchical face clustering (Garland, Willmott and Heckbert, I3D 2001) on cones of normals,
+/// with borders that are then shortened level by level.
 package struct ChartClustering: Hashable, Codable, Sendable {
   /// Half the opening of the cone that holds the normals of a chart, in radians.
   package var maximumAngle: Float = 1
-  /// Charts with fewer triangles are joined to a neighbour where that does not fold it.
-  package var minimumFaces = 16
+  /// Charts with a smaller share of the surface's area are joined to a neighbour where that does
+  /// not fold them.
+  package var minimumShare: Float = 2e-4
 
   package init() {}
 
@@ -20,7 +22,7 @@ package struct ChartClustering: Hashable, Codable, Sendable {
     var axes = [Float](repeating: 0, count: 3 * mesh.triangles.count)
     var count = 0
     var options = ck_chart_options(
-      maximum_angle: maximumAngle, minimum_faces: Int32(clamping: minimumFaces))
+      maximum_angle: maximumAngle, minimum_share: minimumShare)
     try withKernel(control) { control in
       mesh.positions.withUnsafeFloats { positions in
         mesh.triangles.withUnsafeIndices { triangles in
@@ -62,7 +64,7 @@ package struct ChartPacking: Hashable, Codable, Sendable {
   /// Side of the squares in texels.
   package var side: Int
   package var atlasCount: Int
-  /// Empty texels around each chart.
+  /// Empty texels between charts; half as many along the border.
   package var padding: Int
   /// Upper bound of the texels a unit of length at density 1.
   package var maximumScale: Float

@@ -90,12 +90,15 @@ ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, cons
 typedef struct {
   /// Half the opening of the cone that holds all normals of a chart, in radians, below π/2.
   float maximum_angle;
-  /// Charts with fewer triangles are joined to a neighbour where that does not fold it.
-  int32_t minimum_faces;
+  /// Charts with a smaller share of the surface's area are joined to a neighbour where that does
+  /// not fold them.
+  float minimum_share;
 } ck_chart_options;
 
 /// Groups triangles into connected, compact charts that can be projected onto a plane without
-/// folding: hierarchical face clustering (Garland et al., I3D 2001) on cones of normals.
+/// folding: hierarchical face clustering (Garland et al., I3D 2001) on cones of normals, then
+/// shorter borders by moving what lies along them (after Karypis and Kumar, SIAM J. Sci. Comput.
+/// 1998).
 ///
 /// `charts` receives a chart for every triangle, dense from 0; `axes` three floats a chart, the
 /// unit direction to project along, for at most as many charts as there are triangles.
@@ -119,7 +122,7 @@ typedef struct {
   /// Side of the square atlases in texels.
   int32_t side;
   int32_t atlas_count;
-  /// Empty texels around each chart.
+  /// Empty texels between charts; half as many along the border, as a texture may repeat.
   int32_t padding;
   /// Upper bound of the texels a unit of length.
   float maximum_scale;

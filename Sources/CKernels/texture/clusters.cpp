@@ -2,204 +2,345 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
+#include <numeric>
 #include <utility>
 
 #include "ck_texture.h"
 #include "core/guard.h"
+#include "texture/cluster_graph.h"
 
 namespace ck::texture {
 namespace {
 
-struct Neighbor {
-  int32_t cluster;
-  float length;
-};
+/// What a cluster costs per area however even and round it is: so small ones merge first.
+constexpr float kPlainCost = 0.02f;
 
-struct Cluster {
-  Vec3 normal_sum;
-  float area = 0;
-  float perimeter = 0;
-  Cone cone;
-  uint32_t version = 0;
-  bool alive = true;
-  std::vector<int32_t> faces;
-  /// Sorted by cluster.
-  std::vector<Neighbor> neighbors;
-};
+/// Mixes two numbers: the order of pairs that cost the same.
+uint64_t scrambled(uint32_t a, uint32_t b) {
+  uint64_t z = (static_cast<uint64_t>(a) << 32 | b) + 0x9e3779b97f4a7c15;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+  return z ^ (z >> 31);
+}
 
-struct Candidate {
-  float cost;
-  int32_t a, b;
-  uint32_t version_a, version_b;
-  bool operator<(const Candidate& o) const {
-    if (cost != o.cost) return cost > o.cost;
-    return a != o.a ? a > o.a : b > o.b;
-  }
-};
-
+/// Merges clusters in rounds: in each, those pairs that are each other's cheapest neighbour.
 class Clustering {
  public:
   Clustering(const ChartMesh& mesh, const ck_chart_options& options)
-      : mesh_(mesh), options_(options), clusters_(mesh.triangles.size()) {
-    for (size_t t = 0; t < clusters_.size(); ++t) {
-      Cluster& c = clusters_[t];
-      c.normal_sum = mesh.normals[t] * mesh.areas[t];
-      c.area = mesh.areas[t];
-      c.perimeter = mesh.perimeters[t];
-      c.cone = {mesh.normals[t], 0};
-      c.faces = {static_cast<int32_t>(t)};
-    }
-    for (const DualEdge& e : mesh.edges) {
-      add_neighbor(static_cast<int32_t>(e.a), static_cast<int32_t>(e.b), e.length);
-      add_neighbor(static_cast<int32_t>(e.b), static_cast<int32_t>(e.a), e.length);
-    }
-    for (const DualEdge& e : mesh.edges) {
-      push(static_cast<int32_t>(e.a), static_cast<int32_t>(e.b), e.length);
-    }
+      : mesh_(mesh), options_(options) {
+    levels_.push_back(graph_of(mesh));
+    for (const Cluster& c : levels_[0].clusters) total_area_ += c.area;
   }
 
-  void merge(const ck_control* control) {
-    size_t merges = 0;
-    while (!queue_.empty()) {
-      const Candidate c = queue_.top();
-      queue_.pop();
-      if (clusters_[static_cast<size_t>(c.a)].version != c.version_a ||
-          clusters_[static_cast<size_t>(c.b)].version != c.version_b) {
-        continue;
-      }
-      if (++merges % 4096 == 0) {
-        step(control, 0.9 * static_cast<double>(merges) / static_cast<double>(clusters_.size()));
-      }
-      const int32_t kept = join(c.a, c.b);
-      const Cluster& cluster = at(kept);
-      for (const Neighbor& n : cluster.neighbors) push(kept, n.cluster, n.length);
+  void run(const ck_control* control) {
+    for (size_t round = 0; merge_cheapest(); ++round) {
+      step(control, 0.8 * (1 - 1 / static_cast<double>(round + 2)));
     }
-  }
-
-  /// Joins small clusters to the neighbour with the longest border that they don't fold.
-  void absorb_small() {
-    std::vector<int32_t> order;
-    for (size_t i = 0; i < clusters_.size(); ++i) {
-      if (clusters_[i].alive && is_small(clusters_[i])) order.push_back(static_cast<int32_t>(i));
-    }
-    std::sort(order.begin(), order.end(), [&](int32_t a, int32_t b) {
-      const size_t sa = at(a).faces.size(), sb = at(b).faces.size();
-      return sa != sb ? sa < sb : a < b;
-    });
-    for (const int32_t i : order) {
-      if (!at(i).alive || !is_small(at(i))) continue;
-      int32_t best = -1;
-      float longest = 0;
-      for (const Neighbor& n : at(i).neighbors) {
-        if (n.length > longest && fits(at(i), at(n.cluster))) {
-          best = n.cluster;
-          longest = n.length;
-        }
-      }
-      if (best < 0) continue;
-      const Cone cone = at(best).cone;
-      at(join(i, best)).cone = cone;
-    }
+    while (absorb_small()) step(control, 0.8);
+    refine(control);
+    absorb_remains();
+    center_axes();
   }
 
   void copy(std::vector<int32_t>* charts, std::vector<Vec3>* axes) const {
-    charts->assign(mesh_.triangles.size(), 0);
-    for (size_t first = 0; first < clusters_.size(); ++first) {
-      const Cluster& c = clusters_[first];
-      if (!c.alive) continue;
-      for (const int32_t f : c.faces) {
-        (*charts)[static_cast<size_t>(f)] = static_cast<int32_t>(axes->size());
-      }
-      const bool has_axis = dot(c.cone.axis, c.cone.axis) > 0.5f;
-      axes->push_back(has_axis ? c.cone.axis : Vec3{0, 0, 1});
-    }
+    charts->assign(charts_.begin(), charts_.end());
+    *axes = axes_;
   }
 
  private:
-  Cluster& at(int32_t i) { return clusters_[static_cast<size_t>(i)]; }
-  const Cluster& at(int32_t i) const { return clusters_[static_cast<size_t>(i)]; }
-
-  bool is_small(const Cluster& c) const {
-    return c.faces.size() < static_cast<size_t>(options_.minimum_faces);
-  }
-
-  bool fits(const Cluster& small, const Cluster& other) const {
-    return std::all_of(small.faces.begin(), small.faces.end(), [&](int32_t f) {
-      const Vec3 n = mesh_.normals[static_cast<size_t>(f)];
-      return dot(n, n) == 0 || dot(n, other.cone.axis) > 0.2f;
-    });
-  }
-
-  void add_neighbor(int32_t cluster, int32_t neighbor, float length) {
-    auto& list = at(cluster).neighbors;
-    const auto place =
-        std::lower_bound(list.begin(), list.end(), neighbor,
-                         [](const Neighbor& n, int32_t value) { return n.cluster < value; });
-    if (place != list.end() && place->cluster == neighbor) {
-      place->length += length;
-    } else {
-      list.insert(place, {neighbor, length});
-    }
-  }
-
-  void push(int32_t first, int32_t second, float shared) {
-    const int32_t a = std::min(first, second), b = std::max(first, second);
-    const Cluster &ca = at(a), &cb = at(b);
-    if (joined(ca.cone, cb.cone).angle > options_.maximum_angle) return;
-    const float area = ca.area + cb.area;
-    if (!(area > 0)) {
-      queue_.push({0, a, b, ca.version, cb.version});
-      return;
-    }
+  /// Negative where the two may not be merged.
+  float cost(const Cluster& a, const Cluster& b, float shared) const {
+    if (joined_angle(a.cone, b.cone) > options_.maximum_angle) return -1;
+    const float area = a.area + b.area;
+    if (!(area > 0)) return 0;
     // How uneven the normals are, how ragged the outline; small ones first.
-    const float unevenness = 1 - length(ca.normal_sum + cb.normal_sum) / area;
-    const float perimeter = std::max(0.0f, ca.perimeter + cb.perimeter - 2 * shared);
+    const float unevenness = std::max(0.0f, 1 - length(a.normal_sum + b.normal_sum) / area);
+    const float perimeter = std::max(0.0f, a.perimeter + b.perimeter - 2 * shared);
     const float raggedness = perimeter * perimeter / (12.566f * area);
-    queue_.push({area * (unevenness + 0.02f) * raggedness, a, b, ca.version, cb.version});
+    return area * (unevenness + kPlainCost) * raggedness;
   }
 
-  /// Merges one cluster into the other and returns the one that stays.
-  int32_t join(int32_t a, int32_t b) {
-    if (at(a).neighbors.size() < at(b).neighbors.size()) std::swap(a, b);
-    Cluster &kept = at(a), &gone = at(b);
-    float shared = 0;
-    for (const Neighbor& n : gone.neighbors) {
-      if (n.cluster == a) {
-        shared = n.length;
+  bool merge_cheapest() {
+    const ClusterGraph& graph = levels_.back();
+    const size_t count = graph.clusters.size();
+    std::vector<uint32_t> best(count);
+    std::vector<float> costs(count, 0);
+    for (uint32_t i = 0; i < count; ++i) {
+      best[i] = i;
+      float& lowest = costs[i];
+      uint64_t order = 0;
+      for (const Neighbor& n : graph.neighbors_of(i)) {
+        const uint32_t a = std::min(i, n.cluster), b = std::max(i, n.cluster);
+        const float value = cost(graph.clusters[a], graph.clusters[b], n.length);
+        if (value < 0 || (best[i] != i && value > lowest)) continue;
+        const uint64_t rank = scrambled(a, b);
+        if (best[i] != i && value == lowest && rank > order) continue;
+        best[i] = n.cluster;
+        lowest = value;
+        order = rank;
+      }
+    }
+    std::vector<uint32_t> parents = paired(best, costs);
+    bool has_merged = false;
+    for (uint32_t i = 0; i < count; ++i) has_merged = has_merged || parents[i] != i;
+    if (has_merged) levels_.push_back(levels_.back().contracted(std::move(parents)));
+    return has_merged;
+  }
+
+  /// Each cluster's target: of two that are each other's cheapest, the first.
+  static std::vector<uint32_t> paired(const std::vector<uint32_t>& best,
+                                      const std::vector<float>& costs) {
+    std::vector<uint32_t> parents(best.size());
+    std::iota(parents.begin(), parents.end(), 0u);
+    std::vector<uint32_t> waiting;
+    size_t pairs = 0;
+    for (uint32_t i = 0; i < best.size(); ++i) {
+      if (best[i] == i) continue;
+      if (best[best[i]] != i) {
+        waiting.push_back(i);
+      } else if (i < best[i]) {
+        parents[best[i]] = i;
+        ++pairs;
+      }
+    }
+    if (pairs * kFewestPairs >= waiting.size()) return parents;
+    // Along a slope of costs hardly any are each other's cheapest; there the cheapest go first.
+    std::sort(waiting.begin(), waiting.end(), [&](uint32_t a, uint32_t b) {
+      return costs[a] != costs[b] ? costs[a] < costs[b] : a < b;
+    });
+    std::vector<bool> is_taken(best.size(), false);
+    for (uint32_t i = 0; i < best.size(); ++i) {
+      is_taken[i] = best[i] != i && best[best[i]] == i;
+    }
+    for (const uint32_t i : waiting) {
+      if (is_taken[i] || is_taken[best[i]]) continue;
+      is_taken[i] = is_taken[best[i]] = true;
+      parents[std::max(i, best[i])] = std::min(i, best[i]);
+    }
+    return parents;
+  }
+
+  /// Joins small clusters to the neighbour with the longest border that they don't fold.
+  bool absorb_small() {
+    const ClusterGraph& graph = levels_.back();
+    const size_t count = graph.clusters.size();
+    const double limit = options_.minimum_share * total_area_;
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < count; ++i) {
+      if (graph.clusters[i].area < limit) order.push_back(i);
+    }
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      const float sa = graph.clusters[a].area, sb = graph.clusters[b].area;
+      return sa != sb ? sa < sb : a < b;
+    });
+    std::vector<uint32_t> parents(count);
+    std::iota(parents.begin(), parents.end(), 0u);
+    std::vector<bool> is_target(count, false);
+    bool has_merged = false;
+    for (const uint32_t i : order) {
+      if (is_target[i]) continue;
+      uint32_t best = i;
+      float longest = 0;
+      for (const Neighbor& n : graph.neighbors_of(i)) {
+        const bool is_free = parents[n.cluster] == n.cluster;
+        if (!is_free || !(n.length > longest)) continue;
+        if (!may_join(i, graph.clusters[n.cluster].axis)) continue;
+        best = n.cluster;
+        longest = n.length;
+      }
+      if (best == i) continue;
+      parents[i] = best;
+      is_target[best] = true;
+      has_merged = true;
+    }
+    if (!has_merged) return false;
+    levels_.push_back(levels_.back().contracted(std::move(parents), true));
+    return true;
+  }
+
+  /// Joins what the moves left of small charts, looking at each of their triangles.
+  void absorb_remains() {
+    std::vector<uint32_t> first(axes_.size(), UINT32_MAX), targets(charts_.size());
+    for (uint32_t t = 0; t < charts_.size(); ++t) {
+      if (first[charts_[t]] == UINT32_MAX) first[charts_[t]] = t;
+      targets[t] = first[charts_[t]];
+    }
+    levels_.push_back(levels_[0].contracted(std::move(targets)));
+    std::vector<Vec3> axes(levels_[1].clusters.size());
+    for (uint32_t t = 0; t < charts_.size(); ++t) {
+      axes[levels_[0].parents[t]] = axes_[charts_[t]];
+    }
+    for (size_t i = 0; i < axes.size(); ++i) levels_[1].clusters[i].axis = axes[i];
+    charts_ = levels_[0].parents;
+    is_exact_ = true;
+    for (list_faces(); absorb_small(); list_faces()) {
+      const std::vector<uint32_t>& parents = levels_[levels_.size() - 2].parents;
+      for (uint32_t& chart : charts_) chart = parents[chart];
+    }
+    axes_.clear();
+    for (const Cluster& c : levels_.back().clusters) axes_.push_back(c.axis);
+  }
+
+  void list_faces() {
+    starts_.assign(levels_.back().clusters.size() + 1, 0);
+    for (const uint32_t chart : charts_) ++starts_[chart + 1];
+    for (size_t i = 0; i + 1 < starts_.size(); ++i) starts_[i + 1] += starts_[i];
+    std::vector<uint32_t> next(starts_.begin(), starts_.end() - 1);
+    faces_.resize(charts_.size());
+    for (uint32_t t = 0; t < charts_.size(); ++t) faces_[next[charts_[t]]++] = t;
+  }
+
+  /// Projects charts along their mean normal where that shows all triangles as well.
+  void center_axes() {
+    std::vector<Vec3> sums(axes_.size());
+    std::vector<float> least(axes_.size(), 1), least_before(axes_.size(), 1);
+    for (size_t t = 0; t < charts_.size(); ++t)
+      sums[charts_[t]] += mesh_.normals[t] * mesh_.areas[t];
+    for (Vec3& sum : sums) sum = normalized(sum);
+    for (size_t t = 0; t < charts_.size(); ++t) {
+      if (!(mesh_.areas[t] > 0)) continue;
+      const uint32_t chart = charts_[t];
+      least[chart] = std::min(least[chart], dot(mesh_.normals[t], sums[chart]));
+      least_before[chart] = std::min(least_before[chart], dot(mesh_.normals[t], axes_[chart]));
+    }
+    const float enough = std::cos(options_.maximum_angle);
+    for (size_t i = 0; i < axes_.size(); ++i) {
+      if (least[i] >= std::min(enough, least_before[i])) axes_[i] = sums[i];
+    }
+  }
+
+  /// Moves what lies along the charts' borders where that makes them shorter, from large pieces to
+  /// single triangles (after Karypis and Kumar, SIAM J. Sci. Comput. 1998).
+  void refine(const ck_control* control) {
+    axes_.clear();
+    for (const Cluster& c : levels_.back().clusters) {
+      axes_.push_back(dot(c.axis, c.axis) > 0.5f ? c.axis : Vec3{0, 0, 1});
+    }
+    charts_.resize(axes_.size());
+    std::iota(charts_.begin(), charts_.end(), 0u);
+    typical_length_ =
+        std::sqrt(total_area_ / static_cast<double>(std::max<size_t>(1, axes_.size())));
+    while (levels_.size() > 1) {
+      levels_.pop_back();
+      const ClusterGraph& graph = levels_.back();
+      std::vector<uint32_t> finer(graph.clusters.size());
+      for (size_t i = 0; i < finer.size(); ++i) finer[i] = charts_[graph.parents[i]];
+      charts_ = std::move(finer);
+      step(control, 0.9);
+      for (int pass = 0; pass < kPasses && shorten_borders(graph); ++pass) {
+      }
+    }
+  }
+
+  bool shorten_borders(const ClusterGraph& graph) {
+    bool has_changed = false;
+    for (uint32_t i = 0; i < graph.clusters.size(); ++i) {
+      const uint32_t best = better_chart(graph, i);
+      if (best == charts_[i] || cuts(graph, i)) continue;
+      charts_[i] = best;
+      has_changed = true;
+    }
+    return has_changed;
+  }
+
+  /// The chart that a cluster had better belong to; its own, if that is it.
+  uint32_t better_chart(const ClusterGraph& graph, uint32_t i) {
+    const uint32_t own = charts_[i];
+    around_.clear();
+    float inside = 0;
+    for (const Neighbor& n : graph.neighbors_of(i)) {
+      const uint32_t chart = charts_[n.cluster];
+      if (chart == own) {
+        inside += n.length;
         continue;
       }
-      remove_neighbor(n.cluster, b);
-      add_neighbor(n.cluster, a, n.length);
-      add_neighbor(a, n.cluster, n.length);
+      const auto place = std::find_if(around_.begin(), around_.end(),
+                                      [&](const Neighbor& a) { return a.cluster == chart; });
+      if (place == around_.end()) {
+        around_.push_back({chart, n.length});
+      } else {
+        place->length += n.length;
+      }
     }
-    remove_neighbor(a, b);
-    kept.cone = joined(kept.cone, gone.cone);
-    kept.normal_sum += gone.normal_sum;
-    kept.area += gone.area;
-    kept.perimeter = std::max(0.0f, kept.perimeter + gone.perimeter - 2 * shared);
-    if (kept.faces.size() < gone.faces.size()) kept.faces.swap(gone.faces);
-    kept.faces.insert(kept.faces.end(), gone.faces.begin(), gone.faces.end());
-    ++kept.version;
-    ++gone.version;
-    gone.alive = false;
-    gone.faces = {};
-    gone.neighbors = {};
-    return a;
+    if (around_.empty() || inside == 0) return own;
+    const Cluster& cluster = graph.clusters[i];
+    const float before = stretched_area(cluster, axes_[own]);
+    const float least_cosine = std::cos(options_.maximum_angle);
+    uint32_t best = own;
+    float most = 0;
+    for (const Neighbor& other : around_) {
+      const float more = stretched_area(cluster, axes_[other.cluster]) - before;
+      const float gain =
+          other.length - inside - kStretchCost * more / static_cast<float>(typical_length_);
+      if (gain <= most || !fits(cluster, axes_[other.cluster], least_cosine)) continue;
+      best = other.cluster;
+      most = gain;
+    }
+    return best;
   }
 
-  void remove_neighbor(int32_t cluster, int32_t neighbor) {
-    auto& list = at(cluster).neighbors;
-    const auto place =
-        std::lower_bound(list.begin(), list.end(), neighbor,
-                         [](const Neighbor& n, int32_t value) { return n.cluster < value; });
-    if (place != list.end() && place->cluster == neighbor) list.erase(place);
+  /// Whether the rest of the chart would not hang together around a cluster.
+  bool cuts(const ClusterGraph& graph, uint32_t cluster) {
+    ring_.clear();
+    for (const Neighbor& n : graph.neighbors_of(cluster)) {
+      if (charts_[n.cluster] == charts_[cluster]) ring_.push_back(n.cluster);
+    }
+    // The first `reached` of the ring hang together.
+    size_t reached = std::min<size_t>(1, ring_.size());
+    for (size_t k = 0; k < reached; ++k) {
+      for (const Neighbor& n : graph.neighbors_of(ring_[k])) {
+        const auto place =
+            std::find(ring_.begin() + static_cast<ptrdiff_t>(reached), ring_.end(), n.cluster);
+        if (place != ring_.end()) std::swap(*place, ring_[reached++]);
+      }
+    }
+    return reached < ring_.size();
   }
+
+  /// A cluster's area, the larger the more an axis foreshortens it.
+  static float stretched_area(const Cluster& c, Vec3 axis) {
+    const float along = dot(c.normal_sum, axis);
+    return c.area * (c.area / std::max(along, 0.05f * c.area));
+  }
+
+  static bool fits(const Cluster& c, Vec3 axis, float least_cosine) {
+    if (dot(c.cone.axis, c.cone.axis) == 0) return true;
+    const float between = std::acos(std::clamp(dot(c.cone.axis, axis), -1.0f, 1.0f));
+    return between + c.cone.angle < std::acos(least_cosine);
+  }
+
+  /// Whether all of a small cluster faces an axis well enough to be joined to its chart.
+  bool may_join(uint32_t cluster, Vec3 axis) const {
+    if (!is_exact_) return fits(levels_.back().clusters[cluster], axis, kAbsorbedCosine);
+    return std::all_of(
+        faces_.begin() + starts_[cluster], faces_.begin() + starts_[cluster + 1], [&](uint32_t t) {
+          return !(mesh_.areas[t] > 0) || dot(mesh_.normals[t], axis) > kAbsorbedCosine;
+        });
+  }
+
+  /// The least cosine between the axis of a chart and the triangles of what is joined to it.
+  static constexpr float kAbsorbedCosine = 0.4f;
+  /// What area lost to foreshortening costs, in borders as long as a typical chart is wide.
+  static constexpr float kStretchCost = 6;
+  /// One pair for so many clusters without is enough for a round.
+  static constexpr size_t kFewestPairs = 16;
+  /// Rounds over the borders at each level, at most.
+  static constexpr int kPasses = 4;
 
   const ChartMesh& mesh_;
   const ck_chart_options& options_;
-  std::vector<Cluster> clusters_;
-  std::priority_queue<Candidate> queue_;
+  double total_area_ = 0, typical_length_ = 0;
+  std::vector<ClusterGraph> levels_;
+  /// The chart of each cluster of the last level, and the charts' directions.
+  std::vector<uint32_t> charts_;
+  std::vector<Vec3> axes_;
+  /// Used again and again: the charts around a cluster, and the neighbours in its own.
+  std::vector<Neighbor> around_;
+  std::vector<uint32_t> ring_;
+  /// Whether small clusters are looked at triangle by triangle.
+  bool is_exact_ = false;
+  /// The triangles of each chart: those from starts_[i] to starts_[i + 1].
+  std::vector<uint32_t> starts_, faces_;
 };
 
 }  // namespace
@@ -218,8 +359,7 @@ ck_status ck_cluster_faces(const float* positions, size_t position_count, size_t
     std::vector<ck::texture::Vec3> directions;
     {
       ck::texture::Clustering clustering(mesh, *options);
-      clustering.merge(control);
-      clustering.absorb_small();
+      clustering.run(control);
       clustering.copy(&chart_of_face, &directions);
     }
     ck::step(control, 0.95);
