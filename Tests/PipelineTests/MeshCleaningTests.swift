@@ -17,7 +17,8 @@ import Testing
     for triangle in mesh.triangles {
       for edge in triangle.edges {
         let isForward = edge.x < edge.y
-        result[isForward ? edge : [edge.y, edge.x], default: .zero] &+= isForward ? [1, 0] : [0, 1]
+        result[isForward ? edge : [edge.y, edge.x], default: .zero] &+=
+          isForward ? [1, 0] : [0, 1]
       }
     }
     return result
