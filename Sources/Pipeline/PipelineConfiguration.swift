@@ -8,6 +8,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var maskFolder: URL?
   /// Close what no photo shows of the object, its underside for instance.
   package var closesObject: Bool = true
+  /// Fit the surface to the photos at up to four times the pixels of the dense stage.
+  package var refinesSurface: Bool = false
   /// The photos are in the order of capture, and neighbours overlap.
   package var isSequential: Bool = false
   /// Look harder for features on objects of low texture.

@@ -195,8 +195,15 @@ package final class ReconstructionPipeline {
       options.isolatesObject = configuration.isObjectMaskingEnabled
       options.closesObject = configuration.closesObject
       let silhouettes = try Silhouettes(reconstruction, images: images)
-      return try MeshGeneration(options)
-        .run(cloud, reconstruction, silhouettes: silhouettes, context)
+      let share = configuration.refinesSurface ? 0.4 : 1
+      let mesh = try MeshGeneration(options)
+        .run(
+          cloud, reconstruction, silhouettes: silhouettes, context.part(from: 0, to: share))
+      guard configuration.refinesSurface else { return mesh }
+      return try PhotoRefinement(options: .init(viewPixels: finestViewPixels))
+        .run(
+          mesh, source: ViewSource(reconstruction, images: images), context.part(from: share, to: 1)
+        )
     }
     surface = (finestViewPixels, result)
     try save(result, of: reconstruction)

@@ -2,6 +2,7 @@
 #define CK_SURFACE_H
 
 #include "ck_core.h"
+#include "ck_texture.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -75,6 +76,49 @@ ck_status ck_free_space(const ck_free_space_grid* grid, const float* points, siz
                         const float* clearances, size_t point_count, const uint32_t* photo_offsets,
                         const uint16_t* photos, const float* centers, size_t photo_count,
                         const ck_control* control, uint8_t* counts);
+
+/// A surface that is being fitted to the photos.
+typedef struct ck_photo_refinement ck_photo_refinement;
+
+/// How a surface is fitted to the photos.
+typedef struct {
+  /// Times that photos are compared and vertices moved.
+  int32_t rounds;
+  /// Views that each view is compared with, at most.
+  int32_t neighbours;
+  /// Photos are compared by what stands out from windows of `2 × radius + 1` pixels a side.
+  int32_t radius;
+  /// Standard deviation of luminance, 0…255, below which a window has no texture.
+  float noise;
+  /// Windows with a smaller correlation show something else.
+  float minimum_correlation;
+  /// Weight of smoothness against the photos.
+  float smoothness;
+} ck_photo_refinement_options;
+
+/// Begins to fit a mesh to photos; it keeps copies of the arrays. Positions are three floats every
+/// `stride` bytes. Free with `ck_photo_refinement_free`.
+ck_status ck_photo_refinement_create(const float* positions, size_t stride, size_t position_count,
+                                     const uint32_t* triangles, size_t triangle_count,
+                                     const ck_photo_refinement_options* options,
+                                     const ck_control* control, ck_photo_refinement** refinement);
+
+/// Adds a photo. `rgb` has 3 bytes a pixel; `mask` is null, or has a byte a pixel: where it is
+/// below 128 the photo isn't compared. Keeps two bytes a pixel.
+ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_pinhole* view,
+                                  const uint8_t* rgb, const uint8_t* mask,
+                                  const ck_control* control);
+
+/// Moves vertices along their normals to where the photos that see them agree (after Vu et al.,
+/// PAMI 2012). Vertices at borders, and those without texture that two photos see, stay.
+///
+/// `positions` receives three floats every `stride` bytes, `moved` (may be null) the number of
+/// vertices that the photos determine.
+ck_status ck_photo_refinement_run(ck_photo_refinement* refinement, const ck_control* control,
+                                  float* positions, size_t stride, size_t* moved);
+
+/// Frees the refinement; null does nothing.
+void ck_photo_refinement_free(ck_photo_refinement* refinement);
 
 #ifdef __cplusplus
 }

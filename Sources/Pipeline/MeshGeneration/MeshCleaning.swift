@@ -31,7 +31,7 @@ struct MeshCleaning {
       throw PipelineError.noSurface(reason: "nothing of the surface is supported by the photos.")
     }
     try context.control.step(0.6)
-    result.normals = vertexNormals(result)
+    result.normals = result.areaWeightedNormals()
     if !samples.colors.isEmpty {
       result.colors = try colors(
         result, samples, context.control.part(from: 0.6, to: 1))
@@ -106,20 +106,6 @@ struct MeshCleaning {
     mesh.positions = positions
     mesh.triangles = mesh.triangles.map { t in
       Triangle(numbers[Int(t.a)] ?? 0, numbers[Int(t.b)] ?? 0, numbers[Int(t.c)] ?? 0)
-    }
-  }
-
-  /// Mean of the face normals, weighted by area.
-  private func vertexNormals(_ mesh: Mesh) -> [SIMD3<Float>] {
-    var sums = [SIMD3<Double>](repeating: .zero, count: mesh.positions.count)
-    for t in mesh.triangles {
-      let (a, b, c) = mesh.corners(of: t)
-      let normal = SIMD3<Double>(b - a).cross(SIMD3<Double>(c - a))
-      for vertex in t.vertices { sums[vertex] += normal }
-    }
-    return sums.map { sum in
-      let normal = SIMD3<Float>(sum.normalized)
-      return normal == .zero ? [0, 1, 0] : normal
     }
   }
 

@@ -102,6 +102,19 @@ struct ViewSource: Sendable {
   /// The view of a photo, at most so many pixels large.
   var view: @Sendable (ID<Photo>, Int) throws -> PinholeView
 
+  init(
+    reconstruction: Reconstruction, view: @escaping @Sendable (ID<Photo>, Int) throws -> PinholeView
+  ) {
+    self.reconstruction = reconstruction
+    self.view = view
+  }
+
+  init(_ reconstruction: Reconstruction, images: ImageStore) {
+    self.init(reconstruction: reconstruction) { photo, maximumPixels in
+      try images.pinholeView(photo, of: reconstruction, maximumPixels: maximumPixels)
+    }
+  }
+
   /// Pixels of a full photo, in the mean of those that are registered.
   var pixelsPerPhoto: Float {
     let cameras = reconstruction.registered.map { reconstruction.camera(of: $0) }

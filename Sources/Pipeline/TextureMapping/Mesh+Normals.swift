@@ -32,6 +32,21 @@ extension Mesh {
     }
   }
 
+  /// Unit vertex normals: the mean of the face normals, weighted by area. Vertices without triangles
+  /// get +y.
+  func areaWeightedNormals() -> [SIMD3<Float>] {
+    var sums = [SIMD3<Double>](repeating: .zero, count: positions.count)
+    for triangle in triangles {
+      let (a, b, c) = corners(of: triangle)
+      let normal = SIMD3<Double>(b - a).cross(SIMD3<Double>(c - a))
+      for vertex in [triangle.a, triangle.b, triangle.c] { sums[Int(vertex)] += normal }
+    }
+    return sums.map { sum in
+      let normal = SIMD3<Float>(sum.normalized)
+      return normal == .zero ? [0, 1, 0] : normal
+    }
+  }
+
   /// The angle between two vectors in radians; 0 where one of them is zero.
   static func angle(_ u: SIMD3<Float>, _ v: SIMD3<Float>) -> Float {
     atan2(u.cross(v).length, u.dot(v))

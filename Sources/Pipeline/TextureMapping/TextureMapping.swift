@@ -43,10 +43,8 @@ package struct TextureMapping: Sendable {
     _ mesh: Mesh, dense: Mesh, reconstruction: Reconstruction, images: ImageStore,
     _ context: StageContext
   ) throws -> TexturedMesh {
-    let source = ViewSource(reconstruction: reconstruction) { photo, maximumPixels in
-      try images.pinholeView(photo, of: reconstruction, maximumPixels: maximumPixels)
-    }
-    return try run(mesh, dense: dense, source: source, context)
+    try run(
+      mesh, dense: dense, source: ViewSource(reconstruction, images: images), context)
   }
 
   func run(

@@ -7,6 +7,8 @@ package struct EngineOptions: Equatable, Sendable {
   package var threadCount = ProcessInfo.processInfo.activeProcessorCount
   /// Close what no photo shows of an isolated object.
   package var closesObject = true
+  /// Fit the surface to the photos at a finer resolution once it is made.
+  package var refinesSurface = false
   /// Distances in the scene that were measured; they give the scale. Photos are named by their files.
   package var knownDistances: [KnownDistance] = []
   /// A PNG file that shows the model from several sides; nil draws none.

@@ -87,6 +87,7 @@ extension PipelineConfiguration {
     previewFile = options.previewFile
     maskFolder = options.maskFolder
     closesObject = options.closesObject
+    refinesSurface = options.refinesSurface
     maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
     maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
     // The machine's memory and not what is free of it: runs must not differ.

@@ -14,8 +14,17 @@ import RealityKit
         """)
     var keepGaps = false
 
+    @Flag(
+      name: .long,
+      help: """
+        Fit the surface to the photos at up to four times the pixels it was made from: crisper relief, \
+        and nearer to the truth, for more time.
+        """)
+    var refine = false
+
     func configure(_ session: PhotogrammetrySession) {
       session.engineOptions.closesObject = !keepGaps
+      session.engineOptions.refinesSurface = refine
     }
   }
 #else

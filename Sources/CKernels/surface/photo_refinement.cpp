@@ -1,0 +1,175 @@
+#include "surface/photo_refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/guard.h"
+#include "core/parallel.h"
+
+namespace ck::surface {
+
+/// Sorts the directed edges; those of a closed surface come once in each direction.
+void RefinedMesh::find_neighbours() {
+  std::vector<uint64_t> edges;
+  edges.reserve(6 * triangles.size());
+  for (const auto& t : triangles) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint64_t a = t[k], b = t[(k + 1) % 3];
+      edges.push_back(a << 32 | b);
+      edges.push_back(b << 32 | a);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  offsets.assign(positions.size() + 1, 0);
+  is_border.assign(positions.size(), 0);
+  for (size_t i = 0, end; i < edges.size(); i = end) {
+    for (end = i + 1; end < edges.size() && edges[end] == edges[i];) ++end;
+    const auto from = static_cast<uint32_t>(edges[i] >> 32), to = static_cast<uint32_t>(edges[i]);
+    if (end - i != 2) is_border[from] = 1;
+    neighbours.push_back(to);
+    ++offsets[from + 1];
+    mean_edge += texture::length(positions[to] - positions[from]);
+  }
+  for (size_t v = 0; v < positions.size(); ++v) offsets[v + 1] += offsets[v];
+  mean_edge /= static_cast<double>(std::max<size_t>(1, neighbours.size()));
+}
+
+void RefinedMesh::find_normals() {
+  normals.assign(positions.size(), {});
+  for (const auto& t : triangles) {
+    const Vec3 n = doubled_area(t);
+    for (uint32_t v : t) normals[v] += n;
+  }
+  for (Vec3& n : normals) n = texture::normalized(n);
+}
+
+namespace {
+
+/// As many views as there are threads, fewer where they are large: a pixel takes some hundred bytes
+/// while it is compared.
+size_t views_at_once(const std::vector<RefinementView>& views, const ck_control* control) {
+  constexpr size_t kMostPixels = 24'000'000;
+  size_t largest = 1;
+  for (const RefinementView& view : views) largest = std::max(largest, view.luminance.size());
+  return std::clamp<size_t>(kMostPixels / largest, 1, static_cast<size_t>(thread_count(control)));
+}
+
+/// Compares the views, several at once as there are threads, and adds what they say in their order.
+VertexEvidence gather(const RefinedMesh& mesh, const std::vector<RefinementView>& views,
+                      const ck_photo_refinement_options& options, const ck_control* control,
+                      double done, double share) {
+  VertexEvidence sum{std::vector<double>(mesh.positions.size(), 0),
+                     std::vector<double>(mesh.positions.size(), 0)};
+  const ck_control quiet{nullptr, nullptr, thread_count(control)};
+  const size_t batch = views_at_once(views, control);
+  double footprints = 0;
+  size_t pixels = 0;
+  for (size_t first = 0; first < views.size(); first += batch) {
+    step(control, done + share * static_cast<double>(first) / static_cast<double>(views.size()));
+    const size_t count = std::min(batch, views.size() - first);
+    std::vector<std::vector<PixelEvidence>> said(count);
+    parallel_for(&quiet, count,
+                 [&](size_t i) { said[i] = compare(mesh, views, first + i, options); });
+    for (size_t i = 0; i < count; ++i) {
+      for (const PixelEvidence& p : said[i]) {
+        const auto& t = mesh.triangles[p.triangle];
+        for (size_t k = 0; k < 3; ++k) {
+          sum.slope2[t[k]] += static_cast<double>(p.weights[k]) * p.slope2;
+          sum.pull[t[k]] += static_cast<double>(p.weights[k]) * p.pull;
+        }
+        const RefinementView& view = views[first + i];
+        footprints += view.footprint(view.project(mesh.positions[t[0]]).z);
+      }
+      pixels += said[i].size();
+    }
+  }
+  sum.footprint = footprints / static_cast<double>(std::max<size_t>(1, pixels));
+  return sum;
+}
+
+}  // namespace
+}  // namespace ck::surface
+
+struct ck_photo_refinement {
+  ck::surface::RefinedMesh mesh;
+  std::vector<ck::surface::RefinementView> views;
+  ck_photo_refinement_options options;
+};
+
+ck_status ck_photo_refinement_create(const float* positions, size_t stride, size_t position_count,
+                                     const uint32_t* triangles, size_t triangle_count,
+                                     const ck_photo_refinement_options* options,
+                                     const ck_control* control, ck_photo_refinement** refinement) {
+  return ck::guarded([&] {
+    ck::require(positions && triangles && options && refinement, "null pointer");
+    ck::require(position_count > 0 && triangle_count > 0, "the mesh has no triangles");
+    ck::require(options->rounds >= 0 && options->neighbours >= 0 && options->radius > 0 &&
+                    options->noise > 0 && options->minimum_correlation < 1 &&
+                    options->smoothness >= 0,
+                "the options of the refinement are out of range");
+    *refinement = nullptr;
+    ck::step(control, 0);
+    auto result = std::make_unique<ck_photo_refinement>();
+    result->options = *options;
+    auto& mesh = result->mesh;
+    for (size_t i = 0; i < position_count; ++i) {
+      const auto p = ck::texture::vec_at(positions, stride, i);
+      ck::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
+                  "a mesh has a vertex that is not finite");
+      mesh.positions.push_back(p);
+    }
+    for (size_t t = 0; t < triangle_count; ++t) {
+      const uint32_t* v = triangles + 3 * t;
+      ck::require(std::max({v[0], v[1], v[2]}) < position_count,
+                  "a triangle names a vertex that isn't there");
+      mesh.triangles.push_back({v[0], v[1], v[2]});
+    }
+    mesh.find_neighbours();
+    *refinement = result.release();
+  });
+}
+
+ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_pinhole* view,
+                                  const uint8_t* rgb, const uint8_t* mask,
+                                  const ck_control* control) {
+  return ck::guarded([&] {
+    ck::require(refinement && view && rgb, "null pointer");
+    ck::require(view->width > 0 && view->height > 0 && view->focal[0] > 0, "the view has no size");
+    ck::step(control, 0);
+    refinement->views.emplace_back(*view, rgb, mask);
+    refinement->views.back().find_depths(refinement->mesh);
+  });
+}
+
+ck_status ck_photo_refinement_run(ck_photo_refinement* refinement, const ck_control* control,
+                                  float* positions, size_t stride, size_t* moved) {
+  return ck::guarded([&] {
+    ck::require(refinement && positions, "null pointer");
+    auto& mesh = refinement->mesh;
+    auto& views = refinement->views;
+    const int rounds = refinement->options.rounds;
+    std::vector<uint8_t> is_moved(mesh.positions.size(), 0);
+    mesh.find_normals();
+    ck::surface::choose_partners(mesh, refinement->options.neighbours, &views);
+    for (int round = 0; round < rounds; ++round) {
+      mesh.find_normals();
+      const auto evidence = ck::surface::gather(mesh, views, refinement->options, control,
+                                                static_cast<double>(round) / rounds, 1.0 / rounds);
+      const auto now =
+          ck::surface::move_vertices(evidence, refinement->options.smoothness, control, &mesh);
+      for (size_t v = 0; v < now.size(); ++v) is_moved[v] |= now[v];
+    }
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+      auto* p = reinterpret_cast<float*>(reinterpret_cast<char*>(positions) + v * stride);
+      p[0] = mesh.positions[v].x;
+      p[1] = mesh.positions[v].y;
+      p[2] = mesh.positions[v].z;
+    }
+    if (moved) {
+      *moved = static_cast<size_t>(std::count(is_moved.begin(), is_moved.end(), uint8_t{1}));
+    }
+  });
+}
+
+void ck_photo_refinement_free(ck_photo_refinement* refinement) { delete refinement; }

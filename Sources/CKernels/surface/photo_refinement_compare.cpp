@@ -1,0 +1,286 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "surface/photo_refinement.h"
+
+namespace ck::surface {
+namespace {
+
+using texture::dot;
+
+/// Surface that a view sees at a smaller cosine isn't compared.
+constexpr float kMinimumCosine = 0.25f;
+/// The correlation from which on a window counts in full.
+constexpr float kGoodCorrelation = 0.9f;
+/// Differences beyond this, in standard deviations of the window, count less (Huber).
+constexpr float kLargeDifference = 1;
+/// Samples of an image reach so many pixels around a position.
+constexpr float kMargin = 3;
+/// Vertices that choose the partners of the views, about.
+constexpr size_t kSamples = 20000;
+/// The angle between two views, in degrees, from which on disparities tell enough, and how slowly
+/// views turn too different beyond it.
+constexpr float kGoodAngle = 15, kAngleSpread = 20;
+
+float angle_weight(float cosine) {
+  const float degrees = std::acos(std::clamp(cosine, -1.0f, 1.0f)) * 57.29578f;
+  if (degrees < kGoodAngle) return degrees / kGoodAngle;
+  const float excess = (degrees - kGoodAngle) / kAngleSpread;
+  return std::exp(-excess * excess / 2);
+}
+
+/// Replaces all values by their sums over squares of `radius` around them.
+void sum_squares(int width, int height, int radius, std::vector<float>* values) {
+  const auto w = static_cast<size_t>(width), h = static_cast<size_t>(height);
+  const auto r = static_cast<size_t>(radius);
+  std::vector<float> rows(values->size());
+  for (size_t y = 0; y < h; ++y) {
+    const float* from = values->data() + y * w;
+    double sum = 0;
+    for (size_t x = 0; x < std::min(r, w); ++x) sum += from[x];
+    for (size_t x = 0; x < w; ++x) {
+      if (x + r < w) sum += from[x + r];
+      if (x > r) sum -= from[x - r - 1];
+      rows[y * w + x] = static_cast<float>(sum);
+    }
+  }
+  std::vector<double> sums(w, 0);
+  for (size_t y = 0; y < std::min(r, h); ++y) {
+    for (size_t x = 0; x < w; ++x) sums[x] += rows[y * w + x];
+  }
+  for (size_t y = 0; y < h; ++y) {
+    for (size_t x = 0; x < w; ++x) {
+      if (y + r < h) sums[x] += rows[(y + r) * w + x];
+      if (y > r) sums[x] -= rows[(y - r - 1) * w + x];
+      (*values)[y * w + x] = static_cast<float>(sums[x]);
+    }
+  }
+}
+
+/// The weights of four neighbouring values at `t` between the second and the third, and their
+/// slopes (Catmull–Rom).
+struct Cubic {
+  float weights[4], slopes[4];
+
+  explicit Cubic(float t) {
+    const float t2 = t * t, t3 = t2 * t;
+    weights[0] = -0.5f * t + t2 - 0.5f * t3;
+    weights[1] = 1 - 2.5f * t2 + 1.5f * t3;
+    weights[2] = 0.5f * t + 2 * t2 - 1.5f * t3;
+    weights[3] = -0.5f * t2 + 0.5f * t3;
+    slopes[0] = -0.5f + 2 * t - 1.5f * t2;
+    slopes[1] = -5 * t + 4.5f * t2;
+    slopes[2] = 0.5f + 4 * t - 4.5f * t2;
+    slopes[3] = -t + 1.5f * t2;
+  }
+};
+
+/// Luminance at a pixel position (x and y), and its slopes along x and y.
+Vec3 sample(const RefinementView& view, float x, float y) {
+  x -= 0.5f;
+  y -= 0.5f;
+  const int left = static_cast<int>(x), top = static_cast<int>(y);
+  const Cubic across(x - static_cast<float>(left)), down(y - static_cast<float>(top));
+  const auto width = static_cast<size_t>(view.pinhole.width);
+  const uint8_t* p =
+      view.luminance.data() + static_cast<size_t>(top - 1) * width + static_cast<size_t>(left - 1);
+  Vec3 result;
+  for (size_t k = 0; k < 4; ++k, p += width) {
+    float value = 0, slope = 0;
+    for (size_t i = 0; i < 4; ++i) {
+      value += across.weights[i] * p[i];
+      slope += across.slopes[i] * p[i];
+    }
+    result += {down.weights[k] * value, down.weights[k] * slope, down.slopes[k] * value};
+  }
+  return result;
+}
+
+/// One view and those it is compared with.
+class Comparison {
+ public:
+  Comparison(const RefinedMesh& mesh, const RefinementView& view,
+             const ck_photo_refinement_options& options)
+      : mesh_(mesh), view_(view), options_(options), image_(mesh, view, 1) {
+    evidence_.resize(image_.triangles.size());
+    points_.resize(evidence_.size());
+    moves_.resize(evidence_.size());
+    own_.resize(evidence_.size());
+    for (size_t i = 0; i < evidence_.size(); ++i) evidence_[i] = locate(i);
+  }
+
+  void add(const RefinementView& partner) {
+    warp(partner);
+    sums_ = {valid_, own_, other_, slope_, valid_, valid_, valid_};
+    for (size_t i = 0; i < valid_.size(); ++i) {
+      sums_[kOwn][i] *= valid_[i];
+      sums_[kOwn2][i] = sums_[kOwn][i] * own_[i];
+      sums_[kOther2][i] = other_[i] * other_[i];
+      sums_[kBoth][i] = sums_[kOwn][i] * other_[i];
+    }
+    for (auto& sum : sums_) sum_squares(image_.width, image_.height, options_.radius, &sum);
+    const auto side = static_cast<float>(2 * options_.radius + 1);
+    for (size_t i = 0; i < valid_.size(); ++i) {
+      if (valid_[i] > 0 && sums_[kCount][i] > 0.5f * side * side) judge(i);
+    }
+  }
+
+  /// What was found, without the pixels that no partner says anything about.
+  std::vector<PixelEvidence> result() const {
+    std::vector<PixelEvidence> found;
+    for (const PixelEvidence& e : evidence_) {
+      if (e.slope2 > 0) found.push_back(e);
+    }
+    return found;
+  }
+
+ private:
+  enum { kCount, kOwn, kOther, kSlope, kOwn2, kOther2, kBoth, kSums };
+
+  /// Finds the point that a pixel shows and how it moves along the pixel's ray while the surface
+  /// moves along its normal by 1.
+  PixelEvidence locate(size_t i) {
+    PixelEvidence e = {image_.triangles[i], {}, 0, 0};
+    if (e.triangle == SurfaceImage::kNone) return e;
+    const auto& t = mesh_.triangles[e.triangle];
+    const int x = image_.x0 + static_cast<int>(i % static_cast<size_t>(image_.width));
+    const int y = image_.y0 + static_cast<int>(i / static_cast<size_t>(image_.width));
+    const Vec3 pixel = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
+                        image_.depths[i]};
+    Vec3 corners[3];
+    float sum = 0;
+    for (size_t k = 0; k < 3; ++k) corners[k] = view_.project(mesh_.positions[t[k]]);
+    for (size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = corners[(k + 1) % 3], &b = corners[(k + 2) % 3];
+      const float part = (a.x - pixel.x) * (b.y - pixel.y) - (a.y - pixel.y) * (b.x - pixel.x);
+      e.weights[k] = part / corners[k].z;
+      sum += e.weights[k];
+    }
+    Vec3 point;
+    for (size_t k = 0; k < 3; ++k) {
+      e.weights[k] = std::clamp(e.weights[k] / sum, 0.0f, 1.0f);
+      point += mesh_.positions[t[k]] * e.weights[k];
+    }
+    const Vec3 normal = texture::normalized(mesh_.doubled_area(t));
+    const Vec3 ray = point - view_.projection.center;
+    const float slope = dot(normal, ray);
+    const bool is_good = sum != 0 && slope < -kMinimumCosine * texture::length(ray);
+    if (!is_good || !view_.sees(pixel, 0)) return {SurfaceImage::kNone, {}, 0, 0};
+    points_[i] = point;
+    moves_[i] = ray * (1 / slope);
+    own_[i] = view_.luminance[static_cast<size_t>(y) * static_cast<size_t>(view_.pinhole.width) +
+                              static_cast<size_t>(x)];
+    return e;
+  }
+
+  /// Draws the partner's photo as this view would show it, and how it changes with the surface.
+  void warp(const RefinementView& partner) {
+    valid_.assign(evidence_.size(), 0);
+    other_.assign(evidence_.size(), 0);
+    slope_.assign(evidence_.size(), 0);
+    const float fx = static_cast<float>(partner.pinhole.focal[0]);
+    const float fy = static_cast<float>(partner.pinhole.focal[1]);
+    const float cx = static_cast<float>(partner.pinhole.center[0]);
+    const float cy = static_cast<float>(partner.pinhole.center[1]);
+    float r[9];
+    std::copy(partner.pinhole.rotation, partner.pinhole.rotation + 9, r);
+    for (size_t i = 0; i < evidence_.size(); ++i) {
+      if (evidence_[i].triangle == SurfaceImage::kNone) continue;
+      const Vec3 p = partner.project(points_[i]);
+      if (!partner.sees(p, kMargin)) continue;
+      const Vec3& m = moves_[i];
+      const Vec3 turned = {r[0] * m.x + r[1] * m.y + r[2] * m.z,
+                           r[3] * m.x + r[4] * m.y + r[5] * m.z,
+                           r[6] * m.x + r[7] * m.y + r[8] * m.z};
+      const float dx = (fx * turned.x - (p.x - cx) * turned.z) / p.z;
+      const float dy = (fy * turned.y - (p.y - cy) * turned.z) / p.z;
+      const Vec3 seen = sample(partner, p.x, p.y);
+      valid_[i] = 1;
+      other_[i] = seen.x;
+      slope_[i] = seen.y * dx + seen.z * dy;
+    }
+  }
+
+  /// The difference of what stands out from the two windows around a pixel, each in its own
+  /// standard deviations, and its slope.
+  void judge(size_t i) {
+    const float n = 1 / sums_[kCount][i];
+    const float own_mean = sums_[kOwn][i] * n, other_mean = sums_[kOther][i] * n;
+    const float noise2 = options_.noise * options_.noise;
+    const float own2 = std::max(0.0f, sums_[kOwn2][i] * n - own_mean * own_mean) + noise2;
+    const float other2 = std::max(0.0f, sums_[kOther2][i] * n - other_mean * other_mean) + noise2;
+    const float both = sums_[kBoth][i] * n - own_mean * other_mean;
+    const float correlation = both / std::sqrt(own2 * other2);
+    const float least = options_.minimum_correlation;
+    if (!(correlation > least)) return;
+    const float other_scale = 1 / std::sqrt(other2);
+    const float difference =
+        (other_[i] - other_mean) * other_scale - (own_[i] - own_mean) / std::sqrt(own2);
+    const float slope = (slope_[i] - sums_[kSlope][i] * n) * other_scale;
+    float weight =
+        std::min(1.0f, (correlation - least) / std::max(1e-3f, kGoodCorrelation - least));
+    weight *= std::min(1.0f, kLargeDifference / std::max(1e-9f, std::fabs(difference)));
+    evidence_[i].slope2 += weight * slope * slope;
+    evidence_[i].pull -= weight * slope * difference;
+  }
+
+  const RefinedMesh& mesh_;
+  const RefinementView& view_;
+  const ck_photo_refinement_options& options_;
+  SurfaceImage image_;
+  std::vector<PixelEvidence> evidence_;
+  std::vector<Vec3> points_, moves_;
+  /// By pixel: this view's luminance, whether the partner sees the point, its luminance there, and
+  /// the slope of that.
+  std::vector<float> own_, valid_, other_, slope_;
+  std::array<std::vector<float>, kSums> sums_;
+};
+
+}  // namespace
+
+void choose_partners(const RefinedMesh& mesh, int count, std::vector<RefinementView>* views) {
+  const size_t n = views->size();
+  std::vector<double> scores(n * n, 0);
+  const size_t stride = std::max<size_t>(1, mesh.positions.size() / kSamples);
+  for (size_t v = 0; v < mesh.positions.size(); v += stride) {
+    std::vector<std::pair<size_t, Vec3>> seeing;
+    for (size_t i = 0; i < n; ++i) {
+      const RefinementView& view = (*views)[i];
+      const Vec3 ray = texture::normalized(view.projection.center - mesh.positions[v]);
+      if (dot(ray, mesh.normals[v]) < kMinimumCosine) continue;
+      if (view.sees(view.project(mesh.positions[v]), kMargin)) seeing.push_back({i, ray});
+    }
+    for (const auto& [i, ray_i] : seeing) {
+      for (const auto& [j, ray_j] : seeing) {
+        if (i == j) continue;
+        const float cosine = std::min(dot(ray_i, mesh.normals[v]), dot(ray_j, mesh.normals[v]));
+        scores[i * n + j] += cosine * angle_weight(dot(ray_i, ray_j));
+      }
+    }
+  }
+  for (size_t i = 0; i < n; ++i) {
+    std::vector<uint32_t> order(n);
+    std::iota(order.begin(), order.end(), 0u);
+    const double* score = scores.data() + i * n;
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return score[a] != score[b] ? score[a] > score[b] : a < b;
+    });
+    order.resize(std::min(n, static_cast<size_t>(count)));
+    order.erase(
+        std::remove_if(order.begin(), order.end(), [&](uint32_t j) { return !(score[j] > 0); }),
+        order.end());
+    (*views)[i].partners = order;
+  }
+}
+
+std::vector<PixelEvidence> compare(const RefinedMesh& mesh,
+                                   const std::vector<RefinementView>& views, size_t index,
+                                   const ck_photo_refinement_options& options) {
+  if (views[index].partners.empty()) return {};
+  Comparison comparison(mesh, views[index], options);
+  for (uint32_t partner : views[index].partners) comparison.add(views[partner]);
+  return comparison.result();
+}
+
+}  // namespace ck::surface

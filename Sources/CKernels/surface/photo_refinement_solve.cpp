@@ -1,0 +1,259 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "surface/photo_refinement.h"
+
+namespace ck::surface {
+namespace {
+
+using texture::dot;
+
+/// A vertex moves where it has more than this share of the evidence that is usual, and bends as
+/// freely as others from the larger share on.
+constexpr double kLeastShare = 0.01, kGoodShare = 0.1;
+/// Smoothness gives way where the surface around a vertex bends more than so many of its edges'
+/// length in the mean: at a crease, but not at one vertex that stands out.
+constexpr double kCrease = 0.02;
+/// A round moves a vertex by so many pixels' lengths at most.
+constexpr float kLongestStep = 0.5f;
+/// The cosine by which a triangle may turn in a round.
+constexpr float kMinimumCosine = 0.5f;
+constexpr int kIterations = 40;
+constexpr double kReduction = 1e-6;
+constexpr size_t kBlocks = 64;
+
+/// The moves along the normals that make photos' differences and bending least: a sparse linear
+/// system, solved by conjugate gradients. Lengths are in pixels.
+class System {
+ public:
+  System(const RefinedMesh& mesh, const VertexEvidence& evidence, float smoothness,
+         const ck_control* control)
+      : mesh_(mesh),
+        control_{nullptr, nullptr, thread_count(control)},
+        size_(mesh.positions.size()),
+        is_movable(size_, 0),
+        diagonal_(size_, 0),
+        bending_(size_, 0),
+        pull_(size_, 0),
+        scratch_(size_, 0) {
+    const double unit = evidence.footprint;
+    const double usual = usual_evidence(evidence) * unit * unit;
+    if (!(usual > 0)) return;
+    // Bending of one shape shrinks with the square of the edges.
+    const double relative = unit / mesh.mean_edge;
+    const double weight = smoothness * usual * relative * relative * relative * relative;
+    const double crease = kCrease * mesh.mean_edge / unit;
+    std::vector<float> heights(size_, 0), bend(size_, 0);
+    for_all([&](size_t v) { heights[v] = static_cast<float>(bend_at(v) / unit); });
+    for (size_t v = 0; v < size_; ++v) {
+      const double slope2 = evidence.slope2[v] * unit * unit;
+      if (mesh.is_border[v] || !(slope2 > kLeastShare * usual)) continue;
+      is_movable[v] = 1;
+      const double sharpness = mean_around(v, heights) / crease;
+      const double part = std::min(1.0, slope2 / (kGoodShare * usual));
+      bending_[v] = static_cast<float>(weight * part / (1 + sharpness * sharpness));
+      bend[v] = heights[v] * bending_[v];
+      diagonal_[v] = static_cast<float>(slope2);
+      pull_[v] = static_cast<float>(evidence.pull[v] * unit);
+    }
+    transpose(bend, &scratch_);
+    for (size_t v = 0; v < size_; ++v) pull_[v] = is_movable[v] ? pull_[v] - scratch_[v] : 0;
+  }
+
+  /// Conjugate gradients with the diagonal as preconditioner; sums run in the order of the
+  /// vertices.
+  std::vector<float> solve(const ck_control* control) {
+    std::vector<float> moves(size_, 0), rest = pull_, scaled(size_), image(size_);
+    const auto precondition = [&] {
+      for (size_t v = 0; v < size_; ++v) {
+        scaled[v] = is_movable[v] ? rest[v] / (diagonal_[v] + 1.2f * bending_[v]) : 0;
+      }
+    };
+    precondition();
+    std::vector<float> direction = scaled;
+    double size = product(rest, scaled);
+    const double goal = kReduction * size;
+    for (int k = 0; k < kIterations && size > goal; ++k) {
+      step(control, 0);
+      apply(direction, &image);
+      const double length = product(direction, image);
+      if (!(length > 0)) break;
+      const auto factor = static_cast<float>(size / length);
+      for (size_t v = 0; v < size_; ++v) {
+        moves[v] += factor * direction[v];
+        rest[v] -= factor * image[v];
+      }
+      precondition();
+      const double next = product(rest, scaled);
+      const auto carried = static_cast<float>(next / size);
+      size = next;
+      for (size_t v = 0; v < size_; ++v) direction[v] = scaled[v] + carried * direction[v];
+    }
+    return moves;
+  }
+
+ private:
+  const RefinedMesh& mesh_;
+  const ck_control control_;
+  const size_t size_;
+
+ public:
+  std::vector<uint8_t> is_movable;
+
+ private:
+  static double usual_evidence(const VertexEvidence& evidence) {
+    std::vector<double> some;
+    for (double value : evidence.slope2) {
+      if (value > 0) some.push_back(value);
+    }
+    if (some.empty()) return 0;
+    const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+    std::nth_element(some.begin(), middle, some.end());
+    return *middle;
+  }
+
+  /// How far the mean of its neighbours lies above a vertex.
+  double bend_at(size_t v) const {
+    Vec3 sum;
+    const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
+    if (first == end) return 0;
+    for (uint32_t k = first; k < end; ++k) {
+      sum += mesh_.positions[mesh_.neighbours[k]] - mesh_.positions[v];
+    }
+    return dot(mesh_.normals[v], sum) / static_cast<float>(end - first);
+  }
+
+  double mean_around(size_t v, const std::vector<float>& values) const {
+    double sum = values[v];
+    const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
+    for (uint32_t k = first; k < end; ++k) sum += values[mesh_.neighbours[k]];
+    return sum / (1 + static_cast<double>(end - first));
+  }
+
+  /// Calls `body(v)` for all vertices.
+  template <typename Body>
+  void for_all(Body&& body) const {
+    parallel_for(&control_, kBlocks, [&](size_t block) {
+      const size_t end = size_ * (block + 1) / kBlocks;
+      for (size_t v = size_ * block / kBlocks; v < end; ++v) body(v);
+    });
+  }
+
+  /// What moves change of the weighted bends.
+  void bend(const std::vector<float>& moves, std::vector<float>* result) const {
+    for_all([&](size_t v) {
+      (*result)[v] = 0;
+      const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
+      if (bending_[v] == 0 || first == end) return;
+      float sum = 0;
+      for (uint32_t k = first; k < end; ++k) {
+        const uint32_t n = mesh_.neighbours[k];
+        sum += moves[n] * dot(mesh_.normals[v], mesh_.normals[n]);
+      }
+      (*result)[v] = bending_[v] * (sum / static_cast<float>(end - first) - moves[v]);
+    });
+  }
+
+  /// The transposed of the unweighted bends.
+  void transpose(const std::vector<float>& bends, std::vector<float>* result) const {
+    for_all([&](size_t v) {
+      float sum = -bends[v];
+      for (uint32_t k = mesh_.offsets[v]; k < mesh_.offsets[v + 1]; ++k) {
+        const uint32_t n = mesh_.neighbours[k];
+        const auto count = static_cast<float>(mesh_.offsets[n + 1] - mesh_.offsets[n]);
+        sum += bends[n] * dot(mesh_.normals[v], mesh_.normals[n]) / count;
+      }
+      (*result)[v] = sum;
+    });
+  }
+
+  void apply(const std::vector<float>& moves, std::vector<float>* result) {
+    bend(moves, &scratch_);
+    transpose(scratch_, result);
+    for (size_t v = 0; v < size_; ++v) {
+      (*result)[v] = is_movable[v] ? (*result)[v] + diagonal_[v] * moves[v] : 0;
+    }
+  }
+
+  static double product(const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (size_t i = 0; i < a.size(); ++i) sum += static_cast<double>(a[i]) * b[i];
+    return sum;
+  }
+
+  std::vector<float> diagonal_, bending_, pull_, scratch_;
+};
+
+/// Moves vertices along their normals without turning triangles over.
+class Move {
+ public:
+  Move(const std::vector<float>& lengths, RefinedMesh* mesh)
+      : mesh_(*mesh), before_(mesh->positions), lengths_(lengths) {
+    for (const auto& t : mesh_.triangles) {
+      sides_.push_back(texture::normalized(mesh_.doubled_area(t)));
+    }
+    for (uint32_t v = 0; v < lengths_.size(); ++v) place(v);
+  }
+
+  /// Moves the corners of triangles that turn too far by the same length, since the triangles are
+  /// narrow; what turns even so stays.
+  void straighten() {
+    for (int pass = 0; pass < kPasses; ++pass) {
+      for_turned([&](const std::array<uint32_t, 3>& t) {
+        const float mean = (lengths_[t[0]] + lengths_[t[1]] + lengths_[t[2]]) / 3;
+        // Those that may not move have no length and keep it.
+        for (uint32_t v : t) set(v, lengths_[v] == 0 ? 0 : mean);
+      });
+    }
+    for (bool changes = true; changes;) {
+      changes = false;
+      for_turned([&](const std::array<uint32_t, 3>& t) {
+        for (uint32_t v : t) {
+          changes = changes || lengths_[v] != 0;
+          set(v, 0);
+        }
+      });
+    }
+  }
+
+ private:
+  static constexpr int kPasses = 8;
+
+  template <typename Body>
+  void for_turned(Body&& body) {
+    for (size_t t = 0; t < sides_.size(); ++t) {
+      const auto& triangle = mesh_.triangles[t];
+      const Vec3 now = texture::normalized(mesh_.doubled_area(triangle));
+      if (dot(now, sides_[t]) < kMinimumCosine) body(triangle);
+    }
+  }
+
+  void set(uint32_t v, float length) {
+    lengths_[v] = length;
+    place(v);
+  }
+
+  void place(uint32_t v) { mesh_.positions[v] = before_[v] + mesh_.normals[v] * lengths_[v]; }
+
+  RefinedMesh& mesh_;
+  const std::vector<Vec3> before_;
+  std::vector<float> lengths_;
+  std::vector<Vec3> sides_;
+};
+
+}  // namespace
+
+std::vector<uint8_t> move_vertices(const VertexEvidence& evidence, float smoothness,
+                                   const ck_control* control, RefinedMesh* mesh) {
+  System system(*mesh, evidence, smoothness, control);
+  auto lengths = system.solve(control);
+  for (size_t v = 0; v < lengths.size(); ++v) {
+    const float move = std::clamp(lengths[v], -kLongestStep, kLongestStep);
+    lengths[v] = system.is_movable[v] ? move * static_cast<float>(evidence.footprint) : 0;
+  }
+  Move(lengths, mesh).straighten();
+  return system.is_movable;
+}
+
+}  // namespace ck::surface

@@ -1,0 +1,40 @@
+import Kernels
+import SceneModel
+
+/// Moves the surface to where photos agree at a finer resolution than that of the dense stage: relief
+/// and edges become crisp, and noise goes (after Vu et al., "High Accuracy and Visibility-Consistent
+/// Dense Multiview Stereo", PAMI 2012).
+struct PhotoRefinement {
+  struct Options: Hashable, Codable, Sendable {
+    /// Pixels of a photo at most.
+    var maximumPixels = 8_000_000
+    var surface = SurfaceRefinement.Options()
+
+    init() {}
+
+    /// For a surface from views of so many pixels: much smaller pixels tell triangles nothing more.
+    init(viewPixels: Int) {
+      maximumPixels = min(maximumPixels, 4 * max(1, viewPixels))
+    }
+  }
+
+  var options = Options()
+
+  /// `mesh` with positions moved and the normals that follow. Open borders stay as they are, and what no
+  /// two photos see or what has no texture.
+  func run(_ mesh: Mesh, source: ViewSource, _ context: StageContext) throws -> Mesh {
+    let refinement = try SurfaceRefinement(
+      mesh, options: options.surface, context.part(from: 0, to: 0.01).control)
+    let views = source.reconstruction.registered
+    let adding = context.part(from: 0.01, to: 0.15)
+    for (index, photo) in views.enumerated() {
+      try adding.step(index, of: views.count)
+      try refinement.add(
+        try source.view(photo, options.maximumPixels), adding.part(from: 0, to: 0).control)
+    }
+    var (result, moved) = try refinement.run(context.part(from: 0.15, to: 1).control)
+    result.normals = result.areaWeightedNormals()
+    context.notes.count("refinedVertices", Double(moved))
+    return result
+  }
+}
