@@ -7,6 +7,7 @@
 
 #include "ck_texture.h"
 #include "core/guard.h"
+#include "texture/chart_borders.h"
 #include "texture/cluster_graph.h"
 
 namespace ck::texture {
@@ -218,7 +219,7 @@ class Clustering {
     }
     charts_.resize(axes_.size());
     std::iota(charts_.begin(), charts_.end(), 0u);
-    typical_length_ =
+    const double typical =
         std::sqrt(total_area_ / static_cast<double>(std::max<size_t>(1, axes_.size())));
     while (levels_.size() > 1) {
       levels_.pop_back();
@@ -227,86 +228,8 @@ class Clustering {
       for (size_t i = 0; i < finer.size(); ++i) finer[i] = charts_[graph.parents[i]];
       charts_ = std::move(finer);
       step(control, 0.9);
-      for (int pass = 0; pass < kPasses && shorten_borders(graph); ++pass) {
-      }
+      ChartBorders(graph, axes_, typical, options_.maximum_angle, &charts_).shorten();
     }
-  }
-
-  bool shorten_borders(const ClusterGraph& graph) {
-    bool has_changed = false;
-    for (uint32_t i = 0; i < graph.clusters.size(); ++i) {
-      const uint32_t best = better_chart(graph, i);
-      if (best == charts_[i] || cuts(graph, i)) continue;
-      charts_[i] = best;
-      has_changed = true;
-    }
-    return has_changed;
-  }
-
-  /// The chart that a cluster had better belong to; its own, if that is it.
-  uint32_t better_chart(const ClusterGraph& graph, uint32_t i) {
-    const uint32_t own = charts_[i];
-    around_.clear();
-    float inside = 0;
-    for (const Neighbor& n : graph.neighbors_of(i)) {
-      const uint32_t chart = charts_[n.cluster];
-      if (chart == own) {
-        inside += n.length;
-        continue;
-      }
-      const auto place = std::find_if(around_.begin(), around_.end(),
-                                      [&](const Neighbor& a) { return a.cluster == chart; });
-      if (place == around_.end()) {
-        around_.push_back({chart, n.length});
-      } else {
-        place->length += n.length;
-      }
-    }
-    if (around_.empty() || inside == 0) return own;
-    const Cluster& cluster = graph.clusters[i];
-    const float before = stretched_area(cluster, axes_[own]);
-    const float least_cosine = std::cos(options_.maximum_angle);
-    uint32_t best = own;
-    float most = 0;
-    for (const Neighbor& other : around_) {
-      const float more = stretched_area(cluster, axes_[other.cluster]) - before;
-      const float gain =
-          other.length - inside - kStretchCost * more / static_cast<float>(typical_length_);
-      if (gain <= most || !fits(cluster, axes_[other.cluster], least_cosine)) continue;
-      best = other.cluster;
-      most = gain;
-    }
-    return best;
-  }
-
-  /// Whether the rest of the chart would not hang together around a cluster.
-  bool cuts(const ClusterGraph& graph, uint32_t cluster) {
-    ring_.clear();
-    for (const Neighbor& n : graph.neighbors_of(cluster)) {
-      if (charts_[n.cluster] == charts_[cluster]) ring_.push_back(n.cluster);
-    }
-    // The first `reached` of the ring hang together.
-    size_t reached = std::min<size_t>(1, ring_.size());
-    for (size_t k = 0; k < reached; ++k) {
-      for (const Neighbor& n : graph.neighbors_of(ring_[k])) {
-        const auto place =
-            std::find(ring_.begin() + static_cast<ptrdiff_t>(reached), ring_.end(), n.cluster);
-        if (place != ring_.end()) std::swap(*place, ring_[reached++]);
-      }
-    }
-    return reached < ring_.size();
-  }
-
-  /// A cluster's area, the larger the more an axis foreshortens it.
-  static float stretched_area(const Cluster& c, Vec3 axis) {
-    const float along = dot(c.normal_sum, axis);
-    return c.area * (c.area / std::max(along, 0.05f * c.area));
-  }
-
-  static bool fits(const Cluster& c, Vec3 axis, float least_cosine) {
-    if (dot(c.cone.axis, c.cone.axis) == 0) return true;
-    const float between = std::acos(std::clamp(dot(c.cone.axis, axis), -1.0f, 1.0f));
-    return between + c.cone.angle < std::acos(least_cosine);
   }
 
   /// Whether all of a small cluster faces an axis well enough to be joined to its chart.
@@ -320,23 +243,16 @@ class Clustering {
 
   /// The least cosine between the axis of a chart and the triangles of what is joined to it.
   static constexpr float kAbsorbedCosine = 0.4f;
-  /// What area lost to foreshortening costs, in borders as long as a typical chart is wide.
-  static constexpr float kStretchCost = 6;
   /// One pair for so many clusters without is enough for a round.
   static constexpr size_t kFewestPairs = 16;
-  /// Rounds over the borders at each level, at most.
-  static constexpr int kPasses = 4;
 
   const ChartMesh& mesh_;
   const ck_chart_options& options_;
-  double total_area_ = 0, typical_length_ = 0;
+  double total_area_ = 0;
   std::vector<ClusterGraph> levels_;
   /// The chart of each cluster of the last level, and the charts' directions.
   std::vector<uint32_t> charts_;
   std::vector<Vec3> axes_;
-  /// Used again and again: the charts around a cluster, and the neighbours in its own.
-  std::vector<Neighbor> around_;
-  std::vector<uint32_t> ring_;
   /// Whether small clusters are looked at triangle by triangle.
   bool is_exact_ = false;
   /// The triangles of each chart: those from starts_[i] to starts_[i + 1].

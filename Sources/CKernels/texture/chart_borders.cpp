@@ -1,0 +1,110 @@
+#include "texture/chart_borders.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ck::texture {
+namespace {
+
+/// What area lost to foreshortening costs, in borders as long as a typical chart is wide.
+constexpr float kStretchCost = 6;
+/// Rounds over the borders, at most.
+constexpr int kPasses = 4;
+
+/// A cluster's area, the larger the more an axis foreshortens it.
+float stretched_area(const Cluster& c, Vec3 axis) {
+  const float along = dot(c.normal_sum, axis);
+  return c.area * (c.area / std::max(along, 0.05f * c.area));
+}
+
+}  // namespace
+
+bool fits(const Cluster& c, Vec3 axis, float least_cosine) {
+  if (dot(c.cone.axis, c.cone.axis) == 0) return true;
+  const float between = std::acos(std::clamp(dot(c.cone.axis, axis), -1.0f, 1.0f));
+  return between + c.cone.angle < std::acos(least_cosine);
+}
+
+ChartBorders::ChartBorders(const ClusterGraph& graph, const std::vector<Vec3>& axes,
+                           double typical_length, float maximum_angle,
+                           std::vector<uint32_t>* charts)
+    : graph_(graph),
+      axes_(axes),
+      typical_length_(static_cast<float>(typical_length)),
+      least_cosine_(std::cos(maximum_angle)),
+      charts_(*charts) {}
+
+void ChartBorders::shorten() {
+  for (int round = 0; round < kPasses && pass(); ++round) {
+  }
+}
+
+/// False when nothing has moved.
+bool ChartBorders::pass() {
+  bool has_changed = false;
+  for (uint32_t i = 0; i < graph_.clusters.size(); ++i) {
+    const uint32_t best = better_chart(i);
+    if (best == charts_[i] || cuts(i)) continue;
+    charts_[i] = best;
+    has_changed = true;
+  }
+  return has_changed;
+}
+
+/// The chart that a cluster had better belong to; its own, if that is it.
+uint32_t ChartBorders::better_chart(uint32_t cluster) {
+  const uint32_t own = charts_[cluster];
+  list_charts_around(cluster);
+  if (around_.empty() || inside_ == 0) return own;
+  const Cluster& c = graph_.clusters[cluster];
+  const float before = stretched_area(c, axes_[own]);
+  uint32_t best = own;
+  float most = 0;
+  for (const Neighbor& other : around_) {
+    const float more = stretched_area(c, axes_[other.cluster]) - before;
+    const float gain = other.length - inside_ - kStretchCost * more / typical_length_;
+    if (gain <= most || !fits(c, axes_[other.cluster], least_cosine_)) continue;
+    best = other.cluster;
+    most = gain;
+  }
+  return best;
+}
+
+void ChartBorders::list_charts_around(uint32_t cluster) {
+  around_.clear();
+  inside_ = 0;
+  for (const Neighbor& n : graph_.neighbors_of(cluster)) {
+    const uint32_t chart = charts_[n.cluster];
+    if (chart == charts_[cluster]) {
+      inside_ += n.length;
+      continue;
+    }
+    const auto place = std::find_if(around_.begin(), around_.end(),
+                                    [&](const Neighbor& a) { return a.cluster == chart; });
+    if (place == around_.end()) {
+      around_.push_back({chart, n.length});
+    } else {
+      place->length += n.length;
+    }
+  }
+}
+
+/// Whether the rest of the chart would not hang together around a cluster.
+bool ChartBorders::cuts(uint32_t cluster) {
+  ring_.clear();
+  for (const Neighbor& n : graph_.neighbors_of(cluster)) {
+    if (charts_[n.cluster] == charts_[cluster]) ring_.push_back(n.cluster);
+  }
+  // The first `reached` of the ring hang together.
+  size_t reached = std::min<size_t>(1, ring_.size());
+  for (size_t k = 0; k < reached; ++k) {
+    for (const Neighbor& n : graph_.neighbors_of(ring_[k])) {
+      const auto place =
+          std::find(ring_.begin() + static_cast<ptrdiff_t>(reached), ring_.end(), n.cluster);
+      if (place != ring_.end()) std::swap(*place, ring_[reached++]);
+    }
+  }
+  return reached < ring_.size();
+}
+
+}  // namespace ck::texture
