@@ -40,6 +40,7 @@ extension ModelExport {
   }
 
   /// Occlusion in red (none where there is no map), roughness in green, and blue is 0: no metal.
+  /// `MapBaking` makes both of one size.
   private static func packed(occlusion: RasterImage?, roughness: RasterImage) -> RasterImage {
     var image = RasterImage(width: roughness.width, height: roughness.height, channels: 3)
     for texel in 0..<(image.width * image.height) {
