@@ -59,7 +59,7 @@ import Testing
     let support = StandingPlane(normal: [0, 1, 0], offset: -0.1, band: 0.1)
     let closed = GapClosing().run(mesh, isRemoved: isDome, support: support) { $0.x > 0 }
     #expect(closed.triangles == mesh.triangles)
-    #expect(closed.positions[41 * 20 + 20].y == -0.1)
+    #expect(closed.positions.allSatisfy { abs($0.y) < 1e-3 })
   }
 
   @Test func balloonOverAFewFacesGoes() {

@@ -4,8 +4,7 @@ import SceneModel
 /// Closes the gaps that trimming leaves, but for those that photos look through.
 ///
 /// Poisson's own surface closes a small gap best. Over a large one it bulges like a balloon; there
-/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap. What of it
-/// is close above the support of an object stood on it and is laid down there.
+/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap.
 struct GapClosing {
   struct Options: Hashable, Codable, Sendable {
     /// Close gaps of any size, as of an object, which has an inside.
@@ -22,7 +21,8 @@ struct GapClosing {
     /// How far behind a gap it is seen whether photos look through it, in world units: a ray that
     /// grazes the surface doesn't get there.
     var depth: Float = 0
-    /// What is lower than this share of the object's height above its support touched it.
+    /// What is lower than this share of the object's height above its support touched it: rays that
+    /// pass just above the support don't tell that there is a hole.
     var contactShare = 0.02
     /// Iterations of the solver at most, for a membrane.
     var iterations = 400
@@ -66,31 +66,14 @@ struct GapClosing {
     guard isSmall || options.closesLarge else { return false }
     // A balloon with more surface than what holds it is no gap: stray samples made it.
     if isSmall, gaps.areas[gap] > gaps.rimAreas[gap] { return false }
-    func freeShare(_ laid: Set<Int> = []) -> Double {
-      mesh.freeShare(of: triangles, laid: laid, depth: options.depth, isFree)
+    func freeShare(_ contact: Contact? = nil) -> Double {
+      mesh.freeShare(of: triangles, contact, depth: options.depth, isFree)
     }
     if isSmall, freeShare() < options.smallFreeShare { return true }
-    let laid = tighten(triangles, of: &mesh, gaps.isRim, contact)
+    Membrane(triangles, isFixed: gaps.isRim)
+      .tighten(&mesh.positions, iterations: options.iterations)
     let isTiny = share < options.tinyShare && options.closesLarge
-    return isTiny || freeShare(laid) < options.membraneFreeShare
-  }
-
-  /// Draws a membrane across a gap and lays down on the support what is close above it: those
-  /// vertices.
-  private func tighten(
-    _ triangles: [Triangle], of mesh: inout Mesh, _ isRim: [Bool], _ contact: Contact?
-  ) -> Set<Int> {
-    let membrane = Membrane(triangles, isFixed: isRim)
-    membrane.tighten(&mesh.positions, iterations: options.iterations)
-    guard let contact else { return [] }
-    var isFixed = isRim
-    var laid = Set<Int>()
-    for vertex in membrane.vertices where contact.lay(&mesh.positions[vertex]) {
-      isFixed[vertex] = true
-      laid.insert(vertex)
-    }
-    Membrane(triangles, isFixed: isFixed).tighten(&mesh.positions, iterations: options.iterations)
-    return laid
+    return isTiny || freeShare(contact) < options.membraneFreeShare
   }
 }
 
@@ -108,20 +91,16 @@ private struct Contact {
     limit = max(2 * plane.band, share * top)
   }
 
-  /// Puts a point that is close to the support down on it.
-  func lay(_ point: inout SIMD3<Float>) -> Bool {
-    let height = plane.height(of: SIMD3<Double>(point))
-    guard height < limit else { return false }
-    point = SIMD3<Float>(SIMD3<Double>(point) - height * plane.normal)
-    return true
-  }
+  /// Whether a point is so close to the support that the object touched it there.
+  func reaches(_ point: SIMD3<Float>) -> Bool { plane.height(of: SIMD3<Double>(point)) < limit }
 }
 
 extension Mesh {
-  /// The share of some faces' area that photos look through. Nothing looks through what is laid on
-  /// the support, whatever rays just above it say.
+  /// The share of some faces' area that photos look through, and that is not in contact with the
+  /// support.
   fileprivate func freeShare(
-    of faces: [Triangle], laid: Set<Int>, depth: Float, _ isFree: (SIMD3<Float>) -> Bool
+    of faces: [Triangle], _ contact: Contact?, depth: Float,
+    _ isFree: (SIMD3<Float>) -> Bool
   ) -> Double {
     var (free, all) = (0.0, 0.0)
     for face in faces {
@@ -129,7 +108,7 @@ extension Mesh {
       let normal = (b - a).cross(c - a)
       let area = Double(normal.length)
       all += area
-      if !laid.isEmpty, face.vertices.allSatisfy(laid.contains) { continue }
+      if let contact, contact.reaches(a), contact.reaches(b), contact.reaches(c) { continue }
       if isFree(center(of: face) - depth * normal.normalized) { free += area }
     }
     return all > 0 ? free / all : 0

@@ -3,7 +3,7 @@ import Kernels
 import SceneModel
 
 /// Removes what Poisson made up: faces that are far from any sample, faces without support that
-/// photos look through, and what masks leave out. `GapClosing` decides which of the gaps are closed
+/// photos look through, and what masks leave out. `RimSmoothing` evens the line, `GapClosing` decides which of the gaps are closed
 /// again.
 struct SurfaceTrimming {
   struct Options: Hashable, Codable, Sendable {
@@ -13,12 +13,16 @@ struct SurfaceTrimming {
     var contradictedSpacings = 1.5
     /// Photos that must look through a face.
     var contradictingPhotos = 3
+    /// A notch in the rim of what is supported is filled no farther than so many spacings from a
+    /// sample.
+    var notchSpacings = 6.0
     /// How far before its point a ray ends, in spacings.
     var clearanceSpacings = 5.0
     /// Side of the cells of free space, in spacings.
     var cellSpacings = 2.0
     /// Points that rays are cast to, at most.
     var maximumRayPoints = 500_000
+    var rim = RimSmoothing.Options()
     var closing = GapClosing.Options()
 
     init() {}
@@ -41,12 +45,17 @@ struct SurfaceTrimming {
     let isInside = try silhouettes?.areInside(
       mesh.triangles.map { mesh.center(of: $0) }, context.control.part(from: 0.8, to: 0.8))
     let isSeenThrough = { freeSpace.photos(at: $0) >= options.contradictingPhotos }
-    let isRemoved = mesh.triangles.indices.map { index in
+    var isRemoved = mesh.triangles.indices.map { index in
       let triangle = mesh.triangles[index]
       let distance = triangle.maximum(of: distances)
       return distance > Float(options.maximumSpacings) || isInside?[index] == false
         || distance > Float(options.contradictedSpacings)
           && isSeenThrough(mesh.center(of: triangle))
+    }
+    isRemoved = RimSmoothing(options: options.rim).run(mesh, isRemoved: isRemoved) { index in
+      let triangle = mesh.triangles[index]
+      return triangle.maximum(of: distances) <= Float(options.notchSpacings)
+        && isInside?[index] != false && !isSeenThrough(mesh.center(of: triangle))
     }
     try context.control.step(0.9)
     context.notes.count(
