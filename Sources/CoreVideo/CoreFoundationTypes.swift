@@ -1,4 +1,4 @@
-// swift-format-ignore-file: AlwaysUseLowerCamelCase
+// swift-format-ignore-file: AlwaysUseLowerCamelCase, NeverUseImplicitlyUnwrappedOptionals
 // The types of Core Foundation that CoreVideo's signatures name. Foundation hides them here.
 @_exported import Foundation
 

@@ -57,9 +57,21 @@ final class ReconstructionEngine: SessionEngine {
     return mesh.bounds.map { BoundingBox(min: $0.min, max: $0.max) } ?? .empty
   }
 
-  func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+  func modelEntity(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry
+  ) throws -> ModelEntity {
     _ = try align()
-    try pipeline.writeModel(specification, to: url)
+    var specification = specification
+    specification.maps.formIntersection(PhysicallyBasedMaterial.maps)
+    return ModelEntity(try pipeline.model(for: specification, in: ModelGeometry(geometry)))
+  }
+
+  func writeModel(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
+    to url: URL
+  ) throws {
+    _ = try align()
+    try pipeline.writeModel(specification, in: ModelGeometry(geometry), to: url)
   }
 
   private func align() throws -> Reconstruction {
