@@ -278,7 +278,9 @@ package final class ReconstructionPipeline {
     try run(.optimization) { context in
       let end = configuration.previewFile == nil ? 1 : 0.7
       try ModelExport(options: .init(textureFormat: specification.textureFormat))
-        .run(model.transformed(by: geometry.transform), to: url, context.part(from: 0, to: end))
+        .run(
+          try faces(of: model, context).transformed(by: geometry.transform), to: url,
+          context.part(from: 0, to: end))
       if let file = configuration.previewFile {
         // Where the cameras are.
         try ModelPreview().write(
@@ -286,6 +288,13 @@ package final class ReconstructionPipeline {
       }
     }
     try writeReport()
+  }
+
+  private func faces(of model: TexturedMesh, _ context: StageContext) throws -> TexturedMesh {
+    switch configuration.meshPrimitive {
+    case .triangle: model
+    case .quad: try QuadPairing().run(model, context.part(from: 0, to: 0))
+    }
   }
 
   /// Writes `report.json` into the checkpoint directory where there is one.

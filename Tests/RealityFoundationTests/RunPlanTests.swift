@@ -51,6 +51,13 @@ import Testing
     #expect(largest.finest.viewPixels == DetailSpecification(.raw).viewPixels)
   }
 
+  @Test func thePipelineIsToldOfTheFaces() {
+    var configuration = Session.Configuration()
+    #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .triangle)
+    configuration.meshPrimitive = .quad
+    #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .quad)
+  }
+
   @Test func entitiesNeedNoFileAndComeByTheirDetail() {
     let coarse = Session.Request.modelEntity(detail: .preview)
     let plan = RunPlan(

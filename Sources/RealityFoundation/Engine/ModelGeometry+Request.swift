@@ -2,7 +2,7 @@ import SceneModel
 
 extension ModelGeometry {
   /// A request's geometry: bounds in the frame of `Request.bounds`, and a transform of what is left.
-  init(_ geometry: PhotogrammetrySession.Request.Geometry) {
+  package init(_ geometry: PhotogrammetrySession.Request.Geometry) {
     let matrix = geometry.transform.matrix
     func column(_ index: Int) -> SIMD3<Float> {
       SIMD3(matrix[index].x, matrix[index].y, matrix[index].z)

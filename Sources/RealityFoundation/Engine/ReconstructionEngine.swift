@@ -94,6 +94,7 @@ extension PipelineConfiguration {
     isSequential = configuration.sampleOrdering == .sequential
     isHighSensitivity = configuration.featureSensitivity == .high
     checkpointDirectory = configuration.checkpointDirectory
+    meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle
     threadCount = options.threadCount
     knownDistances = options.knownDistances
     previewFile = options.previewFile

@@ -19,8 +19,14 @@ extension TexturedMesh {
     result.mesh.positions = mesh.positions.map { transform * $0 }
     result.mesh.normals = mesh.normals.map { transform.normal($0) }
     if transform.mirrors {
-      result.mesh.triangles = mesh.triangles.map { Triangle($0.a, $0.c, $0.b) }
-      result.textureTriangles = textureTriangles.map { Triangle($0.a, $0.c, $0.b) }
+      result.mesh.triangles = mesh.triangles.map(\.flipped)
+      result.textureTriangles = textureTriangles.map(\.flipped)
+      for half in atlases.flatMap({
+        stride(from: $0.halves.lowerBound, to: $0.halves.upperBound, by: 2)
+      }) {
+        result.mesh.triangles.swapAt(half, half + 1)
+        result.textureTriangles.swapAt(half, half + 1)
+      }
     }
     return result
   }

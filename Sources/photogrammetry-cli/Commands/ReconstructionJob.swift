@@ -90,11 +90,15 @@ struct ReconstructionJob {
     configuration.featureSensitivity = arguments.alignment.featureSensitivity.sensitivity
     configuration.checkpointDirectory = checkpointURL
     configuration.customDetailSpecification = arguments.detail.specification
+    configuration.meshPrimitive = arguments.shape.primitive
     return configuration
   }
 
   private var requests: [PhotogrammetrySession.Request] {
-    var requests = [Request.modelFile(url: output.url, detail: arguments.detail.detail.detail)]
+    var requests = [
+      Request.modelFile(
+        url: output.url, detail: arguments.detail.detail.detail, geometry: arguments.shape.geometry)
+    ]
     if posesURL != nil { requests.append(.poses) }
     if pointCloudURL != nil { requests.append(.pointCloud) }
     return requests
