@@ -75,7 +75,8 @@ var cliDependencies: [Target.Dependency] = [
     .target(name: "CoreVideo", dependencies: ["Kernels"], swiftSettings: strict),
     .target(name: "ImageIO", swiftSettings: strict),
     .target(name: "Metal", swiftSettings: strict),
-    .target(name: "os", dependencies: [logging], swiftSettings: strict),
+    .target(name: "OSLogModule"),
+    .target(name: "os", dependencies: ["OSLogModule", logging], swiftSettings: strict),
     .target(name: "simd", swiftSettings: strict),
     .target(
       name: "RealityFoundation",

@@ -1,6 +1,6 @@
 import Foundation
 import RealityKit
-import os
+import os.log
 
 // Top-level code, a task, the main run loop, and exit() inside of the task.
 

@@ -3,6 +3,7 @@ import Foundation
 import RealityKit
 
 extension PhotogrammetrySession.Request.Detail: @retroactive ExpressibleByArgument {
+  /// Reads the name of a case.
   public init?(argument: String) {
     switch argument.lowercased() {
     case "preview": self = .preview
@@ -18,6 +19,7 @@ extension PhotogrammetrySession.Request.Detail: @retroactive ExpressibleByArgume
 
 extension PhotogrammetrySession.Configuration.FeatureSensitivity: @retroactive ExpressibleByArgument
 {
+  /// Reads the name of a case.
   public init?(argument: String) {
     guard let match = ["normal": Self.normal, "high": .high][argument] else { return nil }
     self = match
@@ -39,7 +41,6 @@ struct WatchedCommand: AsyncParsableCommand {
 
   @Option(help: "Seconds until the session is cancelled.") var timeout: Double = 600
 
-  @MainActor
   func run() async throws {
     let folder = URL(fileURLWithPath: (output as NSString).standardizingPath, isDirectory: true)
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
