@@ -15,6 +15,7 @@ package final class ReconstructionPipeline {
 
   private let folder: URL
   private let knownCameras: KnownCameras?
+  private let gravity: [Int: SIMD3<Double>]
   private let saved: SavedRun?
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
@@ -27,13 +28,15 @@ package final class ReconstructionPipeline {
   private var surface: (viewPixels: Int, value: Mesh)?
 
   /// With `knownCameras` photos aren't aligned: these cameras, poses and points are used, unmoved.
+  /// `gravity` has its directions in the frames of the cameras, by sample id.
   package init(
     folder: URL, configuration: PipelineConfiguration, knownCameras: KnownCameras? = nil,
-    flag: CancellationFlag = CancellationFlag(),
+    gravity: [Int: SIMD3<Double>] = [:], flag: CancellationFlag = CancellationFlag(),
     onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
   ) {
     self.folder = folder
     self.knownCameras = knownCameras
+    self.gravity = gravity
     saved = nil
     self.configuration = configuration
     self.flag = flag
@@ -49,6 +52,7 @@ package final class ReconstructionPipeline {
   ) {
     folder = saved.photoFolder
     knownCameras = nil
+    gravity = [:]
     self.saved = saved
     self.configuration = configuration
     self.flag = flag
@@ -109,6 +113,7 @@ package final class ReconstructionPipeline {
       options.isSequential = configuration.isSequential
       options.isHighSensitivity = configuration.isHighSensitivity
       options.framing.knownDistances = configuration.knownDistances
+      options.framing.gravity = gravity
       options.mapping.method = configuration.mappingMethod
       return try MaskedAlignment(ImageAlignment(options))
         .run(

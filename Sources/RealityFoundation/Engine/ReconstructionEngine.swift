@@ -25,9 +25,9 @@ final class ReconstructionEngine: SessionEngine {
         folder: url, configuration: configuration, flag: flag, onEvent: onEvent)
     case .samples(let samples):
       self.samples = samples
+      let folder = try samples.write(flag: flag, onEvent: onEvent)
       pipeline = ReconstructionPipeline(
-        folder: try samples.write(flag: flag, onEvent: onEvent), configuration: configuration,
-        flag: flag
+        folder: folder, configuration: configuration, gravity: samples.gravity, flag: flag
       ) { event in onEvent(samples.translated(event)) }
     }
   }
