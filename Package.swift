@@ -51,11 +51,10 @@ var cliDependencies: [Target.Dependency] = [
 
 // On macOS the command line is linked against Apple's RealityKit; our engine is for Linux.
 #if os(Linux)
-  products += [
-    .library(name: "RealityKit", targets: ["RealityKit"]),
-    .library(name: "RealityFoundation", targets: ["RealityFoundation"]),
-    .library(name: "simd", targets: ["simd"]),
-  ]
+  products += ["RealityKit", "RealityFoundation"].map { .library(name: $0, targets: [$0]) }
+  // What else programs for the Mac import; a program names those that it needs.
+  products += ["CoreGraphics", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "os", "simd"]
+    .map { .library(name: $0, targets: [$0]) }
   targets += [
     .target(
       name: "CKernels", cxxSettings: strictCxx,
@@ -71,10 +70,21 @@ var cliDependencies: [Target.Dependency] = [
     .target(
       name: "Pipeline", dependencies: ["Kernels", "Formats", "SceneModel", logging],
       swiftSettings: strict),
+    .target(name: "CoreGraphics", swiftSettings: strict),
+    .target(name: "CoreMotion", swiftSettings: strict),
+    .target(name: "CoreVideo", dependencies: ["Kernels"], swiftSettings: strict),
+    .target(name: "ImageIO", swiftSettings: strict),
+    .target(name: "Metal", swiftSettings: strict),
+    .target(name: "OSLogModule"),
+    .target(name: "os", dependencies: ["OSLogModule", logging], swiftSettings: strict),
     .target(name: "simd", swiftSettings: strict),
     .target(
       name: "RealityFoundation",
-      dependencies: ["Pipeline", "Kernels", "Formats", "SceneModel", "simd", logging],
+      dependencies: [
+        "Pipeline", "Kernels", "Formats", "SceneModel", "CoreMotion", "CoreVideo", "ImageIO",
+        "simd",
+        logging,
+      ],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),
     .target(
@@ -99,8 +109,8 @@ var cliDependencies: [Target.Dependency] = [
     .testTarget(
       name: "RealityFoundationTests",
       dependencies: [
-        "RealityKit", "RealityFoundation", "Pipeline", "Formats", "Kernels", "SceneModel", "simd",
-        "TestSupport",
+        "RealityKit", "RealityFoundation", "Metal", "os", "Pipeline", "Formats", "Kernels",
+        "SceneModel", "simd", "TestSupport", logging,
       ],
       swiftSettings: strict),
     .testTarget(

@@ -10,6 +10,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var closesObject: Bool = true
   /// Fit the surface to the photos at up to four times the pixels of the dense stage.
   package var refinesSurface: Bool = false
+  /// The faces of model files, where the format has a choice.
+  package var meshPrimitive = MeshPrimitive.triangle
   /// The photos are in the order of capture, and neighbours overlap.
   package var isSequential: Bool = false
   /// Look harder for features on objects of low texture.
@@ -35,6 +37,13 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var maximumPhotoSide: Int = 16384
 
   package init() {}
+}
+
+/// The faces of a mesh.
+package enum MeshPrimitive: String, CaseIterable, Codable, Sendable {
+  case triangle
+  /// Two triangles where they fit together, and triangles where they don't.
+  case quad
 }
 
 /// The stages of a run in their order; the cases of `Output.ProcessingStage`.

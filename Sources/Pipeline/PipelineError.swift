@@ -9,6 +9,7 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
   case camerasDontFit(reason: String)
   case alignmentFailed(reason: String)
   case noSurface(reason: String)
+  case emptyCrop
 
   package var errorDescription: String? {
     switch self {
@@ -29,6 +30,8 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
       "The photos could not be aligned: \(reason)"
     case .noSurface(let reason):
       "No surface could be made: \(reason)"
+    case .emptyCrop:
+      "Nothing of the surface is inside the bounds that were given."
     }
   }
 
@@ -51,6 +54,8 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
         + "or try high feature sensitivity."
     case .noSurface:
       "Take more photos from more directions, or turn object masking off."
+    case .emptyCrop:
+      "Give bounds in the model's frame, where those of the whole model are."
     }
   }
 }

@@ -15,6 +15,7 @@ package final class ReconstructionPipeline {
 
   private let folder: URL
   private let knownCameras: KnownCameras?
+  private let gravity: [Int: SIMD3<Double>]
   private let saved: SavedRun?
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
@@ -27,13 +28,15 @@ package final class ReconstructionPipeline {
   private var surface: (viewPixels: Int, value: Mesh)?
 
   /// With `knownCameras` photos aren't aligned: these cameras, poses and points are used, unmoved.
+  /// `gravity` has its directions in the frames of the cameras, by sample id.
   package init(
     folder: URL, configuration: PipelineConfiguration, knownCameras: KnownCameras? = nil,
-    flag: CancellationFlag = CancellationFlag(),
+    gravity: [Int: SIMD3<Double>] = [:], flag: CancellationFlag = CancellationFlag(),
     onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
   ) {
     self.folder = folder
     self.knownCameras = knownCameras
+    self.gravity = gravity
     saved = nil
     self.configuration = configuration
     self.flag = flag
@@ -49,6 +52,7 @@ package final class ReconstructionPipeline {
   ) {
     folder = saved.photoFolder
     knownCameras = nil
+    gravity = [:]
     self.saved = saved
     self.configuration = configuration
     self.flag = flag
@@ -109,6 +113,7 @@ package final class ReconstructionPipeline {
       options.isSequential = configuration.isSequential
       options.isHighSensitivity = configuration.isHighSensitivity
       options.framing.knownDistances = configuration.knownDistances
+      options.framing.gravity = gravity
       options.mapping.method = configuration.mappingMethod
       return try MaskedAlignment(ImageAlignment(options))
         .run(
@@ -235,12 +240,24 @@ package final class ReconstructionPipeline {
     return saved.surface
   }
 
-  /// Simplifies the surface to the budget and textures it.
-  package func model(for specification: DetailSpecification) throws -> TexturedMesh {
+  /// Simplifies the surface to the budget and textures it; `geometry` says what part of it, and where
+  /// it is put.
+  package func model(
+    for specification: DetailSpecification, in geometry: ModelGeometry = ModelGeometry()
+  ) throws -> TexturedMesh {
+    try croppedModel(for: specification, to: geometry.crop).transformed(by: geometry.transform)
+  }
+
+  private func croppedModel(
+    for specification: DetailSpecification, to box: OrientedBox?
+  ) throws -> TexturedMesh {
     let (_, images) = try input()
     let reconstruction = try align()
-    let dense = try surface(for: specification)
+    let surface = try surface(for: specification)
     return try run(.textureMapping) { context in
+      let parts = box.map { MeshCropping(box: $0).run(surface) }
+      let dense = parts?.inside ?? surface
+      guard !dense.triangles.isEmpty else { throw PipelineError.emptyCrop }
       let mesh = try Simplification(
         options: .init(maximumTriangles: specification.maximumTriangles)
       ).run(dense, context.part(from: 0, to: 0.1))
@@ -249,28 +266,40 @@ package final class ReconstructionPipeline {
           textureSide: specification.textureSide, maximumAtlases: specification.maximumAtlases,
           maps: specification.maps)
       ).run(
-        mesh, dense: dense, reconstruction: reconstruction, images: images,
-        context.part(from: 0.1, to: 1))
+        mesh, dense: dense, occluders: parts?.outside ?? Mesh(), reconstruction: reconstruction,
+        images: images, context.part(from: 0.1, to: 1))
     }
   }
 
   /// Makes a model and writes it as `ModelFormat` reads from the URL, with the maps that the format
   /// has a place for; and draws it, where the configuration says so.
-  package func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+  package func writeModel(
+    _ specification: DetailSpecification, in geometry: ModelGeometry = ModelGeometry(), to url: URL
+  ) throws {
     var specification = specification
     specification.maps.formIntersection(ModelFormat(of: url).maps)
-    let model = try model(for: specification)
+    let model = try croppedModel(for: specification, to: geometry.crop)
     let cameras = try align().poses.compactMap { $0 }
     try run(.optimization) { context in
       let end = configuration.previewFile == nil ? 1 : 0.7
       try ModelExport(options: .init(textureFormat: specification.textureFormat))
-        .run(model, to: url, context.part(from: 0, to: end))
+        .run(
+          try faces(of: model, context).transformed(by: geometry.transform), to: url,
+          context.part(from: 0, to: end))
       if let file = configuration.previewFile {
+        // Where the cameras are.
         try ModelPreview().write(
           model, cameras: cameras, to: file, context.part(from: end, to: 1))
       }
     }
     try writeReport()
+  }
+
+  private func faces(of model: TexturedMesh, _ context: StageContext) throws -> TexturedMesh {
+    switch configuration.meshPrimitive {
+    case .triangle: model
+    case .quad: try QuadPairing().run(model, context.part(from: 0, to: 0))
+    }
   }
 
   /// Writes `report.json` into the checkpoint directory where there is one.

@@ -72,6 +72,25 @@ import Testing
       ])
   }
 
+  @Test func aPartOfFourSidedFacesIsWritten() throws {
+    try makeCheckpoint()
+    let run = try CommandProcess.run(
+      [
+        "export", "work", "m/", "-d", "custom", "--max-polygons", "900", "--texture-side", "1024",
+        "--maps", "color", "--quads", "--crop", "-2,-2,-2,2,0.25,2",
+      ], in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    let lines = try String(contentsOfFile: folder.path + "/m/baked_mesh.obj", encoding: .utf8)
+      .split(separator: "\n").map { $0.split(separator: " ") }
+    let corners = lines.filter { $0.first == "f" }.map { $0.count - 1 }
+    #expect(corners.count < 900 && corners.filter { $0 == 4 }.count > corners.count / 2)
+    #expect(Set(corners) == [3, 4])
+    let heights = lines.filter { $0.first == "v" }.compactMap { Float($0[2]) }
+    #expect(abs((heights.max() ?? 9) - 0.25) < 0.01 && (heights.min() ?? 0) < -0.95)
+    try expectFailure(
+      ["work", "m.usdz", "--crop", "3,3,3,4,4,4"], code: 1, mentioning: ["bounds", "frame"])
+  }
+
   @Test func customBoundsAreKept() throws {
     try makeCheckpoint()
     let run = try CommandProcess.run(

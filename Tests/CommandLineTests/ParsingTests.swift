@@ -1,6 +1,7 @@
 import Evaluation
 import Formats
 import Foundation
+import RealityKit
 import TestSupport
 import Testing
 
@@ -40,6 +41,19 @@ import Testing
     #expect(reconstruct.engine.report == "r.json")
     #expect(reconstruct.engine.threads == 2)
     #expect(reconstruct.noObjectMasking && reconstruct.json && reconstruct.logging.verbose)
+  }
+
+  @Test func boxesAndFaces() throws {
+    let shape = try Reconstruct.parse([
+      "a", "b.usdz", "--crop", "-1,0.5,2,1,-2, 3e-1", "--quads",
+    ]).shape
+    #expect(shape.geometry?.bounds == BoundingBox(min: [-1, -2, 0.3], max: [1, 0.5, 2]))
+    #expect(shape.primitive == .quad)
+    let plain = try Reconstruct.parse(["a", "b.usdz"]).shape
+    #expect(plain.geometry == nil && plain.primitive == .triangle)
+    for wrong in ["1,2,3", "0,0,0,1,1,0", "0,0,0,1,1,x", "0,0,0,1,1,nan", "0,0,0,1,1,1,1"] {
+      #expect(throws: (any Error).self) { try Reconstruct.parse(["a", "b", "--crop", wrong]) }
+    }
   }
 
   @Test func customBounds() throws {

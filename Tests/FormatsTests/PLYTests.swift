@@ -41,6 +41,15 @@ import Testing
     }
   }
 
+  @Test func foursidedFacesComeBackAsTheirHalves() throws {
+    let mesh = Sample.sphere(rings: 3).mesh
+    let bytes = PLY.encode(mesh, halves: [2..<6, 8..<10])
+    let header = String(decoding: bytes.prefix(400), as: UTF8.self)
+    #expect(header.contains("element face \(mesh.triangles.count - 3)\n"))
+    let back = try read(bytes, PLY.readMesh)
+    #expect(back.triangles == mesh.triangles && back.positions == mesh.positions)
+  }
+
   @Test func emptyValuesComeBackEmpty() throws {
     try Sample.withFolder { folder in
       let url = folder.appendingPathComponent("empty.ply")

@@ -83,6 +83,30 @@ import Testing
         .attribute("asset", "inputs:file", .asset("0/baked_mesh_tex0.png"))))
   }
 
+  @Test func foursidedFacesComeFirst() throws {
+    var model = Sample.model(rings: 4, atlasCount: 2)
+    model.mesh.atlases[0].quadCount = 3
+    let layer = USDModelLayer().layer(model)
+    func values(_ name: String, of mesh: String) throws -> [Int32] {
+      let geometry = try #require(layer.prims[0].children.last)
+      let prim = try #require(geometry.children.first { $0.name == mesh })
+      let property = try #require(prim.properties.first { $0.name == name })
+      guard case .attribute(_, .intArray(let values)?, _) = property.content else { return [] }
+      return values
+    }
+    let count = model.mesh.atlases[0].triangles.count
+    #expect(
+      try values("faceVertexCounts", of: "g0")
+        == Array(repeating: 4, count: 3) + Array(repeating: 3, count: count - 6))
+    let (first, second) = (model.parts[0].triangles[0], model.parts[0].triangles[1])
+    #expect(second.a == first.a && second.b == first.c)
+    let corners = try values("faceVertexIndices", of: "g0")
+    #expect(corners.prefix(4) == [first.a, first.b, first.c, second.c].map { Int32($0) }[...])
+    #expect(corners.count == 12 + 3 * (count - 6))
+    #expect(try values("primvars:st:indices", of: "g0").count == corners.count)
+    #expect(Set(try values("faceVertexCounts", of: "g1")) == [3])
+  }
+
   @Test func atlasesBecomeMeshesThatTogetherAreTheWhole() {
     let model = Sample.model(rings: 6, atlasCount: 3)
     let parts = model.parts

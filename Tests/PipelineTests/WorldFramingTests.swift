@@ -54,6 +54,55 @@ import Testing
     #expect(framed.meanReprojectionError < 1e-2 || table.count == 400)
   }
 
+  /// Gravity in the frames of the cameras, when the scene's y is up.
+  private func gravity(noise: Double) -> [Int: SIMD3<Double>] {
+    var random = SeededGenerator(seed: 5)
+    var result: [Int: SIMD3<Double>] = [:]
+    for (index, pose) in SyntheticScene().poses.enumerated() {
+      let down: SIMD3<Double> = pose.rotation * SIMD3(0, -1, 0)
+      result[index] = (down + noise * random.normal3()) * 9.81
+    }
+    return result
+  }
+
+  /// Degrees between the framed scene's up and the true one.
+  private func tilt(_ framed: Reconstruction) throws -> Double {
+    let pose = try #require(framed.poses[0])
+    let truth = SyntheticScene().poses[0].rotation
+    let up = pose.rotation.conjugate * (truth * SIMD3(0, 1, 0))
+    return acos(min(1, up.y)) * 180 / .pi
+  }
+
+  @Test func gravitySaysWhatIsUp() throws {
+    var framing = WorldFraming()
+    framing.options.gravity = gravity(noise: 0.01)
+    for table in [false, true] {
+      let framed = framing.run(scene(table: table), StageContext())
+      #expect(framed.worldFrame.up == .gravity)
+      #expect(try tilt(framed) < 1)
+      #expect(abs(lowest(framed)) < 0.05)
+    }
+  }
+
+  @Test func gravityMayBeWrongInSomePhotos() throws {
+    var framing = WorldFraming()
+    framing.options.gravity = gravity(noise: 0.01)
+    for index in 0..<4 { framing.options.gravity[index] = [0, 0.6, 0.8] }
+    let framed = framing.run(scene(table: false), StageContext())
+    #expect(framed.worldFrame.up == .gravity)
+    #expect(try tilt(framed) < 1)
+  }
+
+  @Test func gravityInAnotherFrameIsNotUsed() throws {
+    var framing = WorldFraming()
+    // As if the photos had been taken with the camera on its side.
+    framing.options.gravity = gravity(noise: 0).mapValues { SIMD3(-$0.y, $0.x, $0.z) }
+    let notes = StageNotes()
+    let framed = framing.run(scene(table: true), StageContext(notes: notes))
+    #expect(framed.worldFrame.up == .supportPlane)
+    #expect(notes.warnings.contains { $0.contains("gravity") && $0.contains("phone") })
+  }
+
   @Test func withoutAPlaneTheCamerasSayWhatIsUp() {
     let before = scene(table: false)
     let framed = WorldFraming().run(before, StageContext())

@@ -142,6 +142,33 @@ private func summary(of result: PhotogrammetrySession.Result) -> String {
     #expect(buffer == nil)
   }
 
+  @Test func pixelBuffersTakeOverBytes() throws {
+    // Two rows of two BGRA pixels, with four bytes of padding between them.
+    var bytes: [UInt8] = [1, 2, 3, 255, 4, 5, 6, 255, 0, 0, 0, 0, 7, 8, 9, 255, 1, 1, 1, 255, 0, 0]
+    bytes += [0, 0]
+    let attributes =
+      [
+        kCVPixelBufferCGImageCompatibilityKey: kCFBooleanTrue!,
+        kCVPixelBufferCGBitmapContextCompatibilityKey: kCFBooleanTrue!,
+      ] as CFDictionary
+    var calls = 0
+    var buffer: CVPixelBuffer?
+    try bytes.withUnsafeMutableBytes { source in
+      let base = try #require(source.baseAddress)
+      let status = CVPixelBufferCreateWithBytes(
+        kCFAllocatorDefault, 2, 2, kCVPixelFormatType_32BGRA, base, 12,
+        { counter, _ in counter?.assumingMemoryBound(to: Int.self).pointee += 1 }, &calls,
+        attributes, &buffer)
+      #expect(status == kCVReturnSuccess)
+    }
+    let image = try #require(buffer)
+    let base = try #require(CVPixelBufferGetBaseAddress(image))
+    let second = CVPixelBufferGetBytesPerRow(image)
+    #expect(calls == 1 && base.load(fromByteOffset: 5, as: UInt8.self) == 5)
+    #expect(base.load(fromByteOffset: second + 2, as: UInt8.self) == 9)
+    #expect(!CVPixelBufferIsPlanar(image) && CVPixelBufferGetPlaneCount(image) == 0)
+  }
+
   @Test func lensAndEntityTypesExist() {
     let lens = LensDistortionData(center: [1, 2], radialLookupTable: [0, 0.1])
     #expect(lens.center == [1, 2] && lens.radialLookupTable.count == 2)

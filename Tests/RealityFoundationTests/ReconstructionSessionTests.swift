@@ -51,6 +51,39 @@ import Testing
       #expect(dot(view, normalize(box.center - pose.translation)) > 0.8)
     }
     try await modelFollows(session, box)
+    try await entitiesAreCroppedAndMoved(session)
+  }
+
+  /// The upper half of the model, twice as large, and the whole.
+  private func entitiesAreCroppedAndMoved(_ session: Session) async throws {
+    let whole = Session.Request.modelEntity(detail: .preview)
+    guard case .modelEntity(let entity) = results(in: try await run(session, [whole]))[whole] else {
+      Issue.record("the entity is missing")
+      return
+    }
+    let model = try #require(entity.model)
+    let bounds = model.mesh.bounds
+    #expect(entity.visualBounds(relativeTo: nil) == bounds && model.materials.count == 1)
+    let material = try #require(model.materials.first as? PhysicallyBasedMaterial)
+    #expect(material.baseColor.texture?.resource.width == 1024)
+    #expect(material.normal.texture != nil && material.ambientOcclusion.texture != nil)
+    let upper = BoundingBox(min: [-9, bounds.center.y, -9], max: [9, 9, 9])
+    let larger = Transform(scale: [2, 2, 2], translation: [0, 1, 0])
+    let outside = BoundingBox(min: [50, 50, 50], max: [51, 51, 51])
+    let half = Session.Request.modelEntity(
+      detail: .preview, geometry: .init(bounds: upper, transform: larger))
+    let nothing = Session.Request.modelEntity(
+      detail: .preview, geometry: .init(bounds: outside))
+    let outputs = try await run(session, [half, nothing])
+    guard case .modelEntity(let cut) = results(in: outputs)[half], let mesh = cut.model?.mesh else {
+      Issue.record("the cropped entity is missing")
+      return
+    }
+    #expect(abs(mesh.bounds.min.y - (2 * bounds.center.y + 1)) < 0.01 * bounds.extents.y)
+    #expect(abs(mesh.bounds.max.y - (2 * bounds.max.y + 1)) < 0.05 * bounds.extents.y)
+    let part = try #require(mesh.contents.models.first?.parts.first)
+    #expect(part.triangleIndices.map { $0.count % 3 == 0 && $0.count > 3000 } == true)
+    #expect((errors(in: outputs).first as? ProcessingError)?.code == .emptyCrop)
   }
 
   /// A second call makes a model of what the first found out.

@@ -38,6 +38,37 @@ import Testing
     }
   }
 
+  @Test func geometriesThatMakeNoSenseAreRefused() throws {
+    typealias Geometry = Session.Request.Geometry
+    var flat = Transform.identity
+    flat.scale.y = 0
+    var far = Transform.identity
+    far.scale.x = .infinity
+    let wrong = [
+      Geometry(transform: flat), Geometry(transform: far),
+      Geometry(bounds: BoundingBox(min: [0, 1, 0], max: [1, 0, 1])),
+      Geometry(bounds: BoundingBox(min: [0, .nan, 0], max: [1, 1, 1])),
+      Geometry(orientedBounds: OrientedBoundingBox(orientation: simd_quatf(vector: .zero))),
+    ]
+    try withTemporaryFolder { folder in
+      try Data().write(to: folder.appendingPathComponent("a.jpg"))
+      let file = folder.appendingPathComponent("model.usdz")
+      for geometry in wrong {
+        for request in [
+          Session.Request.modelFile(url: file, geometry: geometry),
+          .modelEntity(geometry: geometry),
+        ] {
+          let error = #expect(throws: ProcessingError.self) { try check([request], in: folder) }
+          #expect(error?.code == .invalidRequest && error?.remedy.isEmpty == false)
+        }
+      }
+      let open = BoundingBox(
+        min: SIMD3(repeating: -.greatestFiniteMagnitude), max: [.infinity, 1, 1])
+      try check([.modelFile(url: file, geometry: Geometry(bounds: open))], in: folder)
+      try check([.modelEntity(geometry: Geometry())], in: folder)
+    }
+  }
+
   @Test func outputsThatCannotBeWrittenAreRefused() throws {
     try withTemporaryFolder { folder in
       try Data().write(to: folder.appendingPathComponent("file"))

@@ -51,21 +51,22 @@ import Testing
     #expect(largest.finest.viewPixels == DetailSpecification(.raw).viewPixels)
   }
 
-  @Test func whatIsNotThereYetHasAReason() throws {
-    let url = URL(fileURLWithPath: "/tmp/m.usdz")
-    let box = BoundingBox(min: .zero, max: .one)
-    let cropped = Session.Request.modelFile(url: url, geometry: .init(bounds: box))
-    let plan = RunPlan([cropped, .modelEntity(), .poses], configuration: .init())
-    #expect(plan.feasible.map(\.request) == [.poses])
-    #expect(plan.units == [.preProcessing, .alignment] && plan.specifications.isEmpty)
-    for entry in plan.entries where entry.request != .poses {
-      let obstacle = try #require(entry.obstacle)
-      #expect(obstacle.code == .notAvailable && !obstacle.remedy.isEmpty)
-    }
-    let whole = Session.Request.modelFile(url: url, geometry: .init())
-    #expect(RunPlan([whole], configuration: .init()).feasible.count == 1)
+  @Test func thePipelineIsToldOfTheFaces() {
     var configuration = Session.Configuration()
+    #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .triangle)
     configuration.meshPrimitive = .quad
-    #expect(RunPlan([whole, .bounds], configuration: configuration).feasible.count == 1)
+    #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .quad)
+  }
+
+  @Test func entitiesNeedNoFileAndComeByTheirDetail() {
+    let coarse = Session.Request.modelEntity(detail: .preview)
+    let plan = RunPlan(
+      [model("m", .reduced), .modelEntity(detail: .medium), coarse, .bounds],
+      configuration: .init())
+    #expect(
+      plan.entries.map(\.request)
+        == [.bounds, coarse, model("m", .reduced), .modelEntity(detail: .medium)])
+    #expect(plan.entries[1].units.last?.stage == .textureMapping)
+    #expect(plan.specifications.count == 4)
   }
 }

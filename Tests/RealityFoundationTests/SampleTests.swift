@@ -17,6 +17,29 @@ import Testing
     PhotogrammetrySample(id: id, image: try #require(CVPixelBuffer(Self.image)))
   }
 
+  @Test func gravityIsTurnedIntoTheUprightPhoto() throws {
+    var sample = try sample(0)
+    #expect(sample.gravityInCamera == nil)
+    // Held upright, with the right side of the photo stored as its first row.
+    sample.gravity = CMAcceleration(x: 0, y: -1, z: 0)
+    sample.metadata["Orientation"] = 6
+    #expect(sample.gravityInCamera == [0, 1, 0])
+    sample.metadata["Orientation"] = UInt32(8)
+    #expect(sample.gravityInCamera == [0, -1, 0])
+    // On its left side, as the camera sees.
+    sample.metadata["Orientation"] = nil
+    sample.gravity = CMAcceleration(x: -1, y: 0, z: 0)
+    #expect(sample.gravityInCamera == [0, 1, 0])
+    // Flat on a table, the screen up: the camera looks down.
+    sample.gravity = CMAcceleration(x: 0, y: 0, z: -1)
+    for orientation in 1...8 {
+      sample.metadata["Orientation"] = orientation
+      #expect(sample.gravityInCamera == [0, 0, 1])
+    }
+    sample.gravity = CMAcceleration()
+    #expect(sample.gravityInCamera == nil)
+  }
+
   @Test func pixelBuffersKeepTheirColours() throws {
     let buffer = try #require(CVPixelBuffer(Self.image))
     #expect(buffer.bytesPerRow == 192 && buffer.pixelFormat == kCVPixelFormatType_32BGRA)

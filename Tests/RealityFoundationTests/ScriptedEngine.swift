@@ -14,6 +14,7 @@ final class ScriptedEngine: SessionEngine {
     var refused: [RefusedPhoto] = []
     var ingestError: PipelineError?
     var alignmentError: PipelineError?
+    var entityError: PipelineError?
     var isDownsampled = false
     var registered: Int?
     /// Works on the alignment until it is cancelled.
@@ -96,7 +97,19 @@ final class ScriptedEngine: SessionEngine {
     return BoundingBox(min: .zero, max: .one)
   }
 
-  func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+  func modelEntity(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry
+  ) throws -> ModelEntity {
+    try align()
+    if let error = script.entityError { throw error }
+    for stage in PipelineStage.allCases[2..<5] { try work(stage) }
+    return ModelEntity()
+  }
+
+  func writeModel(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
+    to url: URL
+  ) throws {
     try align()
     for stage in PipelineStage.allCases.dropFirst(2) { try work(stage) }
     try Data("model".utf8).write(to: url)

@@ -72,23 +72,13 @@ import Testing
 
   @Test func aFailedRequestStopsNoOther() async throws {
     try await withPhotos { folder in
-      let session = Session(folder: folder)
+      let session = Session(folder: folder, .init(entityError: .emptyCrop))
       let outputs = try await run(session, [.modelEntity(), .poses])
       let names = outputs.map(name(of:))
       #expect(names.contains("requestError") && names.contains("requestComplete"))
       #expect(names.last == "processingComplete")
       let error = try #require(firstError(in: outputs) as? ProcessingError)
-      #expect(error.code == .notAvailable && !error.remedy.isEmpty)
-    }
-  }
-
-  @Test func noEngineIsMadeForNothing() async throws {
-    try await withPhotos { folder in
-      let journal = ScriptedEngine.Journal()
-      let session = Session(folder: folder, journal: journal)
-      let names = try await run(session, [.modelEntity()]).map(name(of:))
-      #expect(names == ["requestError", "processingComplete"])
-      #expect(journal.count(of: "made") == 0)
+      #expect(error.code == .emptyCrop && !error.remedy.isEmpty)
     }
   }
 

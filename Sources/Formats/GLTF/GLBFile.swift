@@ -26,7 +26,7 @@ package enum GLBFile {
     let ranges = mesh.atlases.isEmpty ? [all] : mesh.atlases.map(\.triangles)
     for (index, range) in ranges.enumerated() where !range.isEmpty {
       let material = materials.indices.contains(index) ? materials[index] : GLTFMaterial()
-      builder.append(GLTFPrimitive(mesh, triangles: range), of: mesh, material)
+      builder.append(IndexedTriangles(mesh, triangles: range), of: mesh, material)
     }
     let encoder = JSONEncoder()
     encoder.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]

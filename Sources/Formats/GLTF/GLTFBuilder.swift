@@ -30,8 +30,9 @@ struct GLTFBuilder {
   }
 
   /// Adds a part of the mesh and its material.
-  mutating func append(_ primitive: GLTFPrimitive, of mesh: TexturedMesh, _ material: GLTFMaterial)
-  {
+  mutating func append(
+    _ primitive: IndexedTriangles, of mesh: TexturedMesh, _ material: GLTFMaterial
+  ) {
     let normals = mesh.mesh.normals
     let hasNormals = normals.count == mesh.mesh.positions.count
     let position = append(positions: primitive.positions.map { mesh.mesh.positions[Int($0)] })

@@ -39,11 +39,15 @@ package enum OBJFolder {
       return texture.isEmpty && normal.isEmpty
         ? "\(vertex + 1)" : "\(vertex + 1)/\(texture)\(normal)"
     }
-    let ranges =
-      mesh.atlases.isEmpty ? [0..<mesh.mesh.triangles.count] : mesh.atlases.map(\.triangles)
-    for (part, range) in ranges.enumerated() {
+    let whole = TextureAtlas(triangles: 0..<mesh.mesh.triangles.count, maps: [:])
+    for (part, atlas) in (mesh.atlases.isEmpty ? [whole] : mesh.atlases).enumerated() {
       text += "g g\(part)\nusemtl g\(part)\n"
-      for index in range {
+      for index in stride(from: atlas.halves.lowerBound, to: atlas.halves.upperBound, by: 2) {
+        let corners = mesh.mesh.triangles[index].quad(with: mesh.mesh.triangles[index + 1])
+        let st = mesh.textureTriangles[index].quad(with: mesh.textureTriangles[index + 1])
+        text += "f \(zip(corners, st).map { corner($0, $1) }.joined(separator: " "))\n"
+      }
+      for index in atlas.halves.upperBound..<atlas.triangles.upperBound {
         let t = mesh.mesh.triangles[index]
         let st = hasTexture ? mesh.textureTriangles[index] : nil
         text += "f \(corner(t.a, st?.a)) \(corner(t.b, st?.b)) \(corner(t.c, st?.c))\n"

@@ -2,13 +2,15 @@ import Foundation
 import SceneModel
 
 extension PLY {
-  /// Writes a mesh, normals and colours where it has them; throws `OutputError`.
-  package static func write(_ mesh: Mesh, to url: URL) throws {
-    try AtomicFile.write(encode(mesh), to: url)
+  /// Writes a mesh, normals and colours where it has them; throws `OutputError`. The triangles of the
+  /// ranges in `halves` are two by two the halves of four-sided faces.
+  package static func write(_ mesh: Mesh, halves: [Range<Int>] = [], to url: URL) throws {
+    try AtomicFile.write(encode(mesh, halves: halves), to: url)
   }
 
   /// The bytes that `write` writes.
-  package static func encode(_ mesh: Mesh) -> [UInt8] {
+  package static func encode(_ mesh: Mesh, halves: [Range<Int>] = []) -> [UInt8] {
+    let quadCount = halves.map(\.count).reduce(0, +) / 2
     let count = mesh.positions.count
     let hasNormals = mesh.normals.count == count && count > 0
     let hasColors = mesh.colors.count == count && count > 0
@@ -16,7 +18,7 @@ extension PLY {
     header += "property float x\nproperty float y\nproperty float z\n"
     if hasNormals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
     if hasColors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
-    header += "element face \(mesh.triangles.count)\n"
+    header += "element face \(mesh.triangles.count - quadCount)\n"
     header += "property list uchar int vertex_indices\nend_header\n"
     var writer = ByteWriter(
       capacity: header.utf8.count + count * 27 + mesh.triangles.count * 13)
@@ -26,13 +28,27 @@ extension PLY {
       if hasNormals { writer.append(mesh.normals[index]) }
       if hasColors { writer.append(mesh.colors[index]) }
     }
-    for triangle in mesh.triangles {
+    var next = 0
+    for range in halves {
+      append(mesh.triangles[next..<range.lowerBound], to: &writer)
+      for half in stride(from: range.lowerBound, to: range.upperBound, by: 2) {
+        writer.append(UInt8(4))
+        let corners = mesh.triangles[half].quad(with: mesh.triangles[half + 1])
+        corners.forEach { writer.append($0) }
+      }
+      next = range.upperBound
+    }
+    append(mesh.triangles[next...], to: &writer)
+    return writer.bytes
+  }
+
+  private static func append(_ triangles: ArraySlice<Triangle>, to writer: inout ByteWriter) {
+    for triangle in triangles {
       writer.append(UInt8(3))
       writer.append(triangle.a)
       writer.append(triangle.b)
       writer.append(triangle.c)
     }
-    return writer.bytes
   }
 
   /// Reads a mesh; faces of more than three corners become fans. Throws `FormatError`.

@@ -47,7 +47,7 @@ package struct ModelContent: Sendable {
       mesh.atlases.isEmpty
       ? [0..<mesh.mesh.triangles.count] : mesh.atlases.map(\.triangles)
     guard ranges.count > 1 else { return [MeshPart(whole: mesh)] }
-    return ranges.map { MeshPart(mesh, triangles: $0) }
+    return mesh.atlases.map { MeshPart(mesh, of: $0) }
   }
 
   /// The images of part `index`, none where there are fewer sets than parts.
@@ -63,6 +63,8 @@ package struct MeshPart: Equatable, Sendable {
   package var textureCoordinates: [SIMD2<Float>] = []
   package var triangles: [Triangle] = []
   package var textureTriangles: [Triangle] = []
+  /// Four-sided faces, each two of the first triangles; see `TextureAtlas`.
+  package var quadCount = 0
 
   /// All of `mesh` as it is.
   init(whole mesh: TexturedMesh) {
@@ -71,13 +73,15 @@ package struct MeshPart: Equatable, Sendable {
     textureCoordinates = mesh.textureCoordinates
     triangles = mesh.mesh.triangles
     textureTriangles = mesh.textureTriangles
+    quadCount = mesh.atlases.first?.quadCount ?? 0
   }
 
-  /// The triangles of `range` and what they use, numbered in the order of first use.
-  init(_ mesh: TexturedMesh, triangles range: Range<Int>) {
+  /// The triangles of `atlas` and what they use, numbered in the order of first use.
+  init(_ mesh: TexturedMesh, of atlas: TextureAtlas) {
+    quadCount = atlas.quadCount
     var vertices = Renumbering(count: mesh.mesh.positions.count)
     var coordinates = Renumbering(count: mesh.textureCoordinates.count)
-    for index in range {
+    for index in atlas.triangles {
       triangles.append(vertices.triangle(mesh.mesh.triangles[index]))
       textureTriangles.append(coordinates.triangle(mesh.textureTriangles[index]))
     }

@@ -40,8 +40,11 @@ package struct USDModelLayer {
       .attribute("float3[]", "extent", .float3Array([bounds.min, bounds.max])),
       .attribute(
         "int[]", "faceVertexCounts",
-        .intArray([Int32](repeating: 3, count: part.triangles.count))),
-      .attribute("int[]", "faceVertexIndices", .intArray(indices(part.triangles))),
+        .intArray(
+          [Int32](repeating: 4, count: part.quadCount)
+            + [Int32](repeating: 3, count: part.triangles.count - 2 * part.quadCount))),
+      .attribute(
+        "int[]", "faceVertexIndices", .intArray(indices(part.triangles, quads: part.quadCount))),
       .relationship("material:binding", ["/\(rootName)/Materials/g\(index)"]),
     ]
     if part.normals.count == part.positions.count {
@@ -56,7 +59,9 @@ package struct USDModelLayer {
         .attribute(
           "texCoord2f[]", "primvars:st", .float2Array(part.textureCoordinates),
           metadata: [USDField("interpolation", .token("faceVarying"))]),
-        .attribute("int[]", "primvars:st:indices", .intArray(indices(part.textureTriangles))),
+        .attribute(
+          "int[]", "primvars:st:indices",
+          .intArray(indices(part.textureTriangles, quads: part.quadCount))),
       ]
     }
     mesh.properties.append(
@@ -64,10 +69,15 @@ package struct USDModelLayer {
     return mesh
   }
 
-  private static func indices(_ triangles: [Triangle]) -> [Int32] {
-    triangles.flatMap {
-      [Int32(bitPattern: $0.a), Int32(bitPattern: $0.b), Int32(bitPattern: $0.c)]
+  /// The corners of the faces; the first are quads, of two triangles each.
+  private static func indices(_ triangles: [Triangle], quads: Int) -> [Int32] {
+    let corners = stride(from: 0, to: 2 * quads, by: 2).flatMap {
+      triangles[$0].quad(with: triangles[$0 + 1]).map(Int32.init(bitPattern:))
     }
+    return corners
+      + triangles[(2 * quads)...].flatMap {
+        [Int32(bitPattern: $0.a), Int32(bitPattern: $0.b), Int32(bitPattern: $0.c)]
+      }
   }
 }
 

@@ -5,11 +5,14 @@ import SceneModel
 ///
 /// +y is up and the object stands on y = 0, centred in x and z on the points that most photos look
 /// at. Scale: known distances, else GPS, else the median distance from the cameras to the object is
-/// one metre. Up: GPS, else the plane under the object, else the cameras, which people hold upright.
+/// one metre. Up: gravity, else GPS, else the plane under the object, else the cameras, which people
+/// hold upright.
 package struct WorldFraming: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Distances that were measured; they come before GPS.
     package var knownDistances: [KnownDistance] = []
+    /// Directions of gravity by sample id, in the frames of the cameras; they come before GPS, too.
+    package var gravity: [Int: SIMD3<Double>] = [:]
     /// Expected error of a GPS position in metres.
     package var gpsNoise = 5.0
     /// Positions must spread over this many times their error to say something.
@@ -43,15 +46,16 @@ package struct WorldFraming: Sendable {
     }
     let object = ObjectRegion(reconstruction)
     var frame = WorldFrame()
-    let cameraUp = CameraUp(reconstruction).direction
-    var up = cameraUp
-    frame.up = .cameras
+    let gravityUp = GravityUp().run(options.gravity, reconstruction, context.notes)
+    let heldUp = gravityUp ?? CameraUp(reconstruction).direction
+    var up = heldUp
+    frame.up = gravityUp == nil ? .cameras : .gravity
     let plane =
       options.findsSupport
-      ? SupportPlane(object, centers: centers, up: cameraUp, options) : nil
-    if let plane { (up, frame.up) = (plane.normal, .supportPlane) }
+      ? SupportPlane(object, centers: centers, up: heldUp, options) : nil
+    if gravityUp == nil, let plane { (up, frame.up) = (plane.normal, .supportPlane) }
     let gps = GPSFit(reconstruction, up: up, options)
-    if let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }
+    if gravityUp == nil, let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }
 
     let scale: Double
     (scale, frame.scale) = self.scale(reconstruction, object, gps, context.notes)

@@ -34,7 +34,8 @@ package struct ModelExport: Sendable {
       let materials = try materials(of: model, encoding)
       try GLBFile.write(model, materials: materials, creator: options.creator, to: url)
     case .ply:
-      try PLY.write(try VertexColoring().run(model, encoding), to: url)
+      try PLY.write(
+        try VertexColoring().run(model, encoding), halves: model.atlases.map(\.halves), to: url)
     case .folder:
       try OBJFolder.write(try content(model, encoding), to: url)
     }

@@ -64,20 +64,24 @@ struct ViewObservation: Sendable {
   var options = Options()
 
   /// Observations with areas in pixels of the full photos; views are numbered as `views` lists them.
+  /// Only the first `faceCount` triangles of the scene are asked for, or all of them.
   func run(
-    _ scene: RayScene, views: [ID<Photo>], source: ViewSource, _ context: StageContext
+    _ scene: RayScene, faceCount: Int? = nil, views: [ID<Photo>], source: ViewSource,
+    _ context: StageContext
   ) throws -> FaceViews {
+    let faceCount = faceCount ?? scene.triangleCount
     var byView: [[FaceObservation]] = []
     for (index, photo) in views.enumerated() {
       try context.step(index, of: views.count)
       let view = try source.view(photo, options.maximumPixels)
       var observations = try scene.observations(
         in: view, options: options.rays, context.part(from: 0, to: 0).control)
+      observations.removeAll { $0.face >= Int32(faceCount) }
       let factor = source.areaFactor(of: view)
       for index in observations.indices { observations[index].area *= factor }
       byView.append(observations)
     }
-    var result = FaceViews(faceCount: scene.triangleCount, observationsByView: byView)
+    var result = FaceViews(faceCount: faceCount, observationsByView: byView)
     limit(&result)
     return result
   }

@@ -14,6 +14,8 @@ package struct TextureMapping: Sendable {
 
     /// What stands out over so large a share of a photo is a thing before the surface.
     var thingShare: Float = 0.001
+    /// Triangles of what is cut off but stands before the surface in photos, at most.
+    var occluderTriangles = 100_000
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()
     var candidates = ViewCandidates.Options()
@@ -38,17 +40,20 @@ package struct TextureMapping: Sendable {
 
   package init(options: Options = Options()) { self.options = options }
 
-  /// Textures `mesh`, whose maps are baked from `dense`, the surface before simplification.
+  /// Textures `mesh`, whose maps are baked from `dense`, the surface before simplification. Photos
+  /// don't see through `occluders`, which get no texture.
   package func run(
-    _ mesh: Mesh, dense: Mesh, reconstruction: Reconstruction, images: ImageStore,
-    _ context: StageContext
+    _ mesh: Mesh, dense: Mesh, occluders: Mesh = Mesh(), reconstruction: Reconstruction,
+    images: ImageStore, _ context: StageContext
   ) throws -> TexturedMesh {
     try run(
-      mesh, dense: dense, source: ViewSource(reconstruction, images: images), context)
+      mesh, dense: dense, occluders: occluders,
+      source: ViewSource(reconstruction, images: images), context)
   }
 
   func run(
-    _ input: Mesh, dense: Mesh, source: ViewSource, _ context: StageContext
+    _ input: Mesh, dense: Mesh, occluders: Mesh = Mesh(), source: ViewSource,
+    _ context: StageContext
   ) throws -> TexturedMesh {
     let mesh = try checked(input)
     let views = source.reconstruction.registered
@@ -56,7 +61,9 @@ package struct TextureMapping: Sendable {
     let scene = try RayScene(mesh, context.part(from: 0, to: 0).control)
 
     let seen = try ViewObservation(options: options.observation)
-      .run(scene, views: views, source: source, context.part(from: 0, to: 0.3))
+      .run(
+        try occluded(mesh, by: occluders, context) ?? scene, faceCount: mesh.triangles.count,
+        views: views, source: source, context.part(from: 0, to: 0.3))
     let gains = try ExposureCompensation(options: options.exposure)
       .run(seen, viewCount: views.count, context.part(from: 0.3, to: 0.33))
     var candidates = options.candidates
@@ -87,6 +94,25 @@ package struct TextureMapping: Sendable {
     let maps = try images(
       of: layout, scene: scene, baking, painting, context.part(from: 0.66, to: 1))
     return assembled(mesh, layout, maps)
+  }
+
+  /// The scene with what stands before the mesh, behind it in the order of triangles; nil where there
+  /// is nothing.
+  private func occluded(
+    _ mesh: Mesh, by occluders: Mesh, _ context: StageContext
+  ) throws -> RayScene? {
+    guard !occluders.triangles.isEmpty else { return nil }
+    let control = context.part(from: 0, to: 0).control
+    let coarse = try occluders.simplified(
+      maximumTriangles: options.occluderTriangles, control)
+    guard !coarse.triangles.isEmpty else { return nil }
+    let first = UInt32(mesh.positions.count)
+    return try RayScene(
+      Mesh(
+        positions: mesh.positions + coarse.positions,
+        triangles: mesh.triangles
+          + coarse.triangles.map { Triangle($0.a + first, $0.b + first, $0.c + first) }),
+      control)
   }
 
   /// The maps of each texture, one texture after the other: while one is painted, it takes three

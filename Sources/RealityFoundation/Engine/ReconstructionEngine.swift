@@ -25,9 +25,9 @@ final class ReconstructionEngine: SessionEngine {
         folder: url, configuration: configuration, flag: flag, onEvent: onEvent)
     case .samples(let samples):
       self.samples = samples
+      let folder = try samples.write(flag: flag, onEvent: onEvent)
       pipeline = ReconstructionPipeline(
-        folder: try samples.write(flag: flag, onEvent: onEvent), configuration: configuration,
-        flag: flag
+        folder: folder, configuration: configuration, gravity: samples.gravity, flag: flag
       ) { event in onEvent(samples.translated(event)) }
     }
   }
@@ -57,9 +57,21 @@ final class ReconstructionEngine: SessionEngine {
     return mesh.bounds.map { BoundingBox(min: $0.min, max: $0.max) } ?? .empty
   }
 
-  func writeModel(_ specification: DetailSpecification, to url: URL) throws {
+  func modelEntity(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry
+  ) throws -> ModelEntity {
     _ = try align()
-    try pipeline.writeModel(specification, to: url)
+    var specification = specification
+    specification.maps.formIntersection(PhysicallyBasedMaterial.maps)
+    return ModelEntity(try pipeline.model(for: specification, in: ModelGeometry(geometry)))
+  }
+
+  func writeModel(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
+    to url: URL
+  ) throws {
+    _ = try align()
+    try pipeline.writeModel(specification, in: ModelGeometry(geometry), to: url)
   }
 
   private func align() throws -> Reconstruction {
@@ -82,6 +94,7 @@ extension PipelineConfiguration {
     isSequential = configuration.sampleOrdering == .sequential
     isHighSensitivity = configuration.featureSensitivity == .high
     checkpointDirectory = configuration.checkpointDirectory
+    meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle
     threadCount = options.threadCount
     knownDistances = options.knownDistances
     previewFile = options.previewFile

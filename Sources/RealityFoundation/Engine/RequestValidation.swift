@@ -15,6 +15,7 @@ struct RequestValidation {
       throw PhotogrammetrySession.Error.invalidImages(url)
     }
     try checkCheckpoint()
+    try requests.forEach { try checkGeometry($0.geometry ?? .init()) }
     var paths: Set<String> = []
     for case .modelFile(let url, let detail, _) in Set(requests) {
       _ = try OutputLocation(url, additionalFormats: options.additionalFileFormats)
@@ -26,6 +27,27 @@ struct RequestValidation {
       if let free = freeBytes(url), free < required {
         throw PhotogrammetrySession.Error.insufficientStorage(requiredBytes: required)
       }
+    }
+  }
+
+  private func checkGeometry(_ geometry: PhotogrammetrySession.Request.Geometry) throws {
+    let matrix = geometry.transform.matrix
+    guard abs(matrix.determinant) > 1e-20, matrix.determinant.isFinite else {
+      throw ProcessingError.invalidRequest(
+        "A request's transform leaves nothing of the model.",
+        remedy: "Give it numbers that are finite and scales that are not 0.")
+    }
+    let orientation = geometry.orientedBounds.orientation
+    guard orientation.length > 1e-6, orientation.length.isFinite else {
+      throw ProcessingError.invalidRequest(
+        "The orientation of a request's bounds is no rotation.",
+        remedy: "Give a quaternion of unit length.")
+    }
+    let bounds = geometry.bounds
+    guard all(bounds.min .<= bounds.max) || all(bounds.min .> bounds.max) else {
+      throw ProcessingError.invalidRequest(
+        "A request's bounds are upside down.",
+        remedy: "Give the smallest coordinates as min, the largest as max.")
     }
   }
 
@@ -45,6 +67,16 @@ struct RequestValidation {
     }
     let attributes = try? FileManager.default.attributesOfFileSystem(forPath: folder.path)
     return (attributes?[.systemFreeSize] as? NSNumber)?.int64Value
+  }
+}
+
+extension PhotogrammetrySession.Request {
+  /// What part of the model is asked for, and where; nil where nothing is said, or no model asked for.
+  fileprivate var geometry: Geometry? {
+    switch self {
+    case .modelFile(_, _, let geometry), .modelEntity(_, let geometry): geometry
+    case .bounds, .pointCloud, .poses: nil
+    }
   }
 }
 

@@ -31,8 +31,6 @@ struct RunPlan: Sendable {
     var units: [WorkUnit]
     /// What the model is to be like; nil where no model is asked for.
     var specification: DetailSpecification?
-    /// Why the request can't be met, whatever the photos show.
-    var obstacle: ProcessingError?
   }
 
   let entries: [Entry]
@@ -54,21 +52,16 @@ struct RunPlan: Sendable {
       models.last ?? DetailSpecification(self.requests.contains(.pointCloud) ? .reduced : .preview)
     entries = self.requests
       .map {
-        Entry(
-          $0, specification: $0.specification(configuration), coarsest: coarsest,
-          obstacle: $0.obstacle(configuration))
+        Entry($0, specification: $0.specification(configuration), coarsest: coarsest)
       }
       .enumerated()
       .sorted { ($0.element.rank, $0.offset) < ($1.element.rank, $1.offset) }
       .map(\.element)
   }
 
-  /// The entries that no obstacle stands in the way of.
-  var feasible: [Entry] { entries.filter { $0.obstacle == nil } }
-
   /// What the models are to be like, and the finest of all.
   var specifications: [DetailSpecification] {
-    feasible.compactMap(\.specification) + (requests.contains(.pointCloud) ? [finest] : [])
+    entries.compactMap(\.specification) + (requests.contains(.pointCloud) ? [finest] : [])
   }
 
   /// All units in the order that they are worked on.
@@ -81,7 +74,7 @@ struct RunPlan: Sendable {
 extension RunPlan.Entry {
   fileprivate init(
     _ request: PhotogrammetrySession.Request, specification: DetailSpecification?,
-    coarsest: DetailSpecification, obstacle: ProcessingError?
+    coarsest: DetailSpecification
   ) {
     self.request = request
     self.specification = specification
@@ -90,15 +83,11 @@ extension RunPlan.Entry {
       case .poses: .imageAlignment
       case .pointCloud: .pointCloudGeneration
       case .bounds: .meshGeneration
-      case .modelFile, .modelEntity: .optimization
+      case .modelEntity: .textureMapping
+      case .modelFile: .optimization
       }
     if request == .bounds { self.specification = coarsest }
     let stages = PipelineStage.allCases
-    self.obstacle = obstacle
-    guard obstacle == nil else {
-      units = []
-      return
-    }
     units = stages.prefix(through: stages.firstIndex(of: last) ?? 0)
       .map { [specification = self.specification] in
         WorkUnit(stage: $0, specification: specification)
@@ -107,31 +96,14 @@ extension RunPlan.Entry {
 
   /// Sorts by how much of the pipeline is needed, then by how fine it is to be.
   fileprivate var rank: Int {
-    guard units.last?.stage == .optimization else { return units.count }
-    return units.count + (specification?.viewPixels ?? 0)
+    switch request {
+    case .poses, .pointCloud, .bounds: units.count
+    case .modelFile, .modelEntity: units.count + (specification?.viewPixels ?? 0)
+    }
   }
 }
 
 extension PhotogrammetrySession.Request {
-  /// Why the request can't be met, whatever the photos show; nil if it can.
-  fileprivate func obstacle(
-    _ configuration: PhotogrammetrySession.Configuration
-  ) -> ProcessingError? {
-    switch self {
-    case .modelEntity:
-      .noModelEntity
-    case .modelFile(_, _, let geometry?) where geometry != .init():
-      .notAvailable(
-        "Models can't be cropped or moved yet.",
-        remedy: "Request the model without a geometry and crop it in another program.")
-    case .modelFile where configuration.meshPrimitive == .quad:
-      .notAvailable(
-        "Meshes of four-sided faces can't be made yet.",
-        remedy: "Set the configuration's meshPrimitive to triangle.")
-    case .modelFile, .bounds, .pointCloud, .poses: nil
-    }
-  }
-
   /// The budgets of the model that is asked for; nil where none is.
   fileprivate func specification(
     _ configuration: PhotogrammetrySession.Configuration

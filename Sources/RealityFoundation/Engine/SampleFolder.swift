@@ -9,6 +9,8 @@ import SceneModel
 final class SampleFolder: @unchecked Sendable {
   /// The sample ids in the order of the files.
   private(set) var ids: [Int] = []
+  /// Directions of gravity in the frames of the cameras, by the number of the file.
+  private(set) var gravity: [Int: SIMD3<Double>] = [:]
 
   private let next: () -> PhotogrammetrySample?
   private var folder: URL?
@@ -68,6 +70,7 @@ final class SampleFolder: @unchecked Sendable {
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.name(ids.count)))
     if let mask = sample.objectMask { try write(mask, of: sample, to: folder, onEvent) }
+    gravity[ids.count] = sample.gravityInCamera
     ids.append(sample.id)
   }
 

@@ -69,16 +69,13 @@ final class SessionCore: Sendable {
   }
 
   private func perform(_ task: EngineTask, _ flag: CancellationFlag, _ resident: inout Resident) {
-    for entry in task.plan.entries {
-      if let obstacle = entry.obstacle { fail(entry, obstacle) }
-    }
     do {
       if resident.flag !== flag { resident = Resident(engine: nil, flag: flag) }
       try work(on: task, &resident.engine, flag)
     } catch is CancellationError {
       // The state knows, and `finished` tells.
     } catch {
-      for entry in task.plan.feasible { fail(entry, error) }
+      for entry in task.plan.entries { fail(entry, error) }
     }
     if let engine = resident.engine { settle(engine) }
     emit { $0.finished() }
@@ -98,14 +95,13 @@ final class SessionCore: Sendable {
     on task: EngineTask, _ resident: inout (any SessionEngine)?, _ flag: CancellationFlag
   ) throws {
     let plan = task.plan
-    guard !plan.feasible.isEmpty else { return }
     let engine = try resident ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
     resident = engine
     engine.plan(for: plan.specifications)
     let count = try engine.ingest()
     sessionLogger.info("Ingestion done: \(count) photos are used.")
     emit { $0.ingested(photos: count) }
-    for entry in plan.feasible {
+    for entry in plan.entries {
       if flag.isCancelled { throw CancellationError() }
       shared.withLock { $0.state.began(entry) }
       do {

@@ -10,7 +10,13 @@ protocol SessionEngine: AnyObject {
   func poses() throws -> PhotogrammetrySession.Poses
   func pointCloud(_ specification: DetailSpecification) throws -> PhotogrammetrySession.PointCloud
   func bounds(_ specification: DetailSpecification) throws -> BoundingBox
-  func writeModel(_ specification: DetailSpecification, to url: URL) throws
+  func modelEntity(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry
+  ) throws -> ModelEntity
+  func writeModel(
+    _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
+    to url: URL
+  ) throws
   /// Leaves what the run's files need at the end of a task, the report for one.
   func finishTask() throws
   /// What was done so far.
@@ -35,11 +41,11 @@ extension SessionEngine {
     case .poses: return .poses(try poses())
     case .pointCloud: return .pointCloud(try pointCloud(plan.finest))
     case .bounds: return .bounds(try bounds(specification))
-    case .modelFile(let url, _, _):
-      try writeModel(specification, to: url)
+    case .modelFile(let url, _, let geometry):
+      try writeModel(specification, geometry ?? .init(), to: url)
       return .modelFile(url)
-    case .modelEntity:
-      throw ProcessingError.noModelEntity
+    case .modelEntity(_, let geometry):
+      return .modelEntity(try modelEntity(specification, geometry ?? .init()))
     }
   }
 }

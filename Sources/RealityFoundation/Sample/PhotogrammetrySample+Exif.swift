@@ -6,8 +6,7 @@ extension PhotogrammetrySample {
     let camera = section("{Exif}")
     exif.image[271] = text(tiff["Make"])
     exif.image[272] = text(tiff["Model"])
-    let stored = number(metadata["Orientation"]).map { UInt16(clamping: Int($0)) }
-    exif.image[274] = .short(orientation == .up ? stored ?? 1 : UInt16(orientation.rawValue))
+    exif.image[274] = .short(UInt16(storedOrientation.rawValue))
     exif.camera[42033] = text(camera["BodySerialNumber"])
     exif.camera[42036] = text(camera["LensModel"])
     exif.camera[42037] = text(camera["LensSerialNumber"])
@@ -16,6 +15,14 @@ extension PhotogrammetrySample {
     exif.camera[41989] = lengths.film.map { .short(UInt16(clamping: Int($0.rounded()))) }
     exif.place = place(section("{GPS}"))
     return exif
+  }
+
+  /// How the pixels are to be turned: as the sample's file says, else the metadata.
+  var storedOrientation: CGImagePropertyOrientation {
+    guard orientation == .up, let number = number(metadata["Orientation"]) else {
+      return orientation
+    }
+    return UInt32(exactly: number).flatMap(CGImagePropertyOrientation.init(rawValue:)) ?? .up
   }
 
   /// Millimetres: the true focal length and the one on 35 mm film. Known intrinsics are given as

@@ -8,7 +8,8 @@ public struct PhotogrammetrySample: Identifiable {
   public var metadata: [String: Any] = [:]
   /// Depths in metres or disparities, as DepthFloat32 or DisparityFloat32.
   public var depthDataMap: CVPixelBuffer?
-  /// The direction of gravity in the device's frame.
+  /// The direction of gravity in the device's frame, as a phone's motion sensors tell it: x to the
+  /// right and y up on the screen, z towards the user. It says what is up in the model.
   public var gravity: CMAcceleration?
   /// Where the object is, OneComponent8 of the image's size; zero is not part of it.
   public var objectMask: CVPixelBuffer?

@@ -11,9 +11,11 @@ extension PhotogrammetrySession {
     public var checkpointDirectory: URL?
     /// What models of the detail level `custom` may have at most.
     public var customDetailSpecification = CustomDetailSpecification()
-    /// The shape of the faces of the models.
+    /// The shape of the faces of models in files. Where triangles don't make a good quad they stay, so
+    /// that a mesh of quads has some triangles; entities have nothing else.
     public var meshPrimitive = MeshPrimitive.triangle
-    /// Whether to disregard the bounding boxes that samples carry.
+    /// Whether to disregard the bounding boxes that samples carry. Samples made from pixels and those
+    /// of JPEG and PNG files carry none.
     public var ignoreBoundingBox = false
 
     /// Creates the default configuration.

@@ -1,7 +1,7 @@
 extension PhotogrammetrySession.Configuration {
   /// What a model of the detail level `custom` may have at most.
   public struct CustomDetailSpecification: Equatable, Sendable {
-    /// The number of faces.
+    /// The number of faces. A mesh of quads is made of no more triangles than that, and so has fewer.
     public var maximumPolygonCount: UInt = 100_000
     /// The side of a texture.
     public var maximumTextureDimension = TextureDimension.fourK

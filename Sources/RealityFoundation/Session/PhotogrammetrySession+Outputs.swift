@@ -4,7 +4,7 @@ extension PhotogrammetrySession {
   /// Nothing is lost before the first iteration. Iterations at the same time see the same outputs;
   /// one that begins later goes on where the farthest has been. The sequence does not end with
   /// `processingComplete` but when the session goes away.
-  public struct Outputs: AsyncSequence {
+  public struct Outputs: AsyncSequence, Sendable {
     /// What the sequence consists of.
     public typealias Element = Output
     /// The type of the errors that iteration may throw.

@@ -33,9 +33,10 @@ extension PhotogrammetrySession {
 
     /// The part of the scene that a model shows, and where it is put.
     public struct Geometry: Hashable, Sendable {
-      /// The box, with its rotation, outside of which everything is cut off; all if it is empty.
+      /// The box, with its rotation, in the frame of `Request.bounds`; the model is cut off at its faces
+      /// and left open there. An empty box keeps all.
       public var orientedBounds: OrientedBoundingBox
-      /// What is applied to the model.
+      /// What is applied to the model in the end, to its vertices.
       public var transform: Transform
 
       /// The box outside of which everything is cut off. Setting it makes it axis-aligned.

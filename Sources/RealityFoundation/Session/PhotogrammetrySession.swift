@@ -1,4 +1,5 @@
 import Pipeline
+import Synchronization
 
 /// Makes 3-D models from photos of an object.
 ///
@@ -13,14 +14,18 @@ import Pipeline
 /// ```
 ///
 /// The work is done on a thread of the session's own. The session stays alive while it works, even
-/// when nothing refers to it.
-public class PhotogrammetrySession {
+/// when nothing refers to it. It may be used from any thread.
+public class PhotogrammetrySession: @unchecked Sendable {
   /// How the session treats its photos.
   public let configuration: Configuration
 
   /// What our engine is told beyond the configuration; set it before the first `process`.
-  package var engineOptions = EngineOptions()
+  package var engineOptions: EngineOptions {
+    get { options.withLock { $0 } }
+    set { options.withLock { $0 = newValue } }
+  }
 
+  private let options = Mutex(EngineOptions())
   private let identity = UUID()
   let input: SessionInput
   let core: SessionCore
@@ -33,7 +38,11 @@ public class PhotogrammetrySession {
     self.init(.folder(input), configuration: configuration)
   }
 
-  /// Creates a session for a sequence of samples, which is gone through once.
+  /// Creates a session for a sequence of samples, which is gone through once, sample by sample as they
+  /// are read.
+  ///
+  /// That happens on a thread of the session's own, after `process` was called. A lazy sequence of
+  /// closures must not belong to the main actor, as closures in a program's `main` do in Swift 6.
   public convenience init<S>(
     input: S, configuration: Configuration = Configuration()
   ) throws where S: Sequence, S.Element == PhotogrammetrySample {

@@ -5,7 +5,7 @@ package struct ProcessingError: LocalizedError, CustomNSError, Equatable, Sendab
   /// What kind of error it is.
   package enum Code: Int, Sendable {
     case unknown = 0
-    case alreadyProcessing, invalidRequest, notAvailable, invalidInput, tooFewPhotos
+    case alreadyProcessing, invalidRequest, emptyCrop, invalidInput, tooFewPhotos
     case alignmentFailed, noSurface, checkpointUnusable, outputFailed
   }
 
@@ -33,15 +33,8 @@ extension ProcessingError {
     code: .alreadyProcessing, reason: "The session is still processing.",
     remedy: "Wait for processingComplete or processingCancelled, or make another session.")
 
-  static let noModelEntity = notAvailable(
-    "A model in memory can't be made on this system.", remedy: "Request a modelFile and load it.")
-
   static func invalidRequest(_ reason: String, remedy: String) -> ProcessingError {
     ProcessingError(code: .invalidRequest, reason: reason, remedy: remedy)
-  }
-
-  static func notAvailable(_ reason: String, remedy: String) -> ProcessingError {
-    ProcessingError(code: .notAvailable, reason: reason, remedy: remedy)
   }
 
   /// The engine's error in the session's words; errors of this type stay as they are.
@@ -73,6 +66,7 @@ extension ProcessingError.Code {
     case .camerasDontFit: self = .alignmentFailed
     case .alignmentFailed: self = .alignmentFailed
     case .noSurface: self = .noSurface
+    case .emptyCrop: self = .emptyCrop
     }
   }
 }

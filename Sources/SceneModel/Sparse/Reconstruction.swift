@@ -43,7 +43,9 @@ package struct WorldFrame: Hashable, Codable, Sendable {
     /// Whether lengths are metres.
     package var isMetric: Bool { self != .arbitrary }
   }
-  package enum Up: String, Hashable, Codable, Sendable { case gps, supportPlane, cameras, unknown }
+  package enum Up: String, Hashable, Codable, Sendable {
+    case gravity, gps, supportPlane, cameras, unknown
+  }
 
   package var scale: Scale
   package var up: Up

@@ -7,6 +7,12 @@ package struct Triangle: Hashable, Sendable {
   package init(_ a: UInt32, _ b: UInt32, _ c: UInt32) {
     (self.a, self.b, self.c) = (a, b, c)
   }
+
+  /// The corners of the face that (a, b, c) makes with the triangle (a, c, d).
+  package func quad(with other: Triangle) -> [UInt32] { [a, b, c, other.c] }
+
+  /// Seen from the other side.
+  package var flipped: Triangle { Triangle(a, c, b) }
 }
 
 /// A triangle mesh in the world frame.

@@ -14,10 +14,17 @@ package struct TextureAtlas: Sendable {
   /// Square images of one side length, top row first. Normal maps are tangent-space RGB
   /// (0.5, 0.5, 1 is flat, OpenGL's y up); occlusion, roughness and displacement are gray.
   package var maps: [TextureMap: RasterImage]
+  /// Four-sided faces a, b, c, d: each two of the first triangles, (a, b, c) and (a, c, d).
+  package var quadCount = 0
 
   package init(triangles: Range<Int>, maps: [TextureMap: RasterImage]) {
     self.triangles = triangles
     self.maps = maps
+  }
+
+  /// The triangles that are halves of four-sided faces.
+  package var halves: Range<Int> {
+    triangles.lowerBound..<triangles.lowerBound + 2 * quadCount
   }
 }
 

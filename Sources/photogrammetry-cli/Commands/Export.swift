@@ -5,6 +5,7 @@
   import Logging
   import Pipeline
   import RealityFoundation
+  import SceneModel
 
   /// Makes another model of what a run left in its checkpoint directory.
   struct Export: ParsableCommand {
@@ -45,6 +46,8 @@
 
     @OptionGroup var detail: DetailArguments
 
+    @OptionGroup var shape: ShapeArguments
+
     @Option(
       name: .long,
       help: ArgumentHelp(
@@ -63,8 +66,10 @@
       try arguments.checkOutputs()
       var configuration = PipelineConfiguration()
       configuration.previewFile = try preview.file()
+      configuration.meshPrimitive = shape.quads ? .quad : .triangle
       if let threads = arguments.threads { configuration.threadCount = threads }
       let specification = detail.budgets
+      let geometry = ModelGeometry(shape.geometry ?? .init())
       let saved = try savedRun()
       let flag = CancellationFlag()
       let interrupts = InterruptHandler { flag.cancel() }
@@ -73,7 +78,7 @@
       let pipeline = ReconstructionPipeline(
         saved, configuration: configuration, flag: flag, onEvent: listener.take)
       let outcome = Result {
-        try pipeline.writeModel(specification, to: target.url)
+        try pipeline.writeModel(specification, in: geometry, to: target.url)
       }
       listener.finish()
       try arguments.writeReport(of: pipeline)

@@ -72,6 +72,8 @@ struct Reconstruct: AsyncParsableCommand {
 
   @OptionGroup var surface: SurfaceArguments
 
+  @OptionGroup var shape: ShapeArguments
+
   @OptionGroup var engine: EngineArguments
 
   @Flag(name: .long, help: "Tell progress and results as JSON, an object a line, on stdout.")

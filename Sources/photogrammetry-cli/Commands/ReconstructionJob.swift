@@ -49,9 +49,8 @@ struct ReconstructionJob {
     try arguments.engine.configure(session, photos: input)
     try arguments.preview.configure(session)
     arguments.surface.configure(session)
-    // The session is safe to cancel from any thread.
-    nonisolated(unsafe) let cancellable = session
-    let interrupts = InterruptHandler { cancellable.cancel() }
+    let cancellable = Cancellable(session: session)
+    let interrupts = InterruptHandler { cancellable.session.cancel() }
     var run = Run(job: self, reporter: reporter)
     do {
       try session.process(requests: requests)
@@ -90,11 +89,15 @@ struct ReconstructionJob {
     configuration.featureSensitivity = arguments.alignment.featureSensitivity.sensitivity
     configuration.checkpointDirectory = checkpointURL
     configuration.customDetailSpecification = arguments.detail.specification
+    configuration.meshPrimitive = arguments.shape.primitive
     return configuration
   }
 
   private var requests: [PhotogrammetrySession.Request] {
-    var requests = [Request.modelFile(url: output.url, detail: arguments.detail.detail.detail)]
+    var requests = [
+      Request.modelFile(
+        url: output.url, detail: arguments.detail.detail.detail, geometry: arguments.shape.geometry)
+    ]
     if posesURL != nil { requests.append(.poses) }
     if pointCloudURL != nil { requests.append(.pointCloud) }
     return requests
@@ -134,6 +137,11 @@ struct ReconstructionJob {
   fileprivate func warn(_ sentence: String) {
     if !sessionLogsItsOutputs { logger.warning("\(sentence)") }
   }
+}
+
+/// A session that is safe to cancel from any thread, even if its type doesn't say so.
+private struct Cancellable: @unchecked Sendable {
+  let session: PhotogrammetrySession
 }
 
 /// What is known of a run while its outputs come in.

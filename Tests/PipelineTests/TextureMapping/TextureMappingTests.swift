@@ -78,6 +78,23 @@ import Testing
     #expect(ratio > 0.85 && ratio < 1.1)
   }
 
+  @Test func photosDontSeeThroughWhatIsCutOff() throws {
+    let scene = SphereScene(viewCount: 12, color: Self.color)
+    // A cap before the upper part of the sphere, which no photo shows then.
+    var cap = SyntheticMesh.sphere(radius: 1.2, subdivisions: 4)
+    cap.triangles.removeAll { t in t.vertices.contains { cap.positions[$0].y < 0 } }
+    let model = try TextureMapping(options: .init(textureSide: 512, maps: [.diffuseColor])).run(
+      mesh, dense: mesh, occluders: cap, reconstruction: scene.reconstruction,
+      images: ImageStore(images: scene.images), StageContext())
+    #expect(model.mesh.triangles.count == mesh.triangles.count)
+    let errors = try samples(model).map { sample in
+      (y: sample.position.y, error: abs(sample.color.x - Self.color(sample.position).x))
+    }
+    func mean(_ values: [Float]) -> Float { values.reduce(0, +) / Float(values.count) }
+    #expect(mean(errors.filter { $0.y < -0.3 }.map(\.error)) < 3)
+    #expect(mean(errors.filter { $0.y > 0.6 }.map(\.error)) > 20)
+  }
+
   @Test func whatNoPhotoSeesIsFilledFromItsSurroundings() throws {
     var scene = SphereScene(viewCount: 12, color: Self.color)
     // Only the cameras above remain.

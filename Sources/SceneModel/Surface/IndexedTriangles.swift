@@ -1,21 +1,19 @@
-import SceneModel
-
-/// The triangles of one atlas as glTF wants them, whose vertices have a single index: a vertex for
-/// each position, split only where texture coordinates differ.
-struct GLTFPrimitive {
+/// The triangles of one atlas with a single index a vertex, as glTF and graphics cards want them: a
+/// vertex for each position, split only where texture coordinates differ.
+package struct IndexedTriangles: Sendable {
   /// Of each vertex its index into the mesh's positions and normals, in the order of first use.
-  private(set) var positions: [UInt32] = []
+  package private(set) var positions: [UInt32] = []
   /// Of each vertex its index into the texture coordinates; empty where there are none.
-  private(set) var coordinates: [UInt32] = []
+  package private(set) var coordinates: [UInt32] = []
   /// Three vertices a triangle.
-  private(set) var indices: [UInt32] = []
+  package private(set) var indices: [UInt32] = []
 
   /// The vertex that a position got first, and of each vertex the next at the same position.
   private var first: [UInt32]
   private var next: [UInt32] = []
   private static let none = UInt32.max
 
-  init(_ mesh: TexturedMesh, triangles range: Range<Int>) {
+  package init(_ mesh: TexturedMesh, triangles range: Range<Int>) {
     let hasTexture = mesh.textureTriangles.count == mesh.mesh.triangles.count
     first = [UInt32](repeating: Self.none, count: mesh.mesh.positions.count)
     indices.reserveCapacity(3 * range.count)

@@ -2,21 +2,24 @@ import Kernels
 
 /// An image in memory: what CoreVideo calls a pixel buffer, with one plane.
 public final class CVPixelBuffer {
-  let width: Int
-  let height: Int
-  let pixelFormat: OSType
-  let bytesPerRow: Int
-  let storage: PixelStorage
+  package let width: Int
+  package let height: Int
+  package let pixelFormat: OSType
+  package let bytesPerRow: Int
+  package let storage: PixelStorage
+  /// The bytes of a row that hold pixels.
+  let rowSize: Int
 
   /// Fails for sizes below 1, images beyond 16 GiB and pixel formats without a fixed pixel size.
-  init?(width: Int, height: Int, pixelFormat: OSType) {
+  package init?(width: Int, height: Int, pixelFormat: OSType) {
     guard let pixelSize = bytesPerPixel(of: pixelFormat) else { return nil }
     guard (1...65536).contains(width), (1...65536).contains(height) else { return nil }
     self.width = width
     self.height = height
     self.pixelFormat = pixelFormat
+    rowSize = width * pixelSize
     // Rows begin at multiples of 64 bytes, as they do in CoreVideo.
-    bytesPerRow = (width * pixelSize + 63) / 64 * 64
+    bytesPerRow = (rowSize + 63) / 64 * 64
     storage = PixelStorage(byteCount: bytesPerRow * height)
   }
 }
@@ -28,6 +31,11 @@ extension CVPixelBuffer: Hashable {
   /// Hashes the identity of the buffer.
   public func hash(into hasher: inout Hasher) { hasher.combine(ObjectIdentifier(self)) }
 }
+
+/// An image that can be a pixel buffer; here it always is.
+public typealias CVImageBuffer = CVPixelBuffer
+/// A buffer of any kind; here it always has pixels.
+public typealias CVBuffer = CVPixelBuffer
 
 /// A code of four characters.
 public typealias OSType = UInt32

@@ -1,30 +1,9 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
+import Foundation
+import Kernels
+
 // The part of CoreVideo's C interface that fills and reads the pixel buffers of samples. Its
 // signatures are the only ones outside of Kernels that name unsafe pointers.
-
-/// The call succeeded.
-public let kCVReturnSuccess: CVReturn = 0
-/// A parameter of the call is not valid.
-public let kCVReturnInvalidArgument: CVReturn = -6661
-/// The pixel format is not supported.
-public let kCVReturnInvalidPixelFormat: CVReturn = -6680
-
-/// Blue, green, red, alpha; 8 bits each.
-public let kCVPixelFormatType_32BGRA: OSType = 0x4247_5241
-/// Alpha, red, green, blue; 8 bits each.
-public let kCVPixelFormatType_32ARGB: OSType = 0x0000_0020
-/// Red, green, blue, alpha; 8 bits each.
-public let kCVPixelFormatType_32RGBA: OSType = 0x5247_4241
-/// Red, green, blue; 8 bits each.
-public let kCVPixelFormatType_24RGB: OSType = 0x0000_0018
-/// One 8-bit component.
-public let kCVPixelFormatType_OneComponent8: OSType = 0x4C30_3038
-/// One 32-bit floating-point component.
-public let kCVPixelFormatType_OneComponent32Float: OSType = 0x4C30_3066
-/// Depths in metres as 32-bit floating-point numbers.
-public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
-/// Disparities in 1/metre as 32-bit floating-point numbers.
-public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
 
 /// How a buffer is locked.
 public struct CVPixelBufferLockFlags: OptionSet, Sendable {
@@ -40,11 +19,39 @@ public struct CVPixelBufferLockFlags: OptionSet, Sendable {
 
 /// Creates a pixel buffer of zeros. Allocator and attributes have no effect.
 @discardableResult public func CVPixelBufferCreate(
-  _ allocator: AnyObject?, _ width: Int, _ height: Int, _ pixelFormatType: OSType,
-  _ pixelBufferAttributes: [String: Any]?, _ pixelBufferOut: inout CVPixelBuffer?
+  _ allocator: CFAllocator?, _ width: Int, _ height: Int, _ pixelFormatType: OSType,
+  _ pixelBufferAttributes: CFDictionary?, _ pixelBufferOut: inout CVPixelBuffer?
 ) -> CVReturn {
   pixelBufferOut = CVPixelBuffer(width: width, height: height, pixelFormat: pixelFormatType)
   return pixelBufferOut == nil ? kCVReturnInvalidArgument : kCVReturnSuccess
+}
+
+/// Is told when the bytes that it was created with are not needed any more.
+public typealias CVPixelBufferReleaseBytesCallback =
+  @convention(c) (UnsafeMutableRawPointer?, UnsafeRawPointer?) -> Void
+
+/// Creates a pixel buffer from rows of pixels, which are copied; so the callback, which gets
+/// `releaseRefCon` and the bytes, is called at once. Allocator and attributes have no effect.
+@discardableResult public func CVPixelBufferCreateWithBytes(
+  _ allocator: CFAllocator?, _ width: Int, _ height: Int, _ pixelFormatType: OSType,
+  _ baseAddress: UnsafeMutableRawPointer, _ bytesPerRow: Int,
+  _ releaseCallback: CVPixelBufferReleaseBytesCallback?,
+  _ releaseRefCon: UnsafeMutableRawPointer?, _ pixelBufferAttributes: CFDictionary?,
+  _ pixelBufferOut: inout CVPixelBuffer?
+) -> CVReturn {
+  pixelBufferOut = CVPixelBuffer(width: width, height: height, pixelFormat: pixelFormatType)
+  guard let buffer = pixelBufferOut, bytesPerRow >= buffer.rowSize else {
+    pixelBufferOut = nil
+    return kCVReturnInvalidArgument
+  }
+  let source = UnsafeRawBufferPointer(start: baseAddress, count: height * bytesPerRow)
+  for row in 0..<height {
+    let start = row * bytesPerRow
+    buffer.storage.write(
+      Array(source[start..<start + buffer.rowSize]), at: row * buffer.bytesPerRow)
+  }
+  releaseCallback?(releaseRefCon, baseAddress)
+  return kCVReturnSuccess
 }
 
 /// Makes the pixels accessible. They always are.
@@ -83,5 +90,8 @@ public func CVPixelBufferGetDataSize(_ pixelBuffer: CVPixelBuffer) -> Int {
   pixelBuffer.storage.byteCount
 }
 
-/// The default allocator, which has no effect.
-public var kCFAllocatorDefault: AnyObject? { nil }
+/// Whether the components lie in planes of their own; they never do.
+public func CVPixelBufferIsPlanar(_ pixelBuffer: CVPixelBuffer) -> Bool { false }
+
+/// The number of planes: 0 where the components don't lie in planes of their own.
+public func CVPixelBufferGetPlaneCount(_ pixelBuffer: CVPixelBuffer) -> Int { 0 }

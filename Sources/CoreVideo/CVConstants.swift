@@ -1,0 +1,42 @@
+// swift-format-ignore-file: AlwaysUseLowerCamelCase
+
+/// The call succeeded.
+public let kCVReturnSuccess: CVReturn = 0
+/// A parameter of the call is not valid.
+public let kCVReturnInvalidArgument: CVReturn = -6661
+/// The pixel format is not supported.
+public let kCVReturnInvalidPixelFormat: CVReturn = -6680
+
+/// Blue, green, red, alpha; 8 bits each.
+public let kCVPixelFormatType_32BGRA: OSType = 0x4247_5241
+/// Alpha, red, green, blue; 8 bits each.
+public let kCVPixelFormatType_32ARGB: OSType = 0x0000_0020
+/// Red, green, blue, alpha; 8 bits each.
+public let kCVPixelFormatType_32RGBA: OSType = 0x5247_4241
+/// Red, green, blue; 8 bits each.
+public let kCVPixelFormatType_24RGB: OSType = 0x0000_0018
+/// One 8-bit component.
+public let kCVPixelFormatType_OneComponent8: OSType = 0x4C30_3038
+/// One 32-bit floating-point component.
+public let kCVPixelFormatType_OneComponent32Float: OSType = 0x4C30_3066
+/// Depths in metres as 32-bit floating-point numbers.
+public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
+/// Disparities in 1/metre as 32-bit floating-point numbers.
+public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
+
+/// Attribute: the code of the pixel format. Attributes have no effect.
+public let kCVPixelBufferPixelFormatTypeKey: CFString = "PixelFormatType"
+/// Attribute: the width in pixels.
+public let kCVPixelBufferWidthKey: CFString = "Width"
+/// Attribute: the height in pixels.
+public let kCVPixelBufferHeightKey: CFString = "Height"
+/// Attribute: to what multiple of bytes rows are padded.
+public let kCVPixelBufferBytesPerRowAlignmentKey: CFString = "BytesPerRowAlignment"
+/// Attribute: whether Core Graphics can read the pixels.
+public let kCVPixelBufferCGImageCompatibilityKey: CFString = "CGImageCompatibility"
+/// Attribute: whether Core Graphics can draw into the pixels.
+public let kCVPixelBufferCGBitmapContextCompatibilityKey: CFString = "CGBitmapContextCompatibility"
+/// Attribute: whether Metal can read the pixels.
+public let kCVPixelBufferMetalCompatibilityKey: CFString = "MetalCompatibility"
+/// Attribute: how the pixels are shared between processes.
+public let kCVPixelBufferIOSurfacePropertiesKey: CFString = "IOSurfaceProperties"

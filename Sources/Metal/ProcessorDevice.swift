@@ -1,0 +1,48 @@
+// swift-format-ignore-file: AlwaysUseLowerCamelCase
+import Foundation
+
+/// The device that models are made with, the only one.
+public func MTLCreateSystemDefaultDevice() -> (any MTLDevice)? { ProcessorDevice.shared }
+
+/// All devices: the one that models are made with.
+public func MTLCopyAllDevices() -> [any MTLDevice] { [ProcessorDevice.shared] }
+
+/// The machine's processor as a device.
+///
+/// Its properties answer the question that programs ask: whether models can be made here. Whether
+/// this machine has the memory for it, `PhotogrammetrySession.isSupported` tells.
+final class ProcessorDevice: MTLDevice {
+  static let shared = ProcessorDevice()
+
+  let name = "Processor"
+  let registryID: UInt64 = 1
+  let architecture = MTLArchitecture(name: "processor")
+  let location = MTLDeviceLocation.builtIn
+  let locationNumber = 0
+  let isLowPower = false
+  let isHeadless = true
+  let isRemovable = false
+  let hasUnifiedMemory = true
+  let currentAllocatedSize = 0
+  let maxTransferRate: UInt64 = 0
+  let maxThreadgroupMemoryLength = 32_768
+  let supportsRaytracing = true
+  let supportsRaytracingFromRender = true
+  let supportsFunctionPointers = true
+  let supportsShaderBarycentricCoordinates = true
+  let areBarycentricCoordsSupported = true
+  let supports32BitFloatFiltering = true
+  let supportsBCTextureCompression = true
+
+  var maxThreadsPerThreadgroup: MTLSize { MTLSizeMake(1024, 1024, 1024) }
+
+  /// The machine's memory, and no less than the 4 GB that Object Capture asks of a graphics card:
+  /// this engine gets by with less.
+  var recommendedMaxWorkingSetSize: UInt64 {
+    max(ProcessInfo.processInfo.physicalMemory, 4 << 30)
+  }
+
+  var maxBufferLength: Int { Int(clamping: recommendedMaxWorkingSetSize / 2) }
+
+  func supportsFamily(_ gpuFamily: MTLGPUFamily) -> Bool { true }
+}

@@ -1,0 +1,1 @@
+// What `import os.log` gives is in the Swift module `os`.

@@ -1,0 +1,181 @@
+import Foundation
+import SceneModel
+
+/// Makes four-sided faces of triangles: first of the pairs that come nearest to flat squares, then of
+/// as many as can still be paired (the matching of Remacle et al., "Blossom-Quad", 2012, done
+/// greedily). What finds no partner stays a triangle, and no quad crosses a seam of the texture.
+struct QuadPairing: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Between the normals of the two triangles, at most, in degrees.
+    var maximumBendDegrees: Float = 40
+    /// By how much a corner may differ from a right angle, at most, in degrees.
+    var maximumSkewDegrees: Float = 75
+    /// Rounds in which pairs are taken apart for two others.
+    var rounds = 8
+  }
+
+  var options = Options()
+
+  /// The same model with the triangles of each texture in another order: those of quads first.
+  func run(_ model: TexturedMesh, _ context: StageContext) throws -> TexturedMesh {
+    guard !model.atlases.isEmpty, model.textureTriangles.count == model.mesh.triangles.count else {
+      return model
+    }
+    try context.control.step(0)
+    let graph = PairGraph(pairs(in: model), triangleCount: model.mesh.triangles.count)
+    let partners = graph.matching(rounds: options.rounds)
+    try context.control.step(1)
+    let result = reordered(model, partners: partners)
+    let quads = result.atlases.map(\.quadCount).reduce(0, +)
+    context.notes.count("quads", Double(quads))
+    context.notes.count("polygons", Double(model.mesh.triangles.count - quads))
+    return result
+  }
+
+  /// The pairs that would make a good quad, the best first.
+  private func pairs(in model: TexturedMesh) -> [PairGraph.Pair] {
+    let atlas = model.atlases.enumerated().flatMap { index, atlas in
+      repeatElement(Int32(index), count: atlas.triangles.count)
+    }
+    let edges = MeshTopology(model.mesh).edges
+    let rated = edges.compactMap { edge -> PairGraph.Pair? in
+      guard edge.second >= 0, atlas[Int(edge.first)] == atlas[Int(edge.second)],
+        let quad = Quad(Int(edge.first), Int(edge.second), of: model),
+        let quality = quality(of: quad, in: model.mesh)
+      else { return nil }
+      return PairGraph.Pair(first: edge.first, second: edge.second, quality: quality)
+    }
+    return rated.enumerated()
+      .sorted { ($0.element.quality, $1.offset) > ($1.element.quality, $0.offset) }
+      .map(\.element)
+  }
+
+  /// From 0 to 1, a flat rectangle; nil for what is bent, skewed or not convex.
+  private func quality(of quad: Quad, in mesh: Mesh) -> Float? {
+    let p = quad.corners.map { mesh.positions[Int($0)] }
+    let normals = [(p[1] - p[0]).cross(p[2] - p[0]), (p[2] - p[0]).cross(p[3] - p[0])]
+    let bend = Mesh.angle(normals[0], normals[1])
+    guard bend <= options.maximumBendDegrees * .pi / 180 else { return nil }
+    let skew =
+      (0..<4).map { corner -> Float in
+        let (next, last) = (p[(corner + 1) % 4] - p[corner], p[(corner + 3) % 4] - p[corner])
+        let angle = Mesh.angle(next, last)
+        let isConvex = next.cross(last).dot(normals[0] + normals[1]) > 0
+        return isConvex ? abs(angle - .pi / 2) : .infinity
+      }.max() ?? .infinity
+    guard skew <= options.maximumSkewDegrees * .pi / 180 else { return nil }
+    return cos(bend) * (1 - skew / (.pi / 2))
+  }
+
+  private func reordered(_ model: TexturedMesh, partners: [Int32]) -> TexturedMesh {
+    var result = model
+    for (index, atlas) in model.atlases.enumerated() {
+      var next = atlas.triangles.lowerBound
+      func put(_ triangle: Triangle, _ texture: Triangle) {
+        result.mesh.triangles[next] = triangle
+        result.textureTriangles[next] = texture
+        next += 1
+      }
+      for face in atlas.triangles where Int(partners[face]) > face {
+        guard let quad = Quad(face, Int(partners[face]), of: model) else { continue }
+        put(quad.triangles.0, quad.textureTriangles.0)
+        put(quad.triangles.1, quad.textureTriangles.1)
+      }
+      result.atlases[index].quadCount = (next - atlas.triangles.lowerBound) / 2
+      for face in atlas.triangles where partners[face] < 0 {
+        put(model.mesh.triangles[face], model.textureTriangles[face])
+      }
+    }
+    return result
+  }
+}
+
+/// A four-sided face a, b, c, d of the triangles (a, b, c) and (a, c, d).
+private struct Quad {
+  let corners: [UInt32]
+  let texels: [UInt32]
+
+  /// Fails where the triangles share no edge, or not in the texture, or not in the same sense.
+  init?(_ first: Int, _ second: Int, of model: TexturedMesh) {
+    let (v, w) = (
+      Self.corners(model.mesh.triangles[first]), Self.corners(model.mesh.triangles[second])
+    )
+    let t = Self.corners(model.textureTriangles[first])
+    let u = Self.corners(model.textureTriangles[second])
+    for i in 0..<3 {
+      for j in 0..<3 where v[i] == w[(j + 1) % 3] && v[(i + 1) % 3] == w[j] {
+        guard t[i] == u[(j + 1) % 3], t[(i + 1) % 3] == u[j] else { return nil }
+        // The shared edge runs from v[i] to v[i + 1]; d lies beyond it.
+        corners = [v[(i + 1) % 3], v[(i + 2) % 3], v[i], w[(j + 2) % 3]]
+        texels = [t[(i + 1) % 3], t[(i + 2) % 3], t[i], u[(j + 2) % 3]]
+        return
+      }
+    }
+    return nil
+  }
+
+  var triangles: (Triangle, Triangle) { Self.halves(corners) }
+  var textureTriangles: (Triangle, Triangle) { Self.halves(texels) }
+
+  private static func halves(_ c: [UInt32]) -> (Triangle, Triangle) {
+    (Triangle(c[0], c[1], c[2]), Triangle(c[0], c[2], c[3]))
+  }
+
+  private static func corners(_ t: Triangle) -> [UInt32] { [t.a, t.b, t.c] }
+}
+
+/// Triangles and with which neighbours they would make a quad.
+private struct PairGraph {
+  struct Pair {
+    var first: Int32
+    var second: Int32
+    var quality: Float
+  }
+
+  private let pairs: [Pair]
+  /// Of each triangle its possible partners, the best first.
+  private var neighbors: [[Int32]]
+
+  /// `pairs` are in the order in which they are taken.
+  init(_ pairs: [Pair], triangleCount: Int) {
+    self.pairs = pairs
+    neighbors = [[Int32]](repeating: [], count: triangleCount)
+    for pair in pairs {
+      neighbors[Int(pair.first)].append(pair.second)
+      neighbors[Int(pair.second)].append(pair.first)
+    }
+  }
+
+  /// Of each triangle its partner, −1 for none.
+  func matching(rounds: Int) -> [Int32] {
+    var partners = [Int32](repeating: -1, count: neighbors.count)
+    for pair in pairs where partners[Int(pair.first)] < 0 && partners[Int(pair.second)] < 0 {
+      partners[Int(pair.first)] = pair.second
+      partners[Int(pair.second)] = pair.first
+    }
+    for _ in 0..<rounds {
+      guard augment(&partners) else { break }
+    }
+    return partners
+  }
+
+  /// Gives two neighbours of a pair, both alone, one half of it each; says whether it happened.
+  private func augment(_ partners: inout [Int32]) -> Bool {
+    var hasChanged = false
+    for lonely in neighbors.indices where partners[lonely] < 0 {
+      for near in neighbors[lonely] {
+        let far = partners[Int(near)]
+        guard far >= 0,
+          let other = neighbors[Int(far)].first(where: {
+            partners[Int($0)] < 0 && Int($0) != lonely
+          })
+        else { continue }
+        (partners[lonely], partners[Int(near)]) = (near, Int32(lonely))
+        (partners[Int(far)], partners[Int(other)]) = (other, far)
+        hasChanged = true
+        break
+      }
+    }
+    return hasChanged
+  }
+}

@@ -1,0 +1,99 @@
+import Synchronization
+
+/// A model in memory: what `Request.modelEntity` asks for.
+///
+/// There is no renderer here, so that an entity is what it carries: its mesh with the textures in
+/// `model`, and its place. It has no parent and no children. It may be used from any thread.
+public final class ModelEntity: Identifiable, Sendable {
+  private struct State {
+    var name = ""
+    var isEnabled = true
+    var transform = Transform.identity
+    var model: ModelComponent?
+  }
+
+  private let state: Mutex<State>
+
+  /// Creates an entity without a model at the origin.
+  public init() { state = Mutex(State()) }
+
+  /// Creates an entity with a model at the origin.
+  public init(mesh: MeshResource, materials: [any Material] = []) {
+    state = Mutex(State(model: ModelComponent(mesh: mesh, materials: materials)))
+  }
+
+  /// A number of the entity's own.
+  public var id: UInt64 { UInt64(UInt(bitPattern: ObjectIdentifier(self))) }
+
+  /// The name of the entity.
+  public var name: String {
+    get { state.withLock { $0.name } }
+    set { state.withLock { $0.name = newValue } }
+  }
+
+  /// Whether the entity is to be shown.
+  public var isEnabled: Bool {
+    get { state.withLock { $0.isEnabled } }
+    set { state.withLock { $0.isEnabled = newValue } }
+  }
+
+  /// The place of the entity in the world.
+  public var transform: Transform {
+    get { state.withLock { $0.transform } }
+    set { state.withLock { $0.transform = newValue } }
+  }
+
+  /// The mesh of the entity and what it is made of.
+  public var model: ModelComponent? {
+    get { state.withLock { $0.model } }
+    set { state.withLock { $0.model = newValue } }
+  }
+}
+
+extension ModelEntity {
+  /// The shift of the entity.
+  public var position: SIMD3<Float> {
+    get { transform.translation }
+    set { transform.translation = newValue }
+  }
+
+  /// The rotation of the entity.
+  public var orientation: simd_quatf {
+    get { transform.rotation }
+    set { transform.rotation = newValue }
+  }
+
+  /// The factors along the entity's axes.
+  public var scale: SIMD3<Float> {
+    get { transform.scale }
+    set { transform.scale = newValue }
+  }
+
+  /// The place of the entity as a matrix, in the space of another or of the world.
+  public func transformMatrix(relativeTo referenceEntity: ModelEntity?) -> float4x4 {
+    if referenceEntity === self { return matrix_identity_float4x4 }
+    guard let reference = referenceEntity?.transform.matrix else { return transform.matrix }
+    return reference.inverse * transform.matrix
+  }
+
+  /// The box around the model, in the space of another entity or of the world.
+  ///
+  /// - Parameters:
+  ///   - recursive: Has no effect: there are no children.
+  ///   - referenceEntity: The entity whose space it is; the world's where it is nil.
+  ///   - excludeInactive: Whether an entity that isn't enabled counts as empty.
+  public func visualBounds(
+    recursive: Bool = true, relativeTo referenceEntity: ModelEntity?, excludeInactive: Bool = false
+  ) -> BoundingBox {
+    guard let model, isEnabled || !excludeInactive else { return .empty }
+    return model.mesh.bounds.transformed(by: transformMatrix(relativeTo: referenceEntity))
+  }
+}
+
+extension ModelEntity: Hashable {
+  /// Whether both are the same entity.
+  public static func == (lhs: ModelEntity, rhs: ModelEntity) -> Bool { lhs === rhs }
+
+  /// Hashes the identity of the entity.
+  public func hash(into hasher: inout Hasher) { hasher.combine(ObjectIdentifier(self)) }
+}

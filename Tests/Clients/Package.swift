@@ -1,0 +1,49 @@
+// swift-tools-version: 6.2
+import Foundation
+import PackageDescription
+
+// Programs as they are written for the Mac, each a target of its own, and the examples. All of them
+// are built in the language mode that CLIENT_LANGUAGE_MODE names, 5 or 6.
+let environment = ProcessInfo.processInfo.environment
+let languageModes: [SwiftLanguageMode] = environment["CLIENT_LANGUAGE_MODE"] == "5" ? [.v5] : [.v6]
+
+/// ArgumentParser from where the engine's package has it.
+let argumentParser: Package.Dependency = {
+  let cache =
+    environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")
+  let folder = environment["PHOTOGRAMMETRY_PACKAGES"] ?? cache + "/photogrammetry-cli/packages"
+  let path = "\(folder)/swift-argument-parser"
+  return FileManager.default.fileExists(atPath: path + "/Package.swift")
+    ? .package(path: path)
+    : .package(url: "https://github.com/apple/swift-argument-parser", from: "1.4.0")
+}()
+
+func module(_ name: String) -> Target.Dependency {
+  .product(name: name, package: "photogrammetry-cli")
+}
+
+func program(_ name: String, _ modules: String..., others: [Target.Dependency] = []) -> Target {
+  .executableTarget(name: name, dependencies: modules.map(module) + others)
+}
+
+let package = Package(
+  name: "Clients",
+  platforms: [.macOS(.v15)],
+  dependencies: [.package(name: "photogrammetry-cli", path: "../.."), argumentParser],
+  targets: [
+    program(
+      "DetailedCommand", "RealityKit", "Metal", "os",
+      others: [.product(name: "ArgumentParser", package: "swift-argument-parser")]),
+    program(
+      "WatchedCommand", "RealityKit", "CoreGraphics", "os", "simd",
+      others: [.product(name: "ArgumentParser", package: "swift-argument-parser")]),
+    program("RunLoopProgram", "RealityKit", "os"),
+    program("SemaphoreProgram", "RealityFoundation", "simd"),
+    program("TopLevelLoop", "RealityKit"),
+    program("AsyncMain", "RealityKit", "CoreGraphics", "CoreVideo", "ImageIO"),
+    program("EverySymbol", "RealityKit", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "os"),
+    program("HelloPhotogrammetry", "RealityKit"),
+    program("SampleSequence", "RealityKit", "CoreVideo"),
+  ],
+  swiftLanguageModes: languageModes
+)
