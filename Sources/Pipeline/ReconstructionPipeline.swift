@@ -20,7 +20,12 @@ package final class ReconstructionPipeline {
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
   private var finestViewPixels = 0
+  /// Others may work in the checkpoint directory at the same time.
+  private var sharesCheckpoint = false
 
+  private var lock: DirectoryLock?
+  private var store: StageStore?
+  private var notes: [PipelineStage: StageNotes] = [:]
   private var ingested: IngestedPhotos?
   private var images: ImageStore?
   private var reconstruction: Reconstruction?
@@ -68,6 +73,7 @@ package final class ReconstructionPipeline {
   /// Reads and validates the photos.
   package func ingest() throws -> IngestedPhotos {
     if let ingested { return ingested }
+    try noting { try lockCheckpoint() }
     let result = try run(.preProcessing) { context in
       if let saved { return try SavedPhotos().run(saved, context) }
       var options = PhotoIngestion.Options()
@@ -86,7 +92,21 @@ package final class ReconstructionPipeline {
     try noting { try checkCount(result) }
     ingested = result
     images = imageStore(of: result)
+    try prepareStore(result)
     return result
+  }
+
+  /// Shares of a dense stage, and models of a run that is over, may be made at the same time.
+  private func lockCheckpoint() throws {
+    guard lock == nil, let checkpoint else { return }
+    lock = try DirectoryLock(checkpoint.directory, isShared: sharesCheckpoint)
+  }
+
+  private func prepareStore(_ ingested: IngestedPhotos) throws {
+    guard let checkpoint, saved == nil, knownCameras == nil else { return }
+    store = StageStore(
+      checkpoint: checkpoint,
+      inputs: try RunInputs(ingested, configuration, gravity: gravity))
   }
 
   private func imageStore(of ingested: IngestedPhotos, isMasked: Bool = true) -> ImageStore {
@@ -109,20 +129,29 @@ package final class ReconstructionPipeline {
   private func findCameras() throws -> Reconstruction {
     let (ingested, images) = try input()
     let result = try run(.imageAlignment) { context in
-      var options = ImageAlignment.Options()
-      options.isSequential = configuration.isSequential
-      options.isHighSensitivity = configuration.isHighSensitivity
-      options.framing.knownDistances = configuration.knownDistances
-      options.framing.gravity = gravity
-      options.mapping.method = configuration.mappingMethod
-      return try MaskedAlignment(ImageAlignment(options))
-        .run(
-          ingested, images: images, wholePhotos: { imageStore(of: ingested, isMasked: false) },
-          context)
+      if let found = store?.reconstruction(of: ingested.photos, context.notes) { return found }
+      let found = try findCameras(ingested, images, context)
+      try store?.save(found, context.notes)
+      return found
     }
     describe(result)
     try checkpoint?.write(result)
     return result
+  }
+
+  private func findCameras(
+    _ ingested: IngestedPhotos, _ images: ImageStore, _ context: StageContext
+  ) throws -> Reconstruction {
+    var options = ImageAlignment.Options()
+    options.isSequential = configuration.isSequential
+    options.isHighSensitivity = configuration.isHighSensitivity
+    options.framing.knownDistances = configuration.knownDistances
+    options.framing.gravity = gravity
+    options.mapping.method = configuration.mappingMethod
+    return try MaskedAlignment(ImageAlignment(options))
+      .run(
+        ingested, images: images, wholePhotos: { imageStore(of: ingested, isMasked: false) },
+        context)
   }
 
   /// Gives the photos the known cameras, and finds sparse points where none came with them. No
@@ -176,6 +205,7 @@ package final class ReconstructionPipeline {
     _ share: PointCloudGeneration.Share, for specification: DetailSpecification
   ) throws {
     plan(for: [specification])
+    sharesCheckpoint = true
     let (_, images) = try input()
     let reconstruction = try align()
     try run(.pointCloudGeneration) { context in
@@ -192,10 +222,33 @@ package final class ReconstructionPipeline {
     plan(for: [specification])
     if let surface, surface.viewPixels >= finestViewPixels { return surface.value }
     if let saved { return reuseSurface(saved) }
-    let (_, images) = try input()
     let reconstruction = try align()
+    let kept = try keptSurface()
+    let result = try kept ?? makeSurface(for: specification, reconstruction)
+    surface = (finestViewPixels, result)
+    if kept == nil { try save(result) }
+    try saveRecord(of: reconstruction)
+    return result
+  }
+
+  /// The surface that an earlier run with the same photos and options has left.
+  private func keptSurface() throws -> Mesh? {
+    guard let store else { return nil }
+    let found = StageNotes()
+    guard let mesh = store.surface(viewPixels: finestViewPixels, found) else { return nil }
+    onEvent(.progress(.pointCloudGeneration, fraction: 1))
+    return try run(.meshGeneration) { context in
+      context.notes.add(found)
+      return mesh
+    }
+  }
+
+  private func makeSurface(
+    for specification: DetailSpecification, _ reconstruction: Reconstruction
+  ) throws -> Mesh {
+    let (_, images) = try input()
     let cloud = try densify(for: specification)
-    let result = try run(.meshGeneration) { context in
+    return try run(.meshGeneration) { context in
       var options = MeshGeneration.Options(viewPixels: finestViewPixels)
       options.isolatesObject = configuration.isObjectMaskingEnabled
       options.closesObject = configuration.closesObject
@@ -210,16 +263,18 @@ package final class ReconstructionPipeline {
           mesh, source: ViewSource(reconstruction, images: images), context.part(from: share, to: 1)
         )
     }
-    surface = (finestViewPixels, result)
-    try save(result, of: reconstruction)
-    return result
   }
 
-  private func save(_ surface: Mesh, of reconstruction: Reconstruction) throws {
-    guard let checkpoint else { return }
-    checkpoint.removeRecord()
-    try checkpoint.write(surface)
-    guard let sparseHash = checkpoint.sparseHash else { return }
+  private func save(_ surface: Mesh) throws {
+    checkpoint?.removeRecord()
+    try checkpoint?.write(surface)
+    try store?.sealSurface(
+      viewPixels: finestViewPixels, notes[.meshGeneration] ?? StageNotes(),
+      denseNotes: notes[.pointCloudGeneration] ?? StageNotes())
+  }
+
+  private func saveRecord(of reconstruction: Reconstruction) throws {
+    guard let checkpoint, let sparseHash = checkpoint.sparseHash else { return }
     try checkpoint.write(
       SurfaceRecord(
         reconstruction, of: try ingest(), in: folder, viewPixels: finestViewPixels,
@@ -303,7 +358,11 @@ package final class ReconstructionPipeline {
   }
 
   /// Writes `report.json` into the checkpoint directory where there is one.
-  package func writeReport() throws { try checkpoint?.write(report) }
+  package func writeReport() throws {
+    // The directory may be another run's.
+    guard lock != nil else { return }
+    try checkpoint?.write(report)
+  }
 }
 
 extension ReconstructionPipeline {
@@ -345,6 +404,7 @@ extension ReconstructionPipeline {
     let control = KernelControl(threadCount: configuration.threadCount, flag: flag) {
       [onEvent] fraction in onEvent(.progress(stage, fraction: fraction))
     }
+    self.notes[stage] = notes
     let start = ResourceUsage.now
     try noting { try control.step(0) }
     defer {

@@ -43,6 +43,40 @@ import Testing
     }
     #expect(try Data(contentsOf: output).prefix(4) == Data([0x50, 0x4b, 3, 4]))
     try theSavedRunGivesTheSameModel(folder.url, output)
+    try anotherRunIsRefused(configuration)
+  }
+
+  private func anotherRunIsRefused(_ configuration: PipelineConfiguration) throws {
+    let pipeline = ReconstructionPipeline(
+      folder: Fixtures.images(of: "orbit"), configuration: configuration)
+    #expect(throws: CheckpointError.self) { try pipeline.ingest() }
+  }
+
+  @Test func whatIsLeftOfARunIsTakenUp() throws {
+    let folder = try TemporaryFolder()
+    var configuration = PipelineConfiguration()
+    configuration.checkpointDirectory = folder.url.appendingPathComponent("checkpoint")
+    func run(_ name: String) throws -> (model: Data, report: RunReport) {
+      let output = folder.url.appendingPathComponent(name)
+      let pipeline = ReconstructionPipeline(
+        folder: Fixtures.images(of: "orbit"), configuration: configuration)
+      try pipeline.writeModel(DetailSpecification(.preview), to: output)
+      return (try Data(contentsOf: output), pipeline.report)
+    }
+    let first = try run("first.usdz")
+    let second = try run("second.usdz")
+    #expect(second.model == first.model)
+    #expect(!second.report.stages.map(\.name).contains("pointCloudGeneration"))
+    #expect(second.report.warnings == first.report.warnings)
+    #expect(second.report.meanReprojectionError == first.report.meanReprojectionError)
+    // Without the surface, and with an alignment that is damaged.
+    let checkpoint = folder.url.appendingPathComponent("checkpoint")
+    try FileManager.default.removeItem(at: checkpoint.appendingPathComponent("mesh/surface.ply"))
+    let alignment = checkpoint.appendingPathComponent("stages/alignment")
+    try Data(contentsOf: alignment).dropLast(100).write(to: alignment)
+    let third = try run("third.usdz")
+    #expect(third.model == first.model)
+    #expect(third.report.stages.map(\.name).contains("pointCloudGeneration"))
   }
 
   private func theSavedRunGivesTheSameModel(_ folder: URL, _ output: URL) throws {

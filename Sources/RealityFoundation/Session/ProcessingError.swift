@@ -46,6 +46,10 @@ extension ProcessingError {
       self.init(
         code: Code(error), reason: error.errorDescription ?? "Processing failed.",
         remedy: error.recoverySuggestion ?? "Check the photos and try again.")
+    case let error as CheckpointError:
+      self.init(
+        code: .checkpointUnusable, reason: error.errorDescription ?? "",
+        remedy: error.recoverySuggestion ?? "")
     case let error as any LocalizedError:
       self.init(
         code: .unknown, reason: error.errorDescription ?? String(describing: error),

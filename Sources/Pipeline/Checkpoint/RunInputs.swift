@@ -1,0 +1,56 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// What the results of a run depend on: numbers that change with any of it.
+struct RunInputs: Sendable {
+  /// Of what alignment depends on.
+  let alignment: UInt64
+  private let configuration: Data
+
+  /// `gravity` has its directions by sample id.
+  init(
+    _ ingested: IngestedPhotos, _ configuration: PipelineConfiguration,
+    gravity: [Int: SIMD3<Double>]
+  ) throws {
+    var fingerprint = Fingerprint()
+    fingerprint.add(ProgramIdentity.fingerprint)
+    fingerprint.add(ingested.photos.count)
+    for (photo, hash) in zip(ingested.photos, ingested.contentHashes) {
+      fingerprint.add(photo.name.utf8)
+      fingerprint.add(photo.sampleID)
+      fingerprint.add(hash)
+      // Where a mask's file is plays no part.
+      fingerprint.add(photo.mask == nil ? 0 : 1)
+      fingerprint.add(photo.mask?.contentHash ?? 0)
+      fingerprint.add(gravity[photo.sampleID] ?? .zero)
+    }
+    fingerprint.add(ingested.processingPixels)
+    fingerprint.add(
+      try Self.json([configuration.isSequential, configuration.isHighSensitivity]))
+    fingerprint.add(try Self.json(configuration.knownDistances))
+    fingerprint.add(try Self.json(configuration.mappingMethod))
+    alignment = fingerprint.value
+    self.configuration =
+      try Self.json(configuration.pointCloudGeneration)
+      + Self.json([
+        configuration.isObjectMaskingEnabled, configuration.closesObject,
+        configuration.refinesSurface,
+      ])
+  }
+
+  /// Of what the surface depends on that is made from views of so many pixels.
+  func surface(viewPixels: Int) -> UInt64 {
+    var fingerprint = Fingerprint()
+    fingerprint.add(alignment)
+    fingerprint.add(configuration)
+    fingerprint.add(viewPixels)
+    return fingerprint.value
+  }
+
+  private static func json(_ value: some Encodable) throws -> Data {
+    let encoder = JSONEncoder()
+    encoder.outputFormatting = .sortedKeys
+    return try encoder.encode(value)
+  }
+}

@@ -1,0 +1,43 @@
+import Formats
+import Foundation
+import Kernels
+
+/// A file that holds its checksum and the fingerprint of all that it was made from.
+///
+/// One that is cut off, damaged, or made from something else counts as missing. Numbers are in
+/// little-endian order.
+enum SealedFile {
+  /// "STAGES01" in ASCII, the fingerprint, the bytes that follow, their checksum.
+  private static let magic: UInt64 = 0x3130_5345_4741_5453
+  private static let headerCount = 4 * MemoryLayout<UInt64>.size
+
+  /// Writes the file whole or not at all; throws `OutputError`.
+  static func write(_ payload: Data, madeFrom fingerprint: UInt64, to url: URL) throws {
+    var data = Data(capacity: headerCount + payload.count)
+    for word in [magic, fingerprint, UInt64(payload.count), checksum(payload, fingerprint)] {
+      withUnsafeBytes(of: word.littleEndian) { data.append(contentsOf: $0) }
+    }
+    data.append(payload)
+    try AtomicFile.write(data, to: url)
+  }
+
+  /// The content; nil where the file is of no use.
+  static func read(_ url: URL, madeFrom fingerprint: UInt64) -> Data? {
+    guard let data = FileManager.default.contents(atPath: url.path), data.count >= headerCount
+    else { return nil }
+    let words = (0..<4).map { index in
+      data.withUnsafeBytes {
+        UInt64(littleEndian: $0.loadUnaligned(fromByteOffset: 8 * index, as: UInt64.self))
+      }
+    }
+    let payload = data.dropFirst(headerCount)
+    guard words[0] == magic, words[1] == fingerprint, words[2] == UInt64(payload.count),
+      words[3] == checksum(payload, fingerprint)
+    else { return nil }
+    return Data(payload)
+  }
+
+  private static func checksum(_ payload: Data, _ fingerprint: UInt64) -> UInt64 {
+    payload.withUnsafeBytes { XXHash64.hash($0, seed: fingerprint) }
+  }
+}

@@ -1,0 +1,164 @@
+import Formats
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct SealedFileTests {
+  let folder: TemporaryFolder
+  let url: URL
+  let payload = Data("what a stage has found".utf8)
+
+  init() throws {
+    folder = try TemporaryFolder()
+    url = folder.url.appendingPathComponent("stage")
+    try SealedFile.write(payload, madeFrom: 7, to: url)
+  }
+
+  @Test func contentComesBack() {
+    #expect(SealedFile.read(url, madeFrom: 7) == payload)
+  }
+
+  @Test func whatIsMadeFromSomethingElseIsMissing() {
+    #expect(SealedFile.read(url, madeFrom: 8) == nil)
+  }
+
+  @Test func anyChangedByteIsSeen() throws {
+    let whole = try Data(contentsOf: url)
+    for index in whole.indices {
+      var damaged = whole
+      damaged[index] ^= 0x10
+      try damaged.write(to: url)
+      #expect(SealedFile.read(url, madeFrom: 7) == nil, "byte \(index)")
+    }
+  }
+
+  @Test func anyCutIsSeen() throws {
+    let whole = try Data(contentsOf: url)
+    for count in 0..<whole.count {
+      try whole.prefix(count).write(to: url)
+      #expect(SealedFile.read(url, madeFrom: 7) == nil, "\(count) bytes")
+    }
+    try (whole + [0]).write(to: url)
+    #expect(SealedFile.read(url, madeFrom: 7) == nil)
+  }
+}
+
+@Suite struct StageStoreTests {
+  let folder: TemporaryFolder
+  let ingested: IngestedPhotos
+  let reconstruction: Reconstruction
+
+  init() throws {
+    folder = try TemporaryFolder()
+    let scene = SphereScene(viewCount: 5, imageSize: 64) { _ in SIMD3(120, 130, 140) }
+    var reconstruction = scene.reconstruction
+    reconstruction.poses[3] = nil
+    reconstruction.points = [
+      ScenePoint(
+        position: [0.1, -1.0 / 3, 1e-17], color: [1, 2, 3], error: 0.25,
+        track: [Observation(photo: ID(1), feature: 12, pixel: [3.7, 1.0 / 7])])
+    ]
+    reconstruction.worldFrame = WorldFrame(scale: .gps, up: .supportPlane)
+    self.reconstruction = reconstruction
+    ingested = IngestedPhotos(
+      photos: reconstruction.photos, cameras: reconstruction.cameras, refused: [], files: [],
+      refusedMasks: [], contentHashes: reconstruction.photos.indices.map { UInt64($0) },
+      processingPixels: 1000, isDownsampled: false)
+  }
+
+  func store(
+    _ ingested: IngestedPhotos? = nil, gravity: [Int: SIMD3<Double>] = [:],
+    _ change: (inout PipelineConfiguration) -> Void = { _ in }
+  ) throws -> StageStore {
+    var configuration = PipelineConfiguration()
+    change(&configuration)
+    return StageStore(
+      checkpoint: Checkpoint(directory: folder.url),
+      inputs: try RunInputs(ingested ?? self.ingested, configuration, gravity: gravity))
+  }
+
+  @Test func alignmentComesBackBitForBit() throws {
+    let notes = StageNotes()
+    notes.count("pairs", 12)
+    notes.warn("A sentence.")
+    try store().save(reconstruction, notes)
+    let replayed = StageNotes()
+    let found = try #require(try store().reconstruction(of: ingested.photos, replayed))
+    #expect(found.cameras == reconstruction.cameras)
+    #expect(found.poses == reconstruction.poses)
+    #expect(found.points == reconstruction.points)
+    #expect(found.worldFrame == reconstruction.worldFrame)
+    #expect(replayed.counts == ["pairs": 12])
+    #expect(replayed.warnings == ["A sentence."])
+  }
+
+  @Test func alignmentOfOtherPhotosOrOptionsIsNotUsed() throws {
+    try store().save(reconstruction, StageNotes())
+    var other = ingested
+    other.contentHashes[2] += 1
+    let others = [
+      try store(other), try store(gravity: [1: [0, 1, 0]]),
+      try store { $0.isSequential = true }, try store { $0.isHighSensitivity = true },
+    ]
+    for store in others { #expect(store.reconstruction(of: ingested.photos, StageNotes()) == nil) }
+    // The surface's options and the machine play no part.
+    let same = [try store { $0.refinesSurface = true }, try store { $0.threadCount = 1 }]
+    for store in same { #expect(store.reconstruction(of: ingested.photos, StageNotes()) != nil) }
+  }
+
+  @Test func surfaceIsUsedForWhatItWasMadeFrom() throws {
+    let mesh = SyntheticMesh.sphere(subdivisions: 2)
+    let store = try store()
+    try store.checkpoint.write(mesh)
+    try store.sealSurface(viewPixels: 500, StageNotes(), denseNotes: StageNotes())
+    #expect(store.surface(viewPixels: 500, StageNotes())?.positions == mesh.positions)
+    #expect(store.surface(viewPixels: 501, StageNotes()) == nil)
+    let other = try self.store { $0.closesObject = false }
+    #expect(other.surface(viewPixels: 500, StageNotes()) == nil)
+  }
+
+  @Test func damagedSurfaceIsNotUsed() throws {
+    let store = try store()
+    try store.checkpoint.write(SyntheticMesh.sphere(subdivisions: 2))
+    try store.sealSurface(viewPixels: 500, StageNotes(), denseNotes: StageNotes())
+    var bytes = try Data(contentsOf: store.checkpoint.surface)
+    bytes[bytes.count - 20] ^= 1
+    try bytes.write(to: store.checkpoint.surface)
+    #expect(store.surface(viewPixels: 500, StageNotes()) == nil)
+  }
+}
+
+@Suite struct DirectoryLockTests {
+  let folder: TemporaryFolder
+
+  init() throws { folder = try TemporaryFolder() }
+
+  @Test func oneRunAtATime() throws {
+    let lock = try DirectoryLock(folder.url, isShared: false)
+    #expect(throws: CheckpointError.inUse(directory: folder.url.path)) {
+      _ = try DirectoryLock(folder.url, isShared: false)
+    }
+    #expect(throws: CheckpointError.inUse(directory: folder.url.path)) {
+      _ = try DirectoryLock(folder.url, isShared: true)
+    }
+    withExtendedLifetime(lock) {}
+  }
+
+  @Test func lockEndsWithItsOwner() throws {
+    do { _ = try DirectoryLock(folder.url, isShared: false) }
+    _ = try DirectoryLock(folder.url, isShared: false)
+  }
+
+  @Test func sharesGoTogether() throws {
+    let first = try DirectoryLock(folder.url, isShared: true)
+    let second = try DirectoryLock(folder.url, isShared: true)
+    #expect(throws: CheckpointError.self) {
+      _ = try DirectoryLock(folder.url, isShared: false)
+    }
+    withExtendedLifetime((first, second)) {}
+  }
+}
