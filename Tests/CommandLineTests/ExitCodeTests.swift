@@ -119,6 +119,32 @@ import Testing
     _ = temporary
   }
 
+  @Test func dryRunTellsThePlanAndDoesNothing() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    try makePhotos(3, in: folder, "photos")
+    try makePhotos(2, in: folder, "two")
+    let run = try CommandProcess.run(["photos", "m.usdz", "--dry-run"], in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    for words in ["p1.jpg  800 x 600", "3 photos of 1 camera", "m.usdz would be", "It would take"] {
+      #expect(run.output.contains(words), "\(run.output)")
+    }
+    let json = try CommandProcess.run(
+      ["photos", "m.usdz", "--dry-run", "--json", "-d", "full"], in: folder)
+    let plan = try #require(RunEvent(line: json.output.utf8))
+    #expect(plan.event == "plan" && plan.photos == 3 && (plan.expectedSeconds ?? 0) > 1)
+    #expect((plan.memoryBytes ?? 0) > 1 << 30 && (plan.diskBytes ?? 0) > 100_000_000)
+    let few = try CommandProcess.run(["two", "m.usdz", "--dry-run"], in: folder)
+    #expect(few.exitCode == 1 && few.errors.contains("too few"), "\(few.errors)")
+    let wrong = try CommandProcess.run(["photos", "no/m.usdz", "--dry-run"], in: folder)
+    #expect(wrong.exitCode == 2)
+    #expect(
+      try FileManager.default.contentsOfDirectory(atPath: folder.path).sorted() == [
+        "photos", "two",
+      ])
+    _ = temporary
+  }
+
   @Test func inspectTellsAboutMasks() throws {
     let temporary = try TemporaryFolder()
     let folder = temporary.url

@@ -28,6 +28,17 @@ import Testing
     #expect(help + "\n" == (try String(contentsOf: file, encoding: .utf8)))
   }
 
+  @Test(arguments: ["bash", "zsh", "fish"])
+  func completionsKnowFoldersAndOptions(_ shell: String) throws {
+    let temporary = try TemporaryFolder()
+    let run = try CommandProcess.run(["--generate-completion-script", shell], in: temporary.url)
+    #expect(run.exitCode == 0 && run.errors.isEmpty)
+    let folders = ["bash": "compgen -d", "zsh": "_files -/", "fish": "__fish_complete_directories"]
+    for words in ["keep-checkpoints", "sample-ordering", try #require(folders[shell])] {
+      #expect(run.output.contains(words), "\(words)")
+    }
+  }
+
   @Test func helpGoesToStdout() throws {
     let temporary = try TemporaryFolder()
     let folder = temporary.url

@@ -4,11 +4,20 @@ import Pipeline
 ///
 /// Fitted to runs on photos of 0.5 and 0.8 megapixels. Meshes and textures take one thread for the
 /// most part.
-struct UsualDurations: Sendable {
+package struct UsualDurations: Sendable {
   var photoCount: Int
   /// What the shared stages are done for.
   var finest: DetailSpecification
   var threadCount: Int
+
+  package init(photoCount: Int, finest: DetailSpecification, threadCount: Int) {
+    (self.photoCount, self.finest, self.threadCount) = (photoCount, finest, threadCount)
+  }
+
+  /// Seconds that a model usually takes, from the photos on.
+  package var total: Double {
+    PipelineStage.allCases.reduce(0) { $0 + seconds(of: WorkUnit(stage: $1)) }
+  }
 
   /// Seconds that a unit usually takes.
   func seconds(of unit: WorkUnit) -> Double {

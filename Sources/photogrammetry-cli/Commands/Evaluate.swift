@@ -25,10 +25,14 @@ struct Evaluate: ParsableCommand {
       Lengths are in units of the reference.
       """)
 
-  @Argument(help: ArgumentHelp("A checkpoint directory, COLMAP text folder or PLY file."))
+  @Argument(
+    help: ArgumentHelp("A checkpoint directory, COLMAP text folder or PLY file."),
+    completion: .file())
   var result: String
 
-  @Option(name: .long, help: ArgumentHelp("What is taken for true.", valueName: "folder"))
+  @Option(
+    name: .long, help: ArgumentHelp("What is taken for true.", valueName: "folder"),
+    completion: .directory)
   var reference: String
 
   @Option(

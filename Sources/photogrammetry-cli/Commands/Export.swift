@@ -116,7 +116,7 @@
   }
 
   extension DetailArguments {
-    fileprivate var budgets: DetailSpecification {
+    var budgets: DetailSpecification {
       switch detail {
       case .level(.preview): DetailSpecification(.preview)
       case .level(.reduced): DetailSpecification(.reduced)

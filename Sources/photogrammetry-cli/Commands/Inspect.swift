@@ -42,7 +42,7 @@
     @OptionGroup var logging: LoggingOptions
 
     /// Two photos have a geometry, but no surface that is worth the name.
-    private static let neededPhotos = 3
+    static let neededPhotos = 3
 
     mutating func run() throws {
       logging.bootstrap()

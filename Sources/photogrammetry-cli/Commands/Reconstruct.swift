@@ -84,6 +84,8 @@ struct Reconstruct: AsyncParsableCommand {
   @Flag(name: .long, help: "Tell progress and results as JSON, an object a line, on stdout.")
   var json = false
 
+  @OptionGroup var dryRun: DryRunArguments
+
   @Flag(
     name: .long,
     help: ArgumentHelp("Stop when standard input ends.", visibility: .hidden))

@@ -44,6 +44,9 @@ struct ReconstructionJob {
     guard PhotogrammetrySession.isSupported else {
       throw unsupportedMachine
     }
+    if arguments.dryRun.isWished {
+      return try arguments.dryRun.run(arguments, photos: input, output: output, reporter)
+    }
     ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
     let session = try PhotogrammetrySession(input: input, configuration: configuration)
     try arguments.engine.configure(session, photos: input)
@@ -56,6 +59,8 @@ struct ReconstructionJob {
     var run = Run(job: self, reporter: reporter)
     do {
       try session.process(requests: requests)
+      // A wish that came before found nothing to cancel.
+      if interrupts.wasInterrupted { session.cancel() }
       for try await output in session.outputs {
         if try run.take(output) { break }
       }

@@ -19,6 +19,9 @@ struct RunEvent: Codable, Equatable {
   var photos: Int?
   var registered: Int?
   var triangles: Int?
+  var expectedSeconds: Double?
+  var memoryBytes: Int?
+  var diskBytes: Int?
   var status: BatchEntry.Status?
   var attempts: Int?
   var datasets: Int?
@@ -41,6 +44,8 @@ struct RunEvent: Codable, Equatable {
       complete             seconds, photos, registered, triangles
       failed               message with what to do, mayPass, seconds
       cancelled            message, seconds
+      plan                 with --dry-run: path, photos, expectedSeconds,
+                           memoryBytes, diskBytes
 
     """
 

@@ -85,6 +85,29 @@ import RealityKit
     }
   }
 
+  /// Looking before leaping.
+  struct DryRunArguments: ParsableArguments {
+    @Flag(
+      name: .customLong("dry-run"),
+      help: "Check photos, masks, output and machine, tell what would be done, and do nothing.")
+    var isWished = false
+
+    /// Tells what a run would do; throws where something stands in its way.
+    func run(
+      _ arguments: Reconstruct, photos: URL, output: ModelOutput, _ reporter: RunReporter
+    ) throws {
+      let plan = try DryRun(arguments, photos: photos, output: output)
+      if reporter.style == .json {
+        plan.events.forEach(reporter.event)
+      } else {
+        plan.lines.forEach(Terminal.shared.result)
+      }
+      guard plan.faults.isEmpty else {
+        throw CommandFailure.run(plan.faults.joined(separator: " "))
+      }
+    }
+  }
+
   /// What only our engine can do.
   struct EngineArguments: ParsableArguments {
     /// How the scale is told, as a section of help.
@@ -227,6 +250,15 @@ import RealityKit
   struct PreviewArguments: ParsableArguments {
     func file() throws -> URL? { nil }
     func configure(_ session: PhotogrammetrySession) throws {}
+  }
+
+  /// Apple's engine doesn't tell beforehand.
+  struct DryRunArguments: ParsableArguments {
+    var isWished: Bool { false }
+
+    func run(
+      _ arguments: Reconstruct, photos: URL, output: ModelOutput, _ reporter: RunReporter
+    ) throws {}
   }
 
   /// Apple's engine has no options beyond its configuration.
