@@ -94,6 +94,9 @@ package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
   case degenerate(String)
   case failed(String)
 
+  /// Whether there was too little memory, which may be otherwise at another time.
+  package var isOutOfMemory: Bool { self == .failed("out of memory") }
+
   package var description: String {
     switch self {
     case .invalidArgument(let message): "invalid argument: \(message)"

@@ -21,7 +21,10 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
 
   private static var subcommands: [any ParsableCommand.Type] {
     #if canImport(Pipeline)
-      [Reconstruct.self, Align.self, Densify.self, Export.self, Inspect.self, Evaluate.self]
+      [
+        Reconstruct.self, Batch.self, Align.self, Densify.self, Export.self, Inspect.self,
+        Evaluate.self,
+      ]
     #else
       [Reconstruct.self, Evaluate.self]
     #endif

@@ -5,6 +5,8 @@ import SceneModel
 import TestSupport
 import Testing
 
+@testable import photogrammetry_cli
+
 @Suite struct ExitCodeTests {
   /// Writes `count` photos of noise into a folder `name`.
   private func makePhotos(_ count: Int, in folder: URL, _ name: String) throws {
@@ -133,6 +135,54 @@ import Testing
     let missing = try CommandProcess.run(["inspect", "photos", "--masks", "none"], in: folder)
     #expect(missing.exitCode == 2)
     #expect(missing.errors.contains("none"))
+  }
+
+  @Test(arguments: [
+    ["photos", "m.usdz"], ["align", "photos", "work"], ["photos", "m.usdz", "--json"],
+  ])
+  func terminationEndsWith130(_ arguments: [String]) throws {
+    let temporary = try TemporaryFolder()
+    try makePhotos(24, in: temporary.url, "photos")
+    let run = try CommandProcess.run(arguments + ["--verbose"], in: temporary.url) {
+      $0.terminate()
+    }
+    #expect(run.exitCode == 130, "\(run.errors)")
+    #expect(run.errors.contains("Interrupted"))
+    if arguments.contains("--json") {
+      let last = run.output.split(separator: "\n").last.flatMap { RunEvent(line: $0.utf8) }
+      #expect(last?.event == "cancelled" && last?.message?.contains("Interrupted") == true)
+    }
+  }
+
+  @Test func secondInterruptEndsAtOnce() throws {
+    let temporary = try TemporaryFolder()
+    try makePhotos(24, in: temporary.url, "photos")
+    let run = try CommandProcess.run(["photos", "m.usdz"], in: temporary.url) { process in
+      process.interrupt()
+      usleep(1000)
+      process.interrupt()
+      usleep(1000)
+      process.terminate()
+    }
+    #expect(run.exitCode == 130, "\(run.errors)")
+  }
+
+  @Test func jsonTellsAllAndNothingElse() throws {
+    let temporary = try TemporaryFolder()
+    try makePhotos(2, in: temporary.url, "two")
+    try temporary.write(Array("hello".utf8), as: "two/notes.txt")
+    let run = try CommandProcess.run(["two", "m.usdz", "--json", "--verbose"], in: temporary.url)
+    #expect(run.exitCode == 1)
+    let events = run.output.split(separator: "\n").map { RunEvent(line: $0.utf8) }
+    #expect(!events.contains(nil), "\(run.output)")
+    let refused = events.compactMap(\.self).filter { $0.event == "invalidSample" }
+    #expect(refused.count == 1 && refused[0].reason?.contains("notes.txt") == true)
+    #expect(!run.output.contains(#""event":"warning""#))
+    #expect(events.last??.event == "failed" && events.last??.mayPass == false)
+    #expect(events.last??.message?.contains("at least 3") == true)
+    let missing = try CommandProcess.run(["no", "m.usdz", "--json"], in: temporary.url)
+    #expect(missing.exitCode == 2)
+    #expect(RunEvent(line: missing.output.utf8)?.message?.contains("does not exist") == true)
   }
 
   @Test func interruptEndsWith130() throws {

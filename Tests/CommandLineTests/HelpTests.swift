@@ -8,11 +8,13 @@ import Testing
 @Suite struct HelpTests {
   /// Compares with the files in Snapshots; write them anew with RECORD_SNAPSHOTS=1.
   @Test(arguments: [
-    "photogrammetry-cli", "reconstruct", "align", "densify", "export", "inspect", "evaluate",
+    "photogrammetry-cli", "reconstruct", "batch", "align", "densify", "export", "inspect",
+    "evaluate",
   ])
   func helpIsAsItWas(_ name: String) throws {
     let commands: [String: any ParsableCommand.Type] = [
-      "reconstruct": Reconstruct.self, "align": Align.self, "densify": Densify.self,
+      "reconstruct": Reconstruct.self, "batch": Batch.self, "align": Align.self,
+      "densify": Densify.self,
       "export": Export.self, "inspect": Inspect.self, "evaluate": Evaluate.self,
     ]
     let help =

@@ -4,12 +4,12 @@ import Foundation
 ///
 /// An advisory lock (`flock`) on the file `.lock` in the directory: it ends with the process, however
 /// that ends. Where the file system knows no locks there is none.
-final class DirectoryLock {
+package final class DirectoryLock {
   private let descriptor: Int32
 
   /// Takes the lock, alone or together with others who share it. Makes the directory where it is
   /// missing. Throws `CheckpointError`.
-  init(_ directory: URL, isShared: Bool) throws {
+  package init(_ directory: URL, isShared: Bool) throws {
     do {
       try FileManager.default.createDirectory(at: directory, withIntermediateDirectories: true)
     } catch {

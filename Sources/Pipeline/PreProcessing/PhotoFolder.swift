@@ -2,6 +2,9 @@ import Foundation
 
 /// The files of an input folder.
 package enum PhotoFolder {
+  /// Folders of masks that are looked for inside it.
+  package static let maskFolderNames = MaskFiles.folderNames
+
   /// Regular files that are not hidden, not those of subfolders, in natural order: `IMG_2` before
   /// `IMG_10`, upper and lower case alike, so that sequences come in the order of capture. The
   /// index in the result is a file's sample id.

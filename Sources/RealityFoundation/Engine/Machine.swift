@@ -1,19 +1,19 @@
 /// The memory and the processor that the engine runs on.
-struct Machine: Hashable, Sendable {
+package struct Machine: Hashable, Sendable {
   /// All memory that a process may have: the machine's or its container's.
-  var totalMemoryBytes: Int
+  package var totalMemoryBytes: Int
   /// What of it is free or can be freed.
-  var availableMemoryBytes: Int
+  package var availableMemoryBytes: Int
   /// The processor's features as the kernel names them; nil where it does not say.
   var processorFeatures: Set<String>?
 
   /// What a reconstruction needs at least.
-  static let neededMemoryBytes = 2 << 30
+  package static let neededMemoryBytes = 2 << 30
   /// What the numeric libraries were built for, on x86-64.
   static let neededFeatures = ["sse4_1", "sse4_2", "popcnt"]
 
   /// The machine we are on.
-  static var current: Machine {
+  package static var current: Machine {
     func read(_ path: String) -> String {
       (try? String(contentsOfFile: path, encoding: .utf8)) ?? ""
     }
@@ -45,7 +45,7 @@ struct Machine: Hashable, Sendable {
   }
 
   /// What stands in the way of a reconstruction, each in a sentence with the remedy.
-  var shortfalls: [String] {
+  package var shortfalls: [String] {
     var sentences: [String] = []
     if availableMemoryBytes < Self.neededMemoryBytes {
       sentences.append(

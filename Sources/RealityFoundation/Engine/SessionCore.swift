@@ -144,11 +144,12 @@ final class SessionCore: Sendable {
 private func log(_ event: PipelineEvent) {
   switch event {
   case .refused(let photo):
-    sessionLogger.warning("\(photo.reason)")
+    sessionLogger.warning("\(photo.reason)", source: sessionOutputSource)
   case .downsampled:
     sessionLogger.notice("Photos are used at a lower resolution to fit the memory.")
   case .stitchingIncomplete(let registered, let count):
-    sessionLogger.warning("Only \(registered) of \(count) photos could be put together.")
+    sessionLogger.warning(
+      "Only \(registered) of \(count) photos could be put together.", source: sessionOutputSource)
   case .warning(let sentence):
     sessionLogger.warning("\(sentence)")
   case .detail(let sentence):

@@ -2,3 +2,6 @@ import Logging
 
 /// The logger of all sessions.
 let sessionLogger = Logger(label: "photogrammetry.session")
+
+/// The source of log messages about what a session tells as an output too.
+package let sessionOutputSource = "photogrammetry.session.output"

@@ -1,3 +1,4 @@
+import Kernels
 import Pipeline
 
 /// Why the engine could not do what it was asked: a code, a sentence and a remedy.
@@ -7,6 +8,7 @@ package struct ProcessingError: LocalizedError, CustomNSError, Equatable, Sendab
     case unknown = 0
     case alreadyProcessing, invalidRequest, emptyCrop, invalidInput, tooFewPhotos
     case alignmentFailed, noSurface, checkpointUnusable, outputFailed
+    case outOfMemory
   }
 
   package static let errorDomain = "RealityFoundation.PhotogrammetrySession.ProcessingError"
@@ -50,6 +52,10 @@ extension ProcessingError {
       self.init(
         code: .checkpointUnusable, reason: error.errorDescription ?? "",
         remedy: error.recoverySuggestion ?? "")
+    case let error as KernelError where error.isOutOfMemory:
+      self.init(
+        code: .outOfMemory, reason: "There was too little memory.",
+        remedy: "Close other programs, or choose a lower detail level.")
     case let error as any LocalizedError:
       self.init(
         code: .unknown, reason: error.errorDescription ?? String(describing: error),

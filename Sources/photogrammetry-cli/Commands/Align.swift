@@ -25,10 +25,14 @@
         carried out, 130 interrupted.
         """)
 
-    @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
+    @Argument(
+      help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"),
+      completion: .directory)
     var inputFolder: String
 
-    @Argument(help: ArgumentHelp("The folder for the results.", valueName: "output"))
+    @Argument(
+      help: ArgumentHelp("The folder for the results.", valueName: "output"), completion: .directory
+    )
     var output: String
 
     @OptionGroup var alignment: AlignmentArguments

@@ -59,14 +59,19 @@
         command line can't be carried out, 130 interrupted.
         """)
 
-    @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
+    @Argument(
+      help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"),
+      completion: .directory)
     var inputFolder: String
 
     @Argument(
-      help: ArgumentHelp("The folder with the cameras; see above.", valueName: "cameras-folder"))
+      help: ArgumentHelp("The folder with the cameras; see above.", valueName: "cameras-folder"),
+      completion: .directory)
     var camerasFolder: String
 
-    @Argument(help: ArgumentHelp("The folder for the results.", valueName: "output"))
+    @Argument(
+      help: ArgumentHelp("The folder for the results.", valueName: "output"), completion: .directory
+    )
     var output: String
 
     @Option(name: .shortAndLong, help: "How dense the cloud is; see the table above.")

@@ -36,12 +36,13 @@
     @Argument(
       help: ArgumentHelp(
         "The folder that the run was given as --checkpoint-directory.",
-        valueName: "checkpoint-directory"))
+        valueName: "checkpoint-directory"), completion: .directory)
     var checkpointDirectory: String
 
     @Argument(
       help: ArgumentHelp(
-        "A file or folder for the model, as for 'reconstruct'.", valueName: "output"))
+        "A file or folder for the model, as for 'reconstruct'.", valueName: "output"),
+      completion: .file())
     var output: String
 
     @OptionGroup var detail: DetailArguments
@@ -51,7 +52,8 @@
     @Option(
       name: .long,
       help: ArgumentHelp(
-        "The folder with the photos, where they have moved since the run.", valueName: "folder"))
+        "The folder with the photos, where they have moved since the run.", valueName: "folder"),
+      completion: .directory)
     var photos: String?
 
     @OptionGroup var preview: PreviewArguments

@@ -23,7 +23,9 @@
         Exit codes: 0 there are enough photos, 1 there are too few, 2 the folder can't be read.
         """)
 
-    @Argument(help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"))
+    @Argument(
+      help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"),
+      completion: .directory)
     var inputFolder: String
 
     @Flag(name: .long, help: "Tell which photos overlap with which.")

@@ -33,17 +33,19 @@ struct Reconstruct: AsyncParsableCommand {
       \(EngineArguments.outputHelp)
       \(EngineArguments.maskHelp)
       \(EngineArguments.scaleHelp)
+      \(RunEvent.help)
       Paths of what was written go to stdout, everything else to stderr.
       """)
 
   @Argument(
-    help: ArgumentHelp("The folder with the photos: JPEG or PNG.", valueName: "input-folder"))
+    help: ArgumentHelp("The folder with the photos: JPEG or PNG.", valueName: "input-folder"),
+    completion: .directory)
   var inputFolder: String
 
   @Argument(
     help: ArgumentHelp(
       "A file or folder for the model; its name decides about the format, see above.",
-      valueName: "output"))
+      valueName: "output"), completion: .file())
   var output: String
 
   @OptionGroup var detail: DetailArguments
@@ -53,16 +55,19 @@ struct Reconstruct: AsyncParsableCommand {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "Leave sparse/, dense/, mesh/ and report.json there, for other tools.", valueName: "folder"))
+      "Leave sparse/, dense/, mesh/ and report.json there, for other tools.", valueName: "folder"),
+    completion: .directory)
   var checkpointDirectory: String?
 
   @Option(
     name: .long,
-    help: ArgumentHelp("Write the cameras' poses as JSON.", valueName: "file.json"))
+    help: ArgumentHelp("Write the cameras' poses as JSON.", valueName: "file.json"),
+    completion: .file(extensions: ["json"]))
   var poses: String?
 
   @Option(
-    name: .long, help: ArgumentHelp("Write the coloured points as PLY.", valueName: "file.ply"))
+    name: .long, help: ArgumentHelp("Write the coloured points as PLY.", valueName: "file.ply"),
+    completion: .file(extensions: ["ply"]))
   var pointCloud: String?
 
   @OptionGroup var preview: PreviewArguments
@@ -79,11 +84,21 @@ struct Reconstruct: AsyncParsableCommand {
   @Flag(name: .long, help: "Tell progress and results as JSON, an object a line, on stdout.")
   var json = false
 
+  @Flag(
+    name: .long,
+    help: ArgumentHelp("Stop when standard input ends.", visibility: .hidden))
+  var untilInputEnds = false
+
   @OptionGroup var logging: LoggingOptions
 
   mutating func run() async throws {
     logging.bootstrap()
-    let job = try ReconstructionJob(self)
-    try await job.run(RunReporter(logging.style(json: json)))
+    let reporter = RunReporter(logging.style(json: json))
+    do {
+      try await ReconstructionJob(self).run(reporter)
+    } catch {
+      reporter.failed(error)
+      throw error
+    }
   }
 }

@@ -42,7 +42,7 @@ struct ReconstructionJob {
   /// Runs to the end; throws a `CommandFailure` when something asked for was not made.
   func run(_ reporter: RunReporter) async throws {
     guard PhotogrammetrySession.isSupported else {
-      throw CommandFailure.run("This machine can't make models.")
+      throw unsupportedMachine
     }
     ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
     let session = try PhotogrammetrySession(input: input, configuration: configuration)
@@ -50,7 +50,9 @@ struct ReconstructionJob {
     try arguments.preview.configure(session)
     arguments.surface.configure(session)
     let cancellable = Cancellable(session: session)
-    let interrupts = InterruptHandler { cancellable.session.cancel() }
+    let interrupts = InterruptHandler(untilInputEnds: arguments.untilInputEnds) {
+      cancellable.session.cancel()
+    }
     var run = Run(job: self, reporter: reporter)
     do {
       try session.process(requests: requests)
@@ -59,24 +61,21 @@ struct ReconstructionJob {
       }
     } catch {
       reporter.finish()
-      throw interrupts.wasInterrupted ? interrupted(reporter) : error
+      throw interrupts.wasInterrupted ? interrupted : error
     }
     reporter.finish()
     try writeReport(of: session, reporter)
-    if run.isCancelled { throw interrupted(reporter) }
+    if run.isCancelled { throw interrupted }
     if let failure = run.failures.first {
       for sentence in run.failures.dropFirst() { logger.error("\(sentence)") }
-      reporter.event(
-        RunEvent(event: "failed", message: failure, seconds: reporter.elapsed))
-      throw CommandFailure.run(failure)
+      throw CommandFailure.run(failure, mayPass: run.mayPass)
     }
-    reporter.event(RunEvent(event: "complete", seconds: reporter.elapsed))
+    reporter.event(summary(of: session, reporter))
     logger.info("Done in \(RunProgress.duration(reporter.elapsed)).")
   }
 
-  private func interrupted(_ reporter: RunReporter) -> CommandFailure {
+  private var interrupted: CommandFailure {
     let rest = checkpointURL.map { " Finished stages are in \($0.path)." } ?? ""
-    reporter.event(RunEvent(event: "cancelled", seconds: reporter.elapsed))
     return CommandFailure(
       sentence: "Interrupted; no model was written.\(rest)",
       exitCode: CommandFailure.interruptedCode)
@@ -101,6 +100,14 @@ struct ReconstructionJob {
     if posesURL != nil { requests.append(.poses) }
     if pointCloudURL != nil { requests.append(.pointCloud) }
     return requests
+  }
+
+  private func summary(
+    of session: PhotogrammetrySession, _ reporter: RunReporter
+  ) -> RunEvent {
+    var event = RunEvent(event: "complete", seconds: reporter.elapsed)
+    engineCounts(of: session, into: &event)
+    return event
   }
 
   private func writeReport(
@@ -150,6 +157,8 @@ private struct Run {
   var reporter: RunReporter
   var progress = RunProgress()
   var failures: [String] = []
+  /// Whether the cause of a failure may be gone at another time.
+  var mayPass = false
   var isCancelled = false
 
   init(job: ReconstructionJob, reporter: RunReporter) {
@@ -179,6 +188,7 @@ private struct Run {
       }
     case .requestError(_, let error):
       let sentence = sentence(for: error)
+      mayPass = mayPass || photogrammetry_cli.mayPass(error)
       if !failures.contains(sentence) { failures.append(sentence) }
     case .processingComplete: return true
     case .processingCancelled:

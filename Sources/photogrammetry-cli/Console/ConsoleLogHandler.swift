@@ -1,10 +1,14 @@
 import Logging
+import RealityKit
 import Synchronization
 
 /// Writes log messages to stderr as a person wants to read them: `warning: a sentence`.
 struct ConsoleLogHandler: LogHandler {
   /// The session's own log of failed requests repeats what the command says at its end.
   static let hidesSessionErrors = Atomic<Bool>(false)
+
+  /// Whether warnings are events of `--json` too.
+  static let tellsPrograms = Atomic<Bool>(false)
 
   let label: String
   var logLevel: Logger.Level
@@ -31,6 +35,11 @@ struct ConsoleLogHandler: LogHandler {
     }
     let fields = self.metadata.merging(metadata ?? [:]) { $1 }.sorted { $0.key < $1.key }
       .map { " \($0.key)=\($0.value)" }.joined()
+    if level == .warning, source != sessionOutputSource,
+      Self.tellsPrograms.load(ordering: .relaxed)
+    {
+      RunEvent(event: "warning", message: "\(message)").write()
+    }
     Terminal.shared.message(Self.prefix(level) + "\(message)" + fields)
   }
 

@@ -1,4 +1,5 @@
 import Foundation
+import Synchronization
 
 /// Tells how a run goes, in the way that suits who listens.
 struct RunReporter {
@@ -18,7 +19,10 @@ struct RunReporter {
   private var shownAt = Date.distantPast
   private let start = Date()
 
-  init(_ style: Style) { self.style = style }
+  init(_ style: Style) {
+    self.style = style
+    ConsoleLogHandler.tellsPrograms.store(style == .json, ordering: .relaxed)
+  }
 
   /// Seconds since the run began.
   var elapsed: Double { Date().timeIntervalSince(start) }
@@ -57,6 +61,16 @@ struct RunReporter {
     if style == .json { event.write() }
   }
 
+  /// Tells programs why a run ends without its result; people are told by the command's last line.
+  func failed(_ error: any Error) {
+    let failure = error as? CommandFailure
+    let isInterrupted = failure?.exitCode == CommandFailure.interruptedCode
+    event(
+      RunEvent(
+        event: isInterrupted ? "cancelled" : "failed", message: sentence(for: error),
+        mayPass: isInterrupted ? nil : failure?.mayPass ?? mayPass(error), seconds: elapsed))
+  }
+
   /// Tells that `path` was written.
   func wrote(_ kind: String, _ path: String) {
     if style == .json {
@@ -65,34 +79,4 @@ struct RunReporter {
       Terminal.shared.result(path)
     }
   }
-}
-
-/// A line of `--json`.
-struct RunEvent: Encodable, Equatable {
-  var event: String
-  var fraction: Double?
-  var stage: RunStage?
-  var remainingSeconds: Double?
-  var sample: Int?
-  var reason: String?
-  var kind: String?
-  var path: String?
-  var message: String?
-  var seconds: Double?
-
-  static func progress(_ progress: RunProgress) -> RunEvent {
-    RunEvent(
-      event: "progress", fraction: progress.fraction, stage: progress.stage,
-      remainingSeconds: progress.remaining)
-  }
-
-  /// The event as one line with sorted keys.
-  var line: String {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]
-    let data = (try? encoder.encode(self)) ?? Data()
-    return String(decoding: data, as: UTF8.self)
-  }
-
-  func write() { Terminal.shared.result(line) }
 }

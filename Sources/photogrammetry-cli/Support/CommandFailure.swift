@@ -11,10 +11,12 @@ struct CommandFailure: Error, Equatable {
 
   var sentence: String
   var exitCode: Int32
+  /// Whether the cause may be gone at another time.
+  var mayPass = false
 
   /// Something went wrong while working.
-  static func run(_ sentence: String) -> CommandFailure {
-    CommandFailure(sentence: sentence, exitCode: runCode)
+  static func run(_ sentence: String, mayPass: Bool = false) -> CommandFailure {
+    CommandFailure(sentence: sentence, exitCode: runCode, mayPass: mayPass)
   }
 
   /// The command line asks for what can't be.

@@ -4,6 +4,7 @@ import Foundation
 import RealityKit
 
 #if canImport(Pipeline)
+  import Kernels
   import Pipeline
   import RealityFoundation
 
@@ -12,7 +13,8 @@ import RealityKit
     @Option(
       name: .long,
       help: ArgumentHelp(
-        "Write what was done, stage by stage and photo by photo, as JSON.", valueName: "file.json"))
+        "Write what was done, stage by stage and photo by photo, as JSON.", valueName: "file.json"),
+      completion: .file(extensions: ["json"]))
     var report: String?
 
     @Option(
@@ -47,7 +49,8 @@ import RealityKit
     @Option(
       name: .long,
       help: ArgumentHelp(
-        "Draw the model from eight sides into one picture.", valueName: "file.png"))
+        "Draw the model from eight sides into one picture.", valueName: "file.png"),
+      completion: .file(extensions: ["png"]))
     var preview: String?
 
     /// The file to write; throws a `CommandFailure` where that can't be.
@@ -73,7 +76,7 @@ import RealityKit
       name: .long,
       help: ArgumentHelp(
         "The folder with the photos' masks, if not masks/ in that of the photos.",
-        valueName: "folder"))
+        valueName: "folder"), completion: .directory)
     var masks: String?
 
     /// Nil where none is named; throws where it isn't a folder that holds something.
@@ -144,7 +147,7 @@ import RealityKit
       name: .long,
       help: ArgumentHelp(
         "Distances measured on the object, between points picked in photos; see above.",
-        valueName: "file.json"))
+        valueName: "file.json"), completion: .file(extensions: ["json"]))
     var measurements: String?
 
     var report: String? { runArguments.report }
@@ -176,6 +179,33 @@ import RealityKit
     /// The run's report as JSON, where there is one.
     func reportData(of session: PhotogrammetrySession) throws -> Data? {
       try session.report?.encoded()
+    }
+  }
+
+  /// Adds what the run counted: photos, those that have a place, triangles of the last model.
+  func engineCounts(of session: PhotogrammetrySession, into event: inout RunEvent) {
+    guard let report = session.report else { return }
+    event.photos = report.photos.count
+    event.registered = report.photos.count { $0.status == .registered }
+    let textured = report.stages.last { $0.name == PipelineStage.textureMapping.rawValue }
+    event.triangles = textured?.counts["triangles"].map { Int($0) }
+  }
+
+  /// Why this machine can't make models.
+  var unsupportedMachine: CommandFailure {
+    let machine = Machine.current
+    return .run(
+      machine.shortfalls.joined(separator: " "),
+      mayPass: machine.totalMemoryBytes >= Machine.neededMemoryBytes)
+  }
+
+  /// Whether the cause of an error may be gone at another time.
+  func mayPass(_ error: any Error) -> Bool {
+    switch error {
+    case let error as ProcessingError: [.outOfMemory, .checkpointUnusable].contains(error.code)
+    case let error as KernelError: error.isOutOfMemory
+    case CheckpointError.inUse: true
+    default: false
     }
   }
 
@@ -222,4 +252,13 @@ import RealityKit
   let sessionLogsItsOutputs = false
 
   func engineIntrinsics(of pose: PhotogrammetrySession.Pose) -> PosesFile.Intrinsics? { nil }
+
+  func engineCounts(of session: PhotogrammetrySession, into event: inout RunEvent) {}
+
+  var unsupportedMachine: CommandFailure { .run("This machine can't make models.") }
+
+  func mayPass(_ error: any Error) -> Bool { false }
+
+  /// What the engine logs besides telling it as an output.
+  let sessionOutputSource = "photogrammetry.session.output"
 #endif

@@ -1,0 +1,77 @@
+#if canImport(Pipeline)
+  import Foundation
+  import Kernels
+  import Pipeline
+
+  /// A folder with photos of one object, as one of many.
+  struct BatchDataset: Equatable, Sendable {
+    /// The folder's name.
+    let name: String
+    /// Where the photos are: the folder, or `images/` in it.
+    let photos: URL
+
+    /// The folders directly in `folder`, in natural order, except hidden ones and that of `models`.
+    static func all(in folder: URL, except models: URL) throws -> [BatchDataset] {
+      let excluded = models.standardizedFileURL.resolvingSymlinksInPath().path
+      return try FileManager.default.contentsOfDirectory(atPath: folder.path)
+        .filter { !$0.hasPrefix(".") }
+        .map { folder.appendingPathComponent($0, isDirectory: true) }
+        .filter {
+          isFolder($0) && $0.standardizedFileURL.resolvingSymlinksInPath().path != excluded
+        }
+        .sorted { a, b in
+          let (a, b) = (a.lastPathComponent, b.lastPathComponent)
+          let order = a.compare(b, options: [.numeric, .caseInsensitive])
+          return order == .orderedSame ? a < b : order == .orderedAscending
+        }
+        .map(BatchDataset.init)
+    }
+
+    private init(_ folder: URL) {
+      name = folder.lastPathComponent
+      let images = folder.appendingPathComponent("images", isDirectory: true)
+      let hasOwn = Self.files(in: folder).contains { Self.isImage($0) }
+      photos = !hasOwn && Self.isFolder(images) ? images : folder
+    }
+
+    /// Files that may be photos.
+    var photoCount: Int { Self.files(in: photos).count }
+
+    /// A number, as text, that changes with the photos, their masks and the options.
+    ///
+    /// Files count by name, size and time: reading them all would take longer than a second run may.
+    func stamp(options: [String]) -> String {
+      var fingerprint = Fingerprint()
+      for option in options { fingerprint.add(Array(option.utf8)) }
+      let folders = [photos] + PhotoFolder.maskFolderNames.map { photos.appendingPathComponent($0) }
+      for folder in folders {
+        for file in Self.files(in: folder) {
+          let attributes = try? FileManager.default.attributesOfItem(
+            atPath: file.resolvingSymlinksInPath().path)
+          fingerprint.add(Array(file.lastPathComponent.utf8))
+          fingerprint.add((attributes?[.size] as? NSNumber)?.intValue ?? -1)
+          let time = attributes?[.modificationDate] as? Date
+          fingerprint.add(time?.timeIntervalSinceReferenceDate ?? 0)
+        }
+      }
+      let digits = String(fingerprint.value, radix: 16)
+      return String(repeating: "0", count: 16 - digits.count) + digits
+    }
+
+    private static func files(in folder: URL) -> [URL] {
+      (try? PhotoFolder.files(in: folder)) ?? []
+    }
+
+    private static func isFolder(_ url: URL) -> Bool {
+      var isDirectory: ObjCBool = false
+      let exists = FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
+      return exists && isDirectory.boolValue
+    }
+
+    /// By name, for finding photos among folders; whether a file is one its content decides.
+    private static func isImage(_ file: URL) -> Bool {
+      ["jpg", "jpeg", "png", "tif", "tiff", "bmp", "webp", "heic"]
+        .contains(file.pathExtension.lowercased())
+    }
+  }
+#endif
