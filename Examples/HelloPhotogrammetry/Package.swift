@@ -1,15 +1,20 @@
 // swift-tools-version: 6.2
 import PackageDescription
 
-/// A module of the engine; on a Mac the system has it.
-func engine(_ module: String) -> Target.Dependency {
-  .product(
-    name: module, package: "photogrammetry-cli", condition: .when(platforms: [.linux]))
-}
+// On a Mac the system has these modules.
+#if os(Linux)
+  let modules = ["RealityKit"]
+#else
+  let modules: [String] = []
+#endif
 
 let package = Package(
   name: "HelloPhotogrammetry",
   platforms: [.macOS(.v15)],
   dependencies: [.package(name: "photogrammetry-cli", path: "../..")],
-  targets: [.executableTarget(name: "HelloPhotogrammetry", dependencies: [engine("RealityKit")])]
+  targets: [
+    .executableTarget(
+      name: "HelloPhotogrammetry",
+      dependencies: modules.map { .product(name: $0, package: "photogrammetry-cli") })
+  ]
 )

@@ -1,11 +1,12 @@
 // swift-tools-version: 6.2
 import PackageDescription
 
-/// A module of the engine; on a Mac the system has it.
-func engine(_ module: String) -> Target.Dependency {
-  .product(
-    name: module, package: "photogrammetry-cli", condition: .when(platforms: [.linux]))
-}
+// On a Mac the system has these modules.
+#if os(Linux)
+  let modules = ["RealityKit", "CoreVideo"]
+#else
+  let modules: [String] = []
+#endif
 
 let package = Package(
   name: "SampleSequence",
@@ -13,6 +14,7 @@ let package = Package(
   dependencies: [.package(name: "photogrammetry-cli", path: "../..")],
   targets: [
     .executableTarget(
-      name: "SampleSequence", dependencies: [engine("RealityKit"), engine("CoreVideo")])
+      name: "SampleSequence",
+      dependencies: modules.map { .product(name: $0, package: "photogrammetry-cli") })
   ]
 )

@@ -72,8 +72,8 @@ package final class ReconstructionPipeline {
 
   /// Reads and validates the photos.
   package func ingest() throws -> IngestedPhotos {
-    if let ingested { return ingested }
     try noting { try lockCheckpoint() }
+    if let ingested { return ingested }
     let result = try run(.preProcessing) { context in
       if let saved { return try SavedPhotos().run(saved, context) }
       var options = PhotoIngestion.Options()
@@ -363,6 +363,9 @@ package final class ReconstructionPipeline {
     guard lock != nil else { return }
     try checkpoint?.write(report)
   }
+
+  /// Lets other runs use the checkpoint directory until this one is asked for more.
+  package func releaseCheckpoint() { lock = nil }
 }
 
 extension ReconstructionPipeline {

@@ -59,7 +59,11 @@ import Testing
     let support = StandingPlane(normal: [0, 1, 0], offset: -0.1, band: 0.1)
     let closed = GapClosing().run(mesh, isRemoved: isDome, support: support) { $0.x > 0 }
     #expect(closed.triangles == mesh.triangles)
-    #expect(closed.positions.allSatisfy { abs($0.y) < 1e-3 })
+    #expect(closed.positions[41 * 20 + 20].y == -0.1)
+    // Between there and the rim it slopes.
+    let slope = (20...35).map { closed.positions[41 * 20 + $0].y }
+    #expect(zip(slope, slope.dropFirst()).allSatisfy { $0 <= $1 && $1 - $0 < 0.05 })
+    #expect(slope.last == 0)
   }
 
   @Test func balloonOverAFewFacesGoes() {

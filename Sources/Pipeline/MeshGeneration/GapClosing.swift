@@ -4,7 +4,8 @@ import SceneModel
 /// Closes the gaps that trimming leaves, but for those that photos look through.
 ///
 /// Poisson's own surface closes a small gap best. Over a large one it bulges like a balloon; there
-/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap.
+/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap. What of it is close
+/// above the support of an object stood on it.
 struct GapClosing {
   struct Options: Hashable, Codable, Sendable {
     /// Close gaps of any size, as of an object, which has an inside.
@@ -21,9 +22,11 @@ struct GapClosing {
     /// How far behind a gap it is seen whether photos look through it, in world units: a ray that
     /// grazes the surface doesn't get there.
     var depth: Float = 0
-    /// What is lower than this share of the object's height above its support touched it: rays that
+    /// What is lower than this share of the object's height above its support touched it. Rays that
     /// pass just above the support don't tell that there is a hole.
     var contactShare = 0.02
+    /// What is so many edges from a gap's rim, or fewer, is not put down on the support.
+    var bevel = 6
     /// Iterations of the solver at most, for a membrane.
     var iterations = 400
 
@@ -70,10 +73,28 @@ struct GapClosing {
       mesh.freeShare(of: triangles, contact, depth: options.depth, isFree)
     }
     if isSmall, freeShare() < options.smallFreeShare { return true }
-    Membrane(triangles, isFixed: gaps.isRim)
-      .tighten(&mesh.positions, iterations: options.iterations)
+    tighten(triangles, of: &mesh, gaps.isRim, contact)
     let isTiny = share < options.tinyShare && options.closesLarge
     return isTiny || freeShare(contact) < options.membraneFreeShare
+  }
+
+  /// Draws a membrane across a gap, and what of it touched the support down to it: not up to the
+  /// rim, which is as uneven as what photos see of the lowest part.
+  private func tighten(
+    _ triangles: [Triangle], of mesh: inout Mesh, _ isRim: [Bool], _ contact: Contact?
+  ) {
+    let membrane = Membrane(triangles, isFixed: isRim)
+    membrane.tighten(&mesh.positions, iterations: options.iterations)
+    guard let contact else { return }
+    var isFixed = isRim
+    let isNearRim = triangles.vertices(within: options.bevel, of: isRim)
+    for vertex in membrane.vertices where !isNearRim[vertex] {
+      if contact.reaches(mesh.positions[vertex]) {
+        mesh.positions[vertex] = contact.foot(of: mesh.positions[vertex])
+        isFixed[vertex] = true
+      }
+    }
+    Membrane(triangles, isFixed: isFixed).tighten(&mesh.positions, iterations: options.iterations)
   }
 }
 
@@ -93,6 +114,24 @@ private struct Contact {
 
   /// Whether a point is so close to the support that the object touched it there.
   func reaches(_ point: SIMD3<Float>) -> Bool { plane.height(of: SIMD3<Double>(point)) < limit }
+
+  /// The place on the support straight below a point.
+  func foot(of point: SIMD3<Float>) -> SIMD3<Float> {
+    let point = SIMD3<Double>(point)
+    return SIMD3<Float>(point - plane.height(of: point) * plane.normal)
+  }
+}
+
+extension [Triangle] {
+  /// Which vertices are so many edges of the triangles, or fewer, from those in a set.
+  fileprivate func vertices(within edges: Int, of set: [Bool]) -> [Bool] {
+    var isNear = set
+    for _ in 0..<edges {
+      let reached = filter { $0.vertices.contains { isNear[$0] } }
+      for triangle in reached { for vertex in triangle.vertices { isNear[vertex] = true } }
+    }
+    return isNear
+  }
 }
 
 extension Mesh {

@@ -36,7 +36,10 @@ final class ReconstructionEngine: SessionEngine {
 
   func plan(for specifications: [DetailSpecification]) { pipeline.plan(for: specifications) }
 
-  func finishTask() throws { try pipeline.writeReport() }
+  func finishTask() throws {
+    defer { pipeline.releaseCheckpoint() }
+    try pipeline.writeReport()
+  }
 
   func ingest() throws -> Int { try pipeline.ingest().photos.count }
 
