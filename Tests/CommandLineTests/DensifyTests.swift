@@ -65,7 +65,7 @@ import Testing
     let files = try FileManager.default.subpathsOfDirectory(atPath: folder.path + "/work").sorted()
     #expect(
       files.filter { !$0.hasPrefix("dense/views/") }
-        == ["dense", "dense/points.ply", "dense/views", "report.json"])
+        == [".lock", "dense", "dense/points.ply", "dense/views", "report.json"])
   }
 
   @Test func jobsLeaveTheirShareOfTheViews() throws {
