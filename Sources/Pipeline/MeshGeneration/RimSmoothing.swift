@@ -23,6 +23,7 @@ struct RimSmoothing: Sendable {
     guard isRemoved.contains(true), isRemoved.contains(false) else { return isRemoved }
     let kept = KeptShares(mesh, isRemoved)
     let band = band(mesh, kept)
+    guard !band.isEmpty else { return isRemoved }
     let share = diffuse(kept, mesh, band)
     var result = isRemoved
     for face in band {
@@ -48,28 +49,49 @@ struct RimSmoothing: Sendable {
     }
   }
 
-  /// Draws each vertex half-way to the mean of its neighbours, again and again. Vertices at the
-  /// outer border of the band see a part of their neighbours only, which are like them.
+  /// Draws each vertex towards its neighbours, again and again, the less the longer the edge between:
+  /// where there are no samples triangles are large. Vertices at the outer border of the band see a
+  /// part of their neighbours only, which are like them.
   private func diffuse(_ kept: KeptShares, _ mesh: Mesh, _ band: [Int]) -> [Float] {
-    let triangles = band.map { mesh.triangles[$0] }
-    var neighbours = [Float](repeating: 0, count: kept.shares.count)
-    for triangle in triangles { for vertex in triangle.vertices { neighbours[vertex] += 2 } }
-    let vertices = neighbours.indices.filter { neighbours[$0] > 0 }
+    let edges = edges(mesh, band)
+    var counts = [Float](repeating: 0, count: kept.shares.count)
+    for edge in edges { for vertex in [edge.a, edge.b] { counts[vertex] += 1 } }
+    let vertices = counts.indices.filter { counts[$0] > 0 }
     var share = kept.shares
-    var sums = [Float](repeating: 0, count: share.count)
+    var flows = [Float](repeating: 0, count: share.count)
     for _ in 0..<options.steps {
-      for vertex in vertices { sums[vertex] = 0 }
-      for triangle in triangles {
-        let (a, b, c) = (Int(triangle.a), Int(triangle.b), Int(triangle.c))
-        sums[a] += share[b] + share[c]
-        sums[b] += share[c] + share[a]
-        sums[c] += share[a] + share[b]
+      for edge in edges {
+        let flow = edge.weight * (share[edge.b] - share[edge.a])
+        flows[edge.a] += flow
+        flows[edge.b] -= flow
       }
       for vertex in vertices {
-        share[vertex] = (share[vertex] + sums[vertex] / neighbours[vertex]) / 2
+        share[vertex] += flows[vertex] / (2 * counts[vertex])
+        flows[vertex] = 0
       }
     }
     return share
+  }
+
+  private struct Edge {
+    var a: Int
+    var b: Int
+    /// 1 up to the usual length, less by its square beyond.
+    var weight: Float
+  }
+
+  /// The edges of some faces, those between two of them twice.
+  private func edges(_ mesh: Mesh, _ faces: [Int]) -> [Edge] {
+    let edges = faces.flatMap { mesh.triangles[$0].edges }
+    let lengths = edges.map {
+      (mesh.positions[Int($0.x)] - mesh.positions[Int($0.y)]).squaredLength
+    }
+    let usual = lengths.sorted()[lengths.count / 2]
+    return zip(edges, lengths).map { edge, length in
+      Edge(
+        a: Int(edge.x), b: Int(edge.y),
+        weight: length > usual && length > 0 ? usual / length : 1)
+    }
   }
 }
 

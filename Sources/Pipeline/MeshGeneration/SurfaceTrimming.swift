@@ -15,7 +15,7 @@ struct SurfaceTrimming {
     var contradictingPhotos = 3
     /// A notch in the rim of what is supported is filled no farther than so many spacings from a
     /// sample.
-    var notchSpacings = 6.0
+    var notchSpacings = 5.0
     /// How far before its point a ray ends, in spacings.
     var clearanceSpacings = 5.0
     /// Side of the cells of free space, in spacings.
@@ -56,6 +56,7 @@ struct SurfaceTrimming {
       let triangle = mesh.triangles[index]
       return triangle.maximum(of: distances) <= Float(options.notchSpacings)
         && isInside?[index] != false && !isSeenThrough(mesh.center(of: triangle))
+        && support.map { $0.height(of: SIMD3<Double>(mesh.center(of: triangle))) > 0 } ?? true
     }
     try context.control.step(0.9)
     context.notes.count(

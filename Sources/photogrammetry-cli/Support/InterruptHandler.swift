@@ -17,9 +17,9 @@ final class InterruptHandler: Sendable {
     wishes.signals.load(ordering: .relaxed) > 0 || wishes.hasInputEnded.load(ordering: .relaxed)
   }
 
-  /// Calls `onFirst` at the first signal, on a queue of its own; once more is harmless. With `untilInputEnds` the end of
-  /// standard input is a wish to stop too: it comes when the
-  /// process at its other end is gone, and beside a signal that both have got.
+  /// Calls `onFirst` at the first signal, on a queue of its own; once more is harmless. With
+  /// `untilInputEnds` the end of standard input is a wish to stop too, soon: it comes when the process
+  /// at its other end is gone, and beside a signal that both have got.
   init(untilInputEnds: Bool = false, _ onFirst: @escaping @Sendable () -> Void) {
     let wishes = Wishes()
     self.wishes = wishes
@@ -35,6 +35,9 @@ final class InterruptHandler: Sendable {
       while !FileHandle.standardInput.availableData.isEmpty {}
       wishes.hasInputEnded.store(true, ordering: .relaxed)
       onFirst()
+      // Nobody waits for this process: a step that can't be left must not hold it for long.
+      Thread.sleep(forTimeInterval: 2)
+      _exit(CommandFailure.interruptedCode)
     }
   }
 
