@@ -57,7 +57,9 @@ import Testing
     let isRemoved = mesh.triangles.map { mesh.center(of: $0).x > 30 }
     let smooth = RimSmoothing().run(mesh, isRemoved: isRemoved) { _ in true }
     for (index, triangle) in mesh.triangles.enumerated() where smooth[index] != isRemoved[index] {
-      #expect(abs(mesh.center(of: triangle).x - 30) < 1)
+      // Where the sheet ends a vertex has faces on one side only.
+      let center = mesh.center(of: triangle)
+      #expect(abs(center.x - 30) < (center.z < 2 || center.z > 58 ? 2 : 1))
     }
   }
 

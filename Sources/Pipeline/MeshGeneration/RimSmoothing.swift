@@ -49,49 +49,36 @@ struct RimSmoothing: Sendable {
     }
   }
 
-  /// Draws each vertex towards its neighbours, again and again, the less the longer the edge between:
-  /// where there are no samples triangles are large. Vertices at the outer border of the band see a
-  /// part of their neighbours only, which are like them.
+  /// Draws each vertex half-way to the mean over its faces by area, again and again: where there are no
+  /// samples faces are large. Vertices at the outer border of the band see a part of their faces only,
+  /// which are like the others.
   private func diffuse(_ kept: KeptShares, _ mesh: Mesh, _ band: [Int]) -> [Float] {
-    let edges = edges(mesh, band)
-    var counts = [Float](repeating: 0, count: kept.shares.count)
-    for edge in edges { for vertex in [edge.a, edge.b] { counts[vertex] += 1 } }
-    let vertices = counts.indices.filter { counts[$0] > 0 }
+    let triangles = band.map { mesh.triangles[$0] }
+    let thirds = triangles.map { triangle in
+      let (a, b, c) = mesh.corners(of: triangle)
+      return (b - a).cross(c - a).length / 3
+    }
+    var areas = [Float](repeating: 0, count: kept.shares.count)
+    for (triangle, third) in zip(triangles, thirds) {
+      for vertex in triangle.vertices { areas[vertex] += 3 * third }
+    }
+    let vertices = areas.indices.filter { areas[$0] > 0 }
     var share = kept.shares
-    var flows = [Float](repeating: 0, count: share.count)
+    var sums = [Float](repeating: 0, count: share.count)
     for _ in 0..<options.steps {
-      for edge in edges {
-        let flow = edge.weight * (share[edge.b] - share[edge.a])
-        flows[edge.a] += flow
-        flows[edge.b] -= flow
+      for (triangle, third) in zip(triangles, thirds) {
+        let (a, b, c) = (Int(triangle.a), Int(triangle.b), Int(triangle.c))
+        let mean = third * (share[a] + share[b] + share[c])
+        sums[a] += mean
+        sums[b] += mean
+        sums[c] += mean
       }
       for vertex in vertices {
-        share[vertex] += flows[vertex] / (2 * counts[vertex])
-        flows[vertex] = 0
+        share[vertex] = (share[vertex] + sums[vertex] / areas[vertex]) / 2
+        sums[vertex] = 0
       }
     }
     return share
-  }
-
-  private struct Edge {
-    var a: Int
-    var b: Int
-    /// 1 up to the usual length, less by its square beyond.
-    var weight: Float
-  }
-
-  /// The edges of some faces, those between two of them twice.
-  private func edges(_ mesh: Mesh, _ faces: [Int]) -> [Edge] {
-    let edges = faces.flatMap { mesh.triangles[$0].edges }
-    let lengths = edges.map {
-      (mesh.positions[Int($0.x)] - mesh.positions[Int($0.y)]).squaredLength
-    }
-    let usual = lengths.sorted()[lengths.count / 2]
-    return zip(edges, lengths).map { edge, length in
-      Edge(
-        a: Int(edge.x), b: Int(edge.y),
-        weight: length > usual && length > 0 ? usual / length : 1)
-    }
   }
 }
 
