@@ -15,16 +15,23 @@ package final class DirectoryLock {
     } catch {
       throw CheckpointError.notWritable(directory: directory.path)
     }
-    let file = directory.appendingPathComponent(".lock").path
-    descriptor = open(file, O_RDWR | O_CREAT | O_CLOEXEC, 0o644)
-    guard descriptor >= 0 else { throw CheckpointError.notWritable(directory: directory.path) }
-    let wish = (isShared ? LOCK_SH : LOCK_EX) | LOCK_NB
-    while flock(descriptor, wish) != 0 {
-      if errno == EINTR { continue }
-      guard errno == EWOULDBLOCK else { return }
-      close(descriptor)
+    let path = directory.appendingPathComponent(".lock").path
+    let file = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0o644)
+    guard file >= 0 else { throw CheckpointError.notWritable(directory: directory.path) }
+    guard Self.lock(file, isShared: isShared) else {
+      close(file)
       throw CheckpointError.inUse(directory: directory.path)
     }
+    // Not before: an object that is complete closes it, also when its initialiser throws.
+    descriptor = file
+  }
+
+  /// False where another one has the lock.
+  private static func lock(_ file: Int32, isShared: Bool) -> Bool {
+    while flock(file, (isShared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 {
+      if errno != EINTR { return errno != EWOULDBLOCK }
+    }
+    return true
   }
 
   deinit { close(descriptor) }

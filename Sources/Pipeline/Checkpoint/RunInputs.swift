@@ -27,13 +27,13 @@ struct RunInputs: Sendable {
     }
     fingerprint.add(ingested.processingPixels)
     fingerprint.add(
-      try Self.json([configuration.isSequential, configuration.isHighSensitivity]))
-    fingerprint.add(try Self.json(configuration.knownDistances))
-    fingerprint.add(try Self.json(configuration.mappingMethod))
+      try Fingerprint.content(of: [configuration.isSequential, configuration.isHighSensitivity]))
+    fingerprint.add(try Fingerprint.content(of: configuration.knownDistances))
+    fingerprint.add(try Fingerprint.content(of: configuration.mappingMethod))
     alignment = fingerprint.value
     self.configuration =
-      try Self.json(configuration.pointCloudGeneration)
-      + Self.json([
+      try Fingerprint.content(of: configuration.pointCloudGeneration)
+      + Fingerprint.content(of: [
         configuration.isObjectMaskingEnabled, configuration.closesObject,
         configuration.refinesSurface,
       ])
@@ -46,11 +46,5 @@ struct RunInputs: Sendable {
     fingerprint.add(configuration)
     fingerprint.add(viewPixels)
     return fingerprint.value
-  }
-
-  private static func json(_ value: some Encodable) throws -> Data {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = .sortedKeys
-    return try encoder.encode(value)
   }
 }

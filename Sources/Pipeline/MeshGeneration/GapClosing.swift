@@ -4,8 +4,8 @@ import SceneModel
 /// Closes the gaps that trimming leaves, but for those that photos look through.
 ///
 /// Poisson's own surface closes a small gap best. Over a large one it bulges like a balloon; there
-/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap. What of it is close
-/// above the support of an object stood on it.
+/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap. What of it
+/// is close above the support of an object stood on it.
 struct GapClosing {
   struct Options: Hashable, Codable, Sendable {
     /// Close gaps of any size, as of an object, which has an inside.
@@ -119,18 +119,6 @@ private struct Contact {
   func foot(of point: SIMD3<Float>) -> SIMD3<Float> {
     let point = SIMD3<Double>(point)
     return SIMD3<Float>(point - plane.height(of: point) * plane.normal)
-  }
-}
-
-extension [Triangle] {
-  /// Which vertices are so many edges of the triangles, or fewer, from those in a set.
-  fileprivate func vertices(within edges: Int, of set: [Bool]) -> [Bool] {
-    var isNear = set
-    for _ in 0..<edges {
-      let reached = filter { $0.vertices.contains { isNear[$0] } }
-      for triangle in reached { for vertex in triangle.vertices { isNear[vertex] = true } }
-    }
-    return isNear
   }
 }
 

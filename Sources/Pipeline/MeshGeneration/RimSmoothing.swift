@@ -36,14 +36,8 @@ struct RimSmoothing: Sendable {
 
   /// The faces around the line.
   private func band(_ mesh: Mesh, _ kept: KeptShares) -> [Int] {
-    var isNear = kept.shares.map { $0 > 0 && $0 < 1 }
-    for _ in 0..<options.reach {
-      var isNext = isNear
-      for triangle in mesh.triangles where triangle.vertices.contains(where: { isNear[$0] }) {
-        for vertex in triangle.vertices { isNext[vertex] = true }
-      }
-      isNear = isNext
-    }
+    let isNear = mesh.triangles.vertices(
+      within: options.reach, of: kept.shares.map { $0 > 0 && $0 < 1 })
     return mesh.triangles.indices.filter { face in
       mesh.triangles[face].vertices.contains { isNear[$0] }
     }

@@ -3,8 +3,8 @@ import Kernels
 import SceneModel
 
 /// Removes what Poisson made up: faces that are far from any sample, faces without support that
-/// photos look through, and what masks leave out. `RimSmoothing` evens the line, `GapClosing` decides which of the gaps are closed
-/// again.
+/// photos look through, and what masks leave out. `RimSmoothing` evens the line between; `GapClosing`
+/// decides which of the gaps are closed again.
 struct SurfaceTrimming {
   struct Options: Hashable, Codable, Sendable {
     /// A face this many spacings from the nearest sample has no support.

@@ -87,8 +87,10 @@ extension DenseViews {
     _ views: [View], _ reconstruction: Reconstruction, _ images: ImageStore,
     _ options: PointCloudGeneration.Options
   ) throws -> [PatchWorkspace.Step: [UInt64]] {
-    let patchOptions = try json(options.patches)
-    let (filterOptions, coarseFilter) = (try json(options.filter), try json(options.coarseFilter))
+    let patchOptions = try Fingerprint.content(of: options.patches)
+    let (filterOptions, coarseFilter) = (
+      try Fingerprint.content(of: options.filter), try Fingerprint.content(of: options.coarseFilter)
+    )
     let photos = try views.map { view in
       fingerprint(view, try images.fingerprint(of: view.photo), reconstruction)
     }
@@ -152,11 +154,5 @@ extension DenseViews {
     view.cameraFromWorld.rotation.matrix.elements.forEach { fingerprint.add($0) }
     fingerprint.add(view.cameraFromWorld.translation)
     return fingerprint.value
-  }
-
-  private static func json(_ value: some Encodable) throws -> Data {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = .sortedKeys
-    return try encoder.encode(value)
   }
 }
