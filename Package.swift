@@ -99,6 +99,9 @@ var cliDependencies: [Target.Dependency] = [
         argumentParser, "TestSupport", "Pipeline", "Evaluation", "SceneModel", "Kernels",
       ],
       path: "Tests/GrowthBenchmark", swiftSettings: strict),
+    .executableTarget(
+      name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation"],
+      path: "Tests/CancelBenchmark", swiftSettings: strict),
     .testTarget(
       name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),

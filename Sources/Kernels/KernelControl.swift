@@ -93,14 +93,14 @@ package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
   /// The input is valid but does not determine a result.
   case degenerate(String)
   case failed(String)
-
-  /// Whether there was too little memory, which may be otherwise at another time.
-  package var isOutOfMemory: Bool { self == .failed("out of memory") }
+  /// There was too little memory, which may be otherwise at another time.
+  case outOfMemory
 
   package var description: String {
     switch self {
     case .invalidArgument(let message): "invalid argument: \(message)"
     case .degenerate(let message), .failed(let message): message
+    case .outOfMemory: "out of memory"
     }
   }
 
@@ -130,6 +130,7 @@ func withKernel(
   case ck_cancelled: throw CancellationError()
   case ck_invalid_argument: throw KernelError.invalidArgument(String(cString: ck_last_error()))
   case ck_degenerate: throw KernelError.degenerate(String(cString: ck_last_error()))
+  case ck_out_of_memory: throw KernelError.outOfMemory
   default: throw KernelError.failed(String(cString: ck_last_error()))
   }
 }

@@ -59,4 +59,12 @@ package struct DetailSpecification: Hashable, Codable, Sendable {
         maps: [.diffuseColor], viewPixels: 4_000_000)
     }
   }
+
+  /// Half the pixels of a view, and half the side of a texture.
+  package var halved: DetailSpecification {
+    var halved = self
+    halved.viewPixels /= 2
+    halved.textureSide /= 2
+    return halved
+  }
 }

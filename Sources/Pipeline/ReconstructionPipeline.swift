@@ -20,6 +20,7 @@ package final class ReconstructionPipeline {
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
   private var finestViewPixels = 0
+  private var maximumViewPixels = Int.max
   /// Others may work in the checkpoint directory at the same time.
   private var sharesCheckpoint = false
 
@@ -67,7 +68,22 @@ package final class ReconstructionPipeline {
 
   /// Announces the models to come, so that shared stages work at the finest resolution needed.
   package func plan(for specifications: [DetailSpecification]) {
-    finestViewPixels = max(finestViewPixels, specifications.map(\.viewPixels).max() ?? 0)
+    let wished = max(finestViewPixels, specifications.map(\.viewPixels).max() ?? 0)
+    finestViewPixels = min(wished, maximumViewPixels)
+  }
+
+  /// Lets go of what can be made again, and uses at most so many pixels of a view from now on: for a
+  /// run that memory was too short for.
+  package func limitResolution(to viewPixels: Int) {
+    maximumViewPixels = max(1, min(maximumViewPixels, viewPixels))
+    finestViewPixels = min(finestViewPixels, maximumViewPixels)
+    cloud = nil
+    images = ingested.map { imageStore(of: $0) }
+    let sentence =
+      "Memory ran out: from here on views of \(megapixels(maximumViewPixels)) at most are used. "
+      + "Close other programs, or choose a lower detail level."
+    report.warnings.append(sentence)
+    onEvent(.warning(sentence))
   }
 
   /// Reads and validates the photos.
@@ -282,7 +298,6 @@ package final class ReconstructionPipeline {
   }
 
   private func reuseSurface(_ saved: SavedRun) -> Mesh {
-    func megapixels(_ pixels: Int) -> String { "\(Double(pixels / 10_000) / 100) MP" }
     let (had, wanted) = (saved.record.viewPixels, finestViewPixels)
     if had < wanted {
       let sentence =
@@ -444,3 +459,5 @@ extension ReconstructionPipeline {
     if registered < all { onEvent(.stitchingIncomplete(registered: registered, of: all)) }
   }
 }
+
+private func megapixels(_ pixels: Int) -> String { "\(Double(pixels / 10_000) / 100) MP" }

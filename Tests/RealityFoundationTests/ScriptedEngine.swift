@@ -15,6 +15,8 @@ final class ScriptedEngine: SessionEngine {
     var ingestError: PipelineError?
     var alignmentError: PipelineError?
     var entityError: PipelineError?
+    /// A model needs fewer pixels of a view than this.
+    var pixelsInMemory = Int.max
     var isDownsampled = false
     var registered: Int?
     /// Works on the alignment until it is cancelled.
@@ -32,6 +34,7 @@ final class ScriptedEngine: SessionEngine {
   private let script: Script
   private let flag: CancellationFlag
   private let journal: Journal
+  private var maximumViewPixels = Int.max
   private let onEvent: SessionCore.EventHandler
 
   init(
@@ -102,6 +105,9 @@ final class ScriptedEngine: SessionEngine {
   ) throws -> ModelEntity {
     try align()
     if let error = script.entityError { throw error }
+    if min(specification.viewPixels, maximumViewPixels) >= script.pixelsInMemory {
+      throw KernelError.outOfMemory
+    }
     for stage in PipelineStage.allCases[2..<5] { try work(stage) }
     return ModelEntity()
   }
@@ -113,6 +119,11 @@ final class ScriptedEngine: SessionEngine {
     try align()
     for stage in PipelineStage.allCases.dropFirst(2) { try work(stage) }
     try Data("model".utf8).write(to: url)
+  }
+
+  func limitResolution(to viewPixels: Int) {
+    journal.add("limited to \(viewPixels)")
+    maximumViewPixels = viewPixels
   }
 
   func finishTask() throws { journal.add("finished") }

@@ -82,6 +82,28 @@ import Testing
     }
   }
 
+  @Test func outOfMemoryIsTriedOnceMoreAtHalfTheResolution() async throws {
+    try await withPhotos { folder in
+      let journal = ScriptedEngine.Journal()
+      let session = Session(folder: folder, .init(pixelsInMemory: 250_001), journal: journal)
+      let names = try await run(session, [.modelEntity(detail: .medium)]).map(name(of:))
+      #expect(names.filter { $0 == "automaticDownsampling" }.count == 1)
+      #expect(names.contains("requestComplete") && !names.contains("requestError"))
+      #expect(journal.count(of: "limited to 250000") == 1)
+    }
+  }
+
+  @Test func outOfMemoryTwiceIsAnErrorAndStopsNoOther() async throws {
+    try await withPhotos { folder in
+      let session = Session(folder: folder, .init(pixelsInMemory: 1000))
+      let outputs = try await run(session, [.modelEntity(detail: .medium), .poses])
+      let names = outputs.map(name(of:))
+      #expect(names.contains("requestComplete") && names.last == "processingComplete")
+      let error = try #require(firstError(in: outputs) as? ProcessingError)
+      #expect(error.code == .outOfMemory && error.remedy.contains("lower detail"))
+    }
+  }
+
   @Test func everyRequestHearsOfBadInput() async throws {
     try await withPhotos { folder in
       let session = Session(

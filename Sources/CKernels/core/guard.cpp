@@ -1,11 +1,20 @@
 #include "core/guard.h"
 
+#include <new>
+#include <opencv2/core.hpp>
+
 namespace ck {
 namespace {
 thread_local std::string last_error;
 }
 
 void set_last_error(const std::string& message) { last_error = message; }
+
+bool is_out_of_memory(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error)) return true;
+  const auto* exception = dynamic_cast<const cv::Exception*>(&error);
+  return exception && exception->code == cv::Error::StsNoMem;
+}
 
 }  // namespace ck
 

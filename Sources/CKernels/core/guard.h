@@ -1,6 +1,6 @@
 #pragma once
 
-#include <new>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -18,6 +18,9 @@ struct Degenerate : std::runtime_error {
 
 /// Stores the message that `ck_last_error` returns on this thread.
 void set_last_error(const std::string& message);
+
+/// Whether an exception, of the language's or of OpenCV, says that memory can't be had.
+bool is_out_of_memory(const std::exception& error);
 
 /// Reports progress; throws `Cancelled` when the caller asks to stop.
 inline void step(const ck_control* control, double fraction) {
@@ -50,12 +53,9 @@ ck_status guarded(Body&& body) noexcept {
   } catch (const Degenerate& e) {
     set_last_error(e.what());
     return ck_degenerate;
-  } catch (const std::bad_alloc&) {
-    set_last_error("out of memory");
-    return ck_failed;
   } catch (const std::exception& e) {
     set_last_error(e.what());
-    return ck_failed;
+    return is_out_of_memory(e) ? ck_out_of_memory : ck_failed;
   } catch (...) {
     set_last_error("unknown exception");
     return ck_failed;

@@ -17,6 +17,8 @@ typedef enum {
   /// The input is valid but does not determine a result.
   ck_degenerate = 3,
   ck_failed = 4,
+  /// There was too little memory, which may be otherwise at another time.
+  ck_out_of_memory = 5,
 } ck_status;
 
 /// Reports progress and asks whether to go on. May be called from any thread.

@@ -66,7 +66,7 @@ package struct GlobalMapping: Sendable {
       // The photos that held the world may be gone.
       anchor(&map, graph)
       return map.registered.count >= 3 ? map : nil
-    } catch is KernelError {
+    } catch let error as KernelError where error != .outOfMemory {
       // The data doesn't determine one of the steps.
       return nil
     }

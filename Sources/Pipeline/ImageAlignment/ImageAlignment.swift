@@ -87,7 +87,7 @@ package struct ImageAlignment: Sendable {
     do {
       return try ObservationRefinement(options.refinement)
         .run(mapped, features: features, cameras: cameras, images: images, context)
-    } catch let error as KernelError {
+    } catch let error as KernelError where error != .outOfMemory {
       context.notes.warn(
         "The observations could not be refined (\(error)); poses are less accurate.")
       return mapped
@@ -104,7 +104,7 @@ package struct ImageAlignment: Sendable {
     do {
       findings = try LookAlikeCheck(options.lookAlikes)
         .run(mapped, graph, features: features, images: images, context)
-    } catch let error as KernelError {
+    } catch let error as KernelError where error != .outOfMemory {
       context.notes.warn("Look-alike parts of the scene were not looked for (\(error)).")
       return
     }

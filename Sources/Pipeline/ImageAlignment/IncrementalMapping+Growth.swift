@@ -131,7 +131,7 @@ struct MapGrowth: Sendable {
         pixels: seen.map { map.tracks.pixels[$0] },
         points: seen.map { map.positions[Int(map.tracks.trackOfObservation[$0])] },
         camera: camera, control: control(map))
-    } catch is KernelError {
+    } catch let error as KernelError where error != .outOfMemory {
       return false
     }
     guard Double(found.inlierCount) >= options.minimumInlierRatio * Double(seen.count) else {

@@ -41,7 +41,7 @@ struct PoissonSurface {
         guard !surface.mesh.triangles.isEmpty else { continue }
         context.notes.count("poissonDepth", Double(solver.depth))
         return (surface.mesh, options.scale * extent / exp2(Double(solver.depth)))
-      } catch let error as KernelError {
+      } catch let error as KernelError where error != .outOfMemory {
         failure = " (\(error))"
       }
     }

@@ -41,6 +41,8 @@ final class ReconstructionEngine: SessionEngine {
     try pipeline.writeReport()
   }
 
+  func limitResolution(to viewPixels: Int) { pipeline.limitResolution(to: viewPixels) }
+
   func ingest() throws -> Int { try pipeline.ingest().photos.count }
 
   func poses() throws -> PhotogrammetrySession.Poses {

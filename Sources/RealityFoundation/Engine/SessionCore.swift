@@ -105,13 +105,28 @@ final class SessionCore: Sendable {
       if flag.isCancelled { throw CancellationError() }
       shared.withLock { $0.state.began(entry) }
       do {
-        let result = try engine.result(for: entry, of: plan)
+        let result = try result(for: entry, of: plan, engine)
         emit { $0.completed(entry, result, at: now()) }
       } catch let error as CancellationError {
         throw error
       } catch {
         fail(entry, error)
       }
+    }
+  }
+
+  /// Does the work for a request; once more, at half the resolution, where memory runs out.
+  private func result(
+    for entry: RunPlan.Entry, of plan: RunPlan, _ engine: any SessionEngine
+  ) throws -> PhotogrammetrySession.Result {
+    do {
+      return try engine.result(for: entry, of: plan)
+    } catch KernelError.outOfMemory {
+      var entry = entry
+      entry.specification = entry.specification?.halved
+      engine.limitResolution(to: plan.finest.viewPixels / 2)
+      emit { $0.downsampled() }
+      return try engine.result(for: entry, of: plan)
     }
   }
 

@@ -19,6 +19,8 @@ protocol SessionEngine: AnyObject {
   ) throws
   /// Leaves what the run's files need at the end of a task, the report for one.
   func finishTask() throws
+  /// Lets go of what can be made again, and uses at most so many pixels of a view from now on.
+  func limitResolution(to viewPixels: Int)
   /// What was done so far.
   var report: RunReport? { get }
 }

@@ -52,7 +52,7 @@ extension ProcessingError {
       self.init(
         code: .checkpointUnusable, reason: error.errorDescription ?? "",
         remedy: error.recoverySuggestion ?? "")
-    case let error as KernelError where error.isOutOfMemory:
+    case KernelError.outOfMemory:
       self.init(
         code: .outOfMemory, reason: "There was too little memory.",
         remedy: "Close other programs, or choose a lower detail level.")

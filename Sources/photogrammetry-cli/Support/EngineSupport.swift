@@ -226,8 +226,7 @@ import RealityKit
   func mayPass(_ error: any Error) -> Bool {
     switch error {
     case let error as ProcessingError: [.outOfMemory, .checkpointUnusable].contains(error.code)
-    case let error as KernelError: error.isOutOfMemory
-    case CheckpointError.inUse: true
+    case KernelError.outOfMemory, CheckpointError.inUse: true
     default: false
     }
   }

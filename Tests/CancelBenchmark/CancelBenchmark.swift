@@ -1,0 +1,62 @@
+import ArgumentParser
+import Foundation
+import RealityFoundation
+
+/// Cancels sessions at random moments and tells how soon they end; then lets each come to its end and
+/// compares its model with that of a session that was left alone. Fails where they differ, or where a
+/// session ends otherwise than it has to.
+@main
+struct CancelBenchmark: AsyncParsableCommand {
+  static let configuration = CommandConfiguration(commandName: "cancel-benchmark")
+
+  @Argument(help: "The folder with the photos.")
+  var photos: String
+
+  @Option(help: "How often to cancel.")
+  var cancels = 100
+
+  @Option(help: "What the random moments begin from.")
+  var seed: UInt64 = 1
+
+  @Option(help: "preview, reduced, medium, full or raw.")
+  var detail = Detail.preview
+
+  enum Detail: String, ExpressibleByArgument {
+    case preview, reduced, medium, full, raw
+
+    var value: PhotogrammetrySession.Request.Detail {
+      switch self {
+      case .preview: .preview
+      case .reduced: .reduced
+      case .medium: .medium
+      case .full: .full
+      case .raw: .raw
+      }
+    }
+  }
+
+  func run() async throws {
+    let folder = FileManager.default.temporaryDirectory
+      .appendingPathComponent("cancel-benchmark-\(ProcessInfo.processInfo.processIdentifier)")
+    defer { try? FileManager.default.removeItem(at: folder) }
+    try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
+    var trial = CancelTrial(
+      photos: URL(fileURLWithPath: photos, isDirectory: true), detail: detail.value, folder: folder,
+      generator: SplitMix64(state: seed))
+    try await trial.makeUndisturbed()
+    while trial.count < cancels { try await trial.makeDisturbed(atMost: cancels - trial.count) }
+    trial.printSummary()
+  }
+}
+
+/// Steele, Lea and Flood's generator (OOPSLA 2014).
+struct SplitMix64: RandomNumberGenerator {
+  var state: UInt64
+
+  mutating func next() -> UInt64 {
+    state &+= 0x9E37_79B9_7F4A_7C15
+    var value = (state ^ (state >> 30)) &* 0xBF58_476D_1CE4_E5B9
+    value = (value ^ (value >> 27)) &* 0x94D0_49BB_1331_11EB
+    return value ^ (value >> 31)
+  }
+}

@@ -1,0 +1,121 @@
+import Foundation
+import RealityFoundation
+
+/// Sessions on one folder of photos that are cancelled, and what came of it.
+struct CancelTrial {
+  private struct Cancel {
+    var stage: String
+    var seconds: Double
+  }
+
+  private let photos: URL
+  private let detail: PhotogrammetrySession.Request.Detail
+  private let folder: URL
+  private var generator: SplitMix64
+  private var undisturbed = Data()
+  private var undisturbedSeconds = 0.0
+  private var cancels: [Cancel] = []
+  private var models = 0
+
+  /// Works in a folder, which must be there.
+  init(
+    photos: URL, detail: PhotogrammetrySession.Request.Detail, folder: URL, generator: SplitMix64
+  ) {
+    (self.photos, self.detail, self.folder, self.generator) = (photos, detail, folder, generator)
+  }
+
+  var count: Int { cancels.count }
+
+  private var model: URL { folder.appendingPathComponent("model.usdz") }
+  private var checkpoint: URL { folder.appendingPathComponent("checkpoint") }
+
+  /// Makes the model that all others have to be equal to.
+  mutating func makeUndisturbed() async throws {
+    let start = ContinuousClock.now
+    guard try await run(session(), cancellingAfter: nil) == .complete else {
+      throw TrialError.failed
+    }
+    undisturbedSeconds = seconds(since: start)
+    undisturbed = try Data(contentsOf: model)
+    try clear()
+    print("An undisturbed session takes \(format(undisturbedSeconds)) s.")
+  }
+
+  /// Makes a model with so many cancels at most on the way, every other time with the same session.
+  mutating func makeDisturbed(atMost limit: Int) async throws {
+    var session = try session()
+    for attempt in 0...limit {
+      if attempt.isMultiple(of: 2) { session = try self.session() }
+      // What goes on is shorter: most moments lie early.
+      let pause = Double.random(in: 0..<0.6 * undisturbedSeconds, using: &generator)
+      switch try await run(session, cancellingAfter: attempt < limit ? pause : nil) {
+      case .cancelled: continue
+      case .failed: throw TrialError.failed
+      case .complete: break
+      }
+      break
+    }
+    models += 1
+    guard try Data(contentsOf: model) == undisturbed else { throw TrialError.differs }
+    try clear()
+  }
+
+  func printSummary() {
+    for (stage, cancels) in Dictionary(grouping: cancels, by: \.stage).sorted(by: {
+      $0.key < $1.key
+    }) {
+      let slowest = cancels.map(\.seconds).max() ?? 0
+      print("\(stage): \(cancels.count) cancels, the slowest took \(format(slowest)) s")
+    }
+    let slow = cancels.filter { $0.seconds > 1 }.count
+    print("\(count) cancels, \(slow) of them took more than 1 s; \(models) models, all the same.")
+  }
+
+  private func session() throws -> PhotogrammetrySession {
+    try PhotogrammetrySession(
+      input: photos, configuration: .init(checkpointDirectory: checkpoint))
+  }
+
+  /// Processes until the session ends by itself or is cancelled.
+  private mutating func run(
+    _ session: PhotogrammetrySession, cancellingAfter pause: Double?
+  ) async throws -> SessionWatch.Ending {
+    let watch = SessionWatch()
+    let outputs = session.outputs
+    try session.process(requests: [.modelFile(url: model, detail: detail)])
+    let ending = Task { try await watch.ending(of: outputs) }
+    guard let pause else { return try await ending.value }
+    try await Task.sleep(for: .seconds(pause))
+    let (stage, start) = (watch.stage, ContinuousClock.now)
+    session.cancel()
+    let value = try await ending.value
+    if value == .cancelled {
+      cancels.append(Cancel(stage: stage, seconds: seconds(since: start)))
+      print(
+        "\(count): after \(format(pause)) s, in \(stage), ended \(format(seconds(since: start))) s later"
+      )
+    }
+    return value
+  }
+
+  private func clear() throws {
+    for url in [checkpoint, model] { try FileManager.default.removeItem(at: url) }
+  }
+}
+
+enum TrialError: LocalizedError {
+  case failed, differs
+
+  var errorDescription: String? {
+    switch self {
+    case .failed: "A session ended in neither processingComplete nor processingCancelled."
+    case .differs: "A model differs from that of the undisturbed session."
+    }
+  }
+}
+
+private func seconds(since start: ContinuousClock.Instant) -> Double {
+  (ContinuousClock.now - start) / .seconds(1)
+}
+
+private func format(_ seconds: Double) -> String { String(format: "%.3f", seconds) }
