@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <new>
 
 #include "core/guard.h"
 
@@ -57,7 +58,10 @@ void copy_geometry(ck_ray_scene& scene, const float* positions, size_t position_
 void build(ck_ray_scene& scene) {
   // One thread builds the same hierarchy every time.
   scene.device = rtcNewDevice("threads=1,set_affinity=0");
-  if (!scene.device) throw std::runtime_error("embree can't be started on this processor");
+  if (!scene.device && rtcGetDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU) {
+    throw std::runtime_error("embree can't be started on this processor");
+  }
+  if (!scene.device) throw std::bad_alloc();
   scene.scene = rtcNewScene(scene.device);
   rtcSetSceneFlags(scene.scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -79,7 +83,9 @@ void build(ck_ray_scene& scene) {
   rtcAttachGeometry(scene.scene, geometry);
   rtcReleaseGeometry(geometry);
   rtcCommitScene(scene.scene);
-  if (rtcGetDeviceError(scene.device) != RTC_ERROR_NONE) {
+  const RTCError error = rtcGetDeviceError(scene.device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE) {
     throw std::runtime_error("embree could not build the ray casting structure");
   }
 }
