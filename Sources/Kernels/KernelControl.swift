@@ -1,6 +1,7 @@
 import CKernels
 import Foundation
 import Synchronization
+import SceneModel
 
 /// Carries progress out of kernels and the wish to cancel into them.
 ///
@@ -59,10 +60,10 @@ package final class KernelControl: Sendable {
 
 /// How far each of several units of work is.
 private final class UnitProgress: Sendable {
-  private let fractions: Mutex<(units: [Double], sum: Double)>
+  private let fractions: Locked<(units: [Double], sum: Double)>
 
   init(_ count: Int) {
-    fractions = Mutex((units: [Double](repeating: 0, count: count), sum: 0))
+    fractions = Locked((units: [Double](repeating: 0, count: count), sum: 0))
   }
 
   /// Takes a unit's fraction in and returns that of all.

@@ -1,5 +1,6 @@
 import Foundation
 import Synchronization
+import SceneModel
 
 extension KernelControl {
   /// Maps `0..<count` on the control's threads; results are in index order whatever the threads do.
@@ -16,7 +17,7 @@ extension KernelControl {
         return try body(index)
       }
     }
-    let results = Mutex<[Swift.Result<Result, any Error>?]>(Array(repeating: nil, count: count))
+    let results = Locked<[Swift.Result<Result, any Error>?]>(Array(repeating: nil, count: count))
     let next = Atomic<Int>(0)
     let stop = Atomic<Bool>(false)
     DispatchQueue.concurrentPerform(iterations: threads) { _ in

@@ -1,7 +1,6 @@
 import Foundation
 import Kernels
 import SceneModel
-import Synchronization
 
 /// Decodes photos on demand and keeps the latest within a byte budget.
 ///
@@ -26,7 +25,7 @@ package final class ImageStore: Sendable {
   private let byteBudget: Int
   private let processingPixels: Int?
   private let contentHashes: [UInt64]
-  private let cache = Mutex(Cache())
+  private let cache = Locked(Cache())
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
   /// is larger than `processingPixels`. `contentHashes`, by photo id, save reading files again where

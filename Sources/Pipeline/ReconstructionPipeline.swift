@@ -116,6 +116,7 @@ package final class ReconstructionPipeline {
   private func lockCheckpoint() throws {
     guard lock == nil, let checkpoint else { return }
     lock = try DirectoryLock(checkpoint.directory, isShared: sharesCheckpoint)
+    checkpoint.removeRemains()
   }
 
   private func prepareStore(_ ingested: IngestedPhotos) throws {

@@ -1,5 +1,5 @@
 import Kernels
-import Synchronization
+import SceneModel
 
 /// What a stage needs besides its input: threads, progress, cancellation and a place for its report.
 package struct StageContext: Sendable {
@@ -30,7 +30,7 @@ package final class StageNotes: Sendable {
     var details: [String] = []
   }
 
-  private let state = Mutex(State())
+  private let state = Locked(State())
 
   package init() {}
 

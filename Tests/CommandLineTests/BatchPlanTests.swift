@@ -74,6 +74,27 @@ import Testing
     #expect(found.map(\.photoCount) == [1, 1, 1])
   }
 
+  @Test func datasetsHaveMasksAndMeasurementsOfTheirOwn() throws {
+    let temporary = try TemporaryFolder()
+    for name in [
+      "a/images/1.jpg", "a/masks/1.png", "a/measurements.json", "b/1.jpg", "b/masks/1.png",
+    ] {
+      try temporary.write([0], as: name)
+    }
+    let models = temporary.url.appendingPathComponent("models", isDirectory: true)
+    let found = try BatchDataset.all(in: temporary.url, except: models)
+    let (a, b) = (try #require(found.first), try #require(found.last))
+    #expect(a.words.count == 4 && a.words[0] == "--masks" && a.words[2] == "--measurements")
+    #expect(a.words[1].hasSuffix("/a/masks") && a.words[3].hasSuffix("/a/measurements.json"))
+    // Those of photos in the folder itself are found anyway.
+    #expect(b.words.isEmpty)
+    let run = try Reconstruct.parse(["a", "b.usdz"] + a.words)
+    #expect(run.engine.masking.masks == a.words[1] && run.engine.measurements == a.words[3])
+    let stamp = a.stamp(options: [])
+    try temporary.write([0, 1], as: "a/masks/1.png")
+    #expect(a.stamp(options: []) != stamp)
+  }
+
   @Test func stampChangesWithPhotosMasksAndOptions() throws {
     let temporary = try TemporaryFolder()
     try temporary.write([1, 2], as: "a/1.jpg")

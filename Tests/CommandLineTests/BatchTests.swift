@@ -54,9 +54,10 @@ import Testing
   @Test func goesOnAfterFailuresAndSkipsWhatIsDone() throws {
     try addBrokenDatasets()
     try addDataset("orbit", from: "orbit", photos: 20)
-    let first = try batch(["--previews"])
+    let first = try batch(["--previews", "--poses", "--point-clouds"])
     #expect(first.exitCode == 1, "\(first.errors)")
-    #expect(try left == ["batch.csv", "batch.json", "orbit.png", "orbit.usdz"])
+    let files = ["orbit.points.ply", "orbit.png", "orbit.poses.json", "orbit.usdz"]
+    #expect(try left == ["batch.csv", "batch.json"] + files)
     let made = try summary().datasets
     #expect(made.map(\.name) == ["corrupt", "empty", "few", "orbit"])
     #expect(made.map(\.status) == [.failed, .failed, .failed, .done])
@@ -74,7 +75,7 @@ import Testing
     for name in ["corrupt", "empty", "few"] {
       try FileManager.default.removeItem(at: folder.appendingPathComponent("sets/\(name)"))
     }
-    let second = try batch()
+    let second = try batch(["--previews", "--poses"])
     #expect(second.exitCode == 0, "\(second.errors)")
     #expect(try summary().datasets.map(\.status) == [.skipped])
     let third = try batch(["--json"])

@@ -43,6 +43,20 @@ import Testing
     return RaycastScene(options)
   }
 
+  @Test(arguments: [SIGINT, SIGTERM])
+  func interruptLeavesNoCloudAndTheSameCommandGoesOn(_ signal: Int32) throws {
+    let poses = try makePhotos(scene())
+    try write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: "rig/sparse/0/cameras.txt")
+    try write(poses.joined(), as: "rig/sparse/0/images.txt")
+    let command = ["densify", "photos", "rig", "work", "--view-pixels", "30000"]
+    let run = try CommandProcess.run(command, in: folder) { kill($0.processIdentifier, signal) }
+    #expect(run.exitCode == 130 && run.output.isEmpty, "\(run.errors)")
+    let cloud = folder.path + "/work/dense/points.ply"
+    #expect(!FileManager.default.fileExists(atPath: cloud))
+    #expect(try CommandProcess.run(command, in: folder).exitCode == 0)
+    #expect(FileManager.default.fileExists(atPath: cloud))
+  }
+
   @Test func camerasOfCOLMAPGiveACloud() throws {
     let scene = scene()
     let poses = try makePhotos(scene)

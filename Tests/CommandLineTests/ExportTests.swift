@@ -49,6 +49,17 @@ import Testing
     #expect(!FileManager.default.fileExists(atPath: folder.path + "/m.usdz"))
   }
 
+  @Test(arguments: [SIGINT, SIGTERM])
+  func interruptLeavesNoModel(_ signal: Int32) throws {
+    try makeCheckpoint()
+    let run = try CommandProcess.run(
+      ["export", "work", "m.usdz", "-d", "medium"], in: folder
+    ) { kill($0.processIdentifier, signal) }
+    #expect(run.exitCode == 130 && run.output.isEmpty, "\(run.errors)")
+    #expect(run.errors.contains("no model was written"))
+    #expect(try !FileManager.default.contentsOfDirectory(atPath: folder.path).contains("m.usdz"))
+  }
+
   @Test func aModelAndItsPictureAreWritten() throws {
     try makeCheckpoint()
     let run = try CommandProcess.run(

@@ -14,6 +14,27 @@ import Testing
     }
   }
 
+  @Test func remainsOfKilledWritersAreRemoved() throws {
+    try Sample.withFolder { folder in
+      let model = AtomicFile.temporaryURL(for: folder.appendingPathComponent("a.usdz"))
+      let other = AtomicFile.temporaryURL(for: folder.appendingPathComponent("b.usdz"))
+      let young = AtomicFile.temporaryURL(for: folder.appendingPathComponent("a.usdz"))
+      for url in [model, other, young] { try Data([1]).write(to: url) }
+      for url in [model, other] {
+        try FileManager.default.setAttributes(
+          [.modificationDate: Date(timeIntervalSinceNow: -UnfinishedFiles.minimumAge - 60)],
+          ofItemAtPath: url.path)
+      }
+      func left() throws -> Set<String> {
+        Set(try FileManager.default.contentsOfDirectory(atPath: folder.path))
+      }
+      UnfinishedFiles.remove(from: folder, of: "a.usdz")
+      #expect(try left() == [other.lastPathComponent, young.lastPathComponent])
+      UnfinishedFiles.remove(from: folder)
+      #expect(try left() == [young.lastPathComponent])
+    }
+  }
+
   /// The temporary name must not be longer than file systems allow where the name itself is not.
   @Test(arguments: ["n", "é", "模"])
   func theLongestNamesAreWritten(_ letter: String) throws {

@@ -2,7 +2,6 @@ import Formats
 import Foundation
 import Kernels
 import SceneModel
-import Synchronization
 import TestSupport
 import Testing
 
@@ -154,7 +153,7 @@ private struct FinishedRun {
 
   @Test func finerLevelsKeepTheirBudgetAndWarn() throws {
     let run = try FinishedRun()
-    let warnings = Mutex<[String]>([])
+    let warnings = Locked<[String]>([])
     let pipeline = ReconstructionPipeline(
       try run.saved(), configuration: PipelineConfiguration()
     ) { event in

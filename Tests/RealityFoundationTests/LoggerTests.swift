@@ -1,13 +1,13 @@
 import Foundation
 import Logging
-import Synchronization
 import Testing
 
 @testable import os
+import SceneModel
 
 /// Keeps what is written.
 private final class Record: Sendable {
-  private let state = Mutex<[String]>([])
+  private let state = Locked<[String]>([])
 
   var lines: [String] { state.withLock { $0 } }
 

@@ -2,7 +2,6 @@ import Foundation
 import Kernels
 import Pipeline
 import SceneModel
-import Synchronization
 import Testing
 
 @testable import RealityFoundation
@@ -106,7 +105,7 @@ import Testing
   }
 
   @Test func sequencesAreGoneThroughOnceAndLazily() throws {
-    let made = Mutex(0)
+    let made = Locked(0)
     let image = try #require(CVPixelBuffer(Self.image))
     let depth = try #require(
       CVPixelBuffer(width: 9, height: 9, pixelFormat: kCVPixelFormatType_DepthFloat32))

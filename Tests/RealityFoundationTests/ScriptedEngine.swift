@@ -1,7 +1,6 @@
 import Foundation
 import Kernels
 import SceneModel
-import Synchronization
 
 @testable import Pipeline
 @testable import RealityFoundation
@@ -25,7 +24,7 @@ final class ScriptedEngine: SessionEngine {
 
   /// What engines were made and asked for, from any thread.
   final class Journal: Sendable {
-    private let entries = Mutex<[String]>([])
+    private let entries = Locked<[String]>([])
 
     func add(_ entry: String) { entries.withLock { $0.append(entry) } }
     func count(of entry: String) -> Int { entries.withLock { $0.filter { $0 == entry }.count } }

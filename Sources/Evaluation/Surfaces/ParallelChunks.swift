@@ -1,5 +1,6 @@
 import Dispatch
 import Synchronization
+import SceneModel
 
 /// Maps ranges that together are `0..<count` on some threads and joins the results in their order.
 func parallelChunks<Element: Sendable>(
@@ -7,7 +8,7 @@ func parallelChunks<Element: Sendable>(
 ) -> [Element] {
   let chunkSize = 4096
   let chunks = (count + chunkSize - 1) / chunkSize
-  let results = Mutex([[Element]](repeating: [], count: chunks))
+  let results = Locked([[Element]](repeating: [], count: chunks))
   let next = Atomic<Int>(0)
   DispatchQueue.concurrentPerform(iterations: max(1, min(threads, chunks))) { _ in
     while true {

@@ -77,10 +77,17 @@ package enum AtomicFile {
 
   /// A name in the same folder that nobody else uses, short enough where that of `url` is.
   static func temporaryURL(for url: URL) -> URL {
-    var name = url.lastPathComponent
-    while name.utf8.count > 64 { name.removeLast() }
+    let start = temporaryPrefix(of: url.lastPathComponent)
     return url.absoluteURL.deletingLastPathComponent()
-      .appendingPathComponent(".\(name).\(UUID().uuidString).partial")
+      .appendingPathComponent(start + UUID().uuidString + temporarySuffix)
+  }
+
+  static let temporarySuffix = ".partial"
+
+  static func temporaryPrefix(of name: String) -> String {
+    var name = name
+    while name.utf8.count > 64 { name.removeLast() }
+    return ".\(name)."
   }
 
   static func rename(_ source: URL, to destination: URL) throws {

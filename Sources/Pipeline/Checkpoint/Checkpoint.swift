@@ -68,6 +68,13 @@ struct Checkpoint {
       try report.encoded(), to: directory.appendingPathComponent("report.json"))
   }
 
+  /// Removes what runs that were killed had not finished.
+  func removeRemains() {
+    for name in ["", "sparse", "dense", "mesh", "stages"] {
+      UnfinishedFiles.remove(from: directory.appendingPathComponent(name, isDirectory: true))
+    }
+  }
+
   private func folder(_ name: String) throws -> URL {
     let url = directory.appendingPathComponent(name, isDirectory: true)
     try FileManager.default.createDirectory(at: url, withIntermediateDirectories: true)

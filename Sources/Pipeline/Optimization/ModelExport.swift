@@ -26,6 +26,7 @@ package struct ModelExport: Sendable {
   package func run(_ model: TexturedMesh, to url: URL, _ context: StageContext) throws {
     // Encoding takes a while: what can't be written is better known before.
     try AtomicFile.checkParent(of: url)
+    UnfinishedFiles.remove(from: url.deletingLastPathComponent(), of: url.lastPathComponent)
     let encoding = context.part(from: 0, to: 0.9)
     switch ModelFormat(of: url) {
     case .usdz:

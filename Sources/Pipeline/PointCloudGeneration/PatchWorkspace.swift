@@ -73,7 +73,7 @@ final class PatchWorkspace: Sendable {
     } catch {
       throw WorkspaceError.notWritable(folder: self.folder.path, isTemporary: isTemporary)
     }
-    removeRemains()
+    UnfinishedFiles.remove(from: self.folder)
   }
 
   /// Removes a temporary folder.
@@ -134,17 +134,6 @@ final class PatchWorkspace: Sendable {
     let number = String(key.photo.index)
     let padding = String(repeating: "0", count: max(0, 4 - number.count))
     return folder.appendingPathComponent("\(padding)\(number).\(key.step.rawValue)")
-  }
-
-  /// Removes what runs that were killed had not finished; others may be writing at this moment.
-  private func removeRemains() {
-    let manager = FileManager.default
-    let names = (try? manager.contentsOfDirectory(atPath: folder.path)) ?? []
-    for name in names where name.hasPrefix(".") && name.hasSuffix(".partial") {
-      let path = folder.appendingPathComponent(name).path
-      let date = (try? manager.attributesOfItem(atPath: path))?[.modificationDate] as? Date
-      if let date, date.timeIntervalSinceNow < -600 { try? manager.removeItem(atPath: path) }
-    }
   }
 
   /// `TMPDIR`, else the folder that is meant for large files: `/tmp` is often memory.

@@ -1,4 +1,4 @@
-import Synchronization
+import SceneModel
 
 /// Values by index that are made when somebody first asks for one and shared while anybody holds
 /// them; the latest used are kept a while longer.
@@ -10,7 +10,7 @@ final class SharedValues<Value: AnyObject & Sendable>: Sendable {
   }
 
   private final class Slot: Sendable {
-    let content = Mutex(Weak())
+    let content = Locked(Weak())
   }
 
   private struct State {
@@ -22,7 +22,7 @@ final class SharedValues<Value: AnyObject & Sendable>: Sendable {
 
   private let slots: [Slot]
   private let capacity: Int
-  private let state = Mutex(State())
+  private let state = Locked(State())
 
   /// `capacity` bounds the values that are kept between calls, not those that callers hold.
   init(count: Int, capacity: Int) {

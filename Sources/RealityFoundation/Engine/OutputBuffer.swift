@@ -1,4 +1,4 @@
-import Synchronization
+import SceneModel
 
 /// Keeps a session's outputs until they are read.
 ///
@@ -46,7 +46,7 @@ final class OutputBuffer: Sendable {
     }
   }
 
-  private let state = Mutex(State())
+  private let state = Locked(State())
 
   /// Adds an output; has no effect after `finish()`.
   func append(_ output: Output) {

@@ -1,4 +1,4 @@
-import Synchronization
+import SceneModel
 
 /// A thread that runs jobs one after another on a value that never leaves it.
 ///
@@ -16,7 +16,7 @@ final class SerialThread<Local>: Sendable {
   private let name: String
   private let makeLocal: @Sendable () -> Local
   private let condition = NSCondition()
-  private let queue = Mutex(Queue())
+  private let queue = Locked(Queue())
 
   init(name: String, makeLocal: @escaping @Sendable () -> Local) {
     self.name = name

@@ -1,7 +1,6 @@
 import Kernels
 import Pipeline
 import SceneModel
-import Synchronization
 
 /// Joins the state of a session, its outputs and the thread that does the work.
 ///
@@ -24,7 +23,7 @@ final class SessionCore: Sendable {
   }
 
   let outputs = OutputBuffer()
-  private let shared = Mutex(Shared())
+  private let shared = Locked(Shared())
   private let makeEngine: EngineFactory
   private let thread = SerialThread(name: "photogrammetry") { Resident() }
 

@@ -1,4 +1,4 @@
-import Synchronization
+import SceneModel
 
 /// A model in memory: what `Request.modelEntity` asks for.
 ///
@@ -12,14 +12,14 @@ public final class ModelEntity: Identifiable, Sendable {
     var model: ModelComponent?
   }
 
-  private let state: Mutex<State>
+  private let state: Locked<State>
 
   /// Creates an entity without a model at the origin.
-  public init() { state = Mutex(State()) }
+  public init() { state = Locked(State()) }
 
   /// Creates an entity with a model at the origin.
   public init(mesh: MeshResource, materials: [any Material] = []) {
-    state = Mutex(State(model: ModelComponent(mesh: mesh, materials: materials)))
+    state = Locked(State(model: ModelComponent(mesh: mesh, materials: materials)))
   }
 
   /// A number of the entity's own.

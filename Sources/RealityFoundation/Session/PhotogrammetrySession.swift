@@ -1,5 +1,5 @@
 import Pipeline
-import Synchronization
+import SceneModel
 
 /// Makes 3-D models from photos of an object.
 ///
@@ -25,7 +25,7 @@ public class PhotogrammetrySession: @unchecked Sendable {
     set { options.withLock { $0 = newValue } }
   }
 
-  private let options = Mutex(EngineOptions())
+  private let options = Locked(EngineOptions())
   private let identity = UUID()
   let input: SessionInput
   let core: SessionCore

@@ -9,6 +9,10 @@
     let name: String
     /// Where the photos are: the folder, or `images/` in it.
     let photos: URL
+    /// Masks that aren't beside or among the photos, but beside their folder.
+    let masks: URL?
+    /// Distances that were measured on the object, a file for `--measurements`.
+    let measurements: URL?
 
     /// The folders directly in `folder`, in natural order, except hidden ones and that of `models`.
     static func all(in folder: URL, except models: URL) throws -> [BatchDataset] {
@@ -31,28 +35,41 @@
       name = folder.lastPathComponent
       let images = folder.appendingPathComponent("images", isDirectory: true)
       let hasOwn = Self.files(in: folder).contains { Self.isImage($0) }
-      photos = !hasOwn && Self.isFolder(images) ? images : folder
+      let hasImages = !hasOwn && Self.isFolder(images)
+      photos = hasImages ? images : folder
+      masks =
+        hasImages
+        ? PhotoFolder.maskFolderNames.map { folder.appendingPathComponent($0, isDirectory: true) }
+          .first(where: Self.isFolder) : nil
+      let file = folder.appendingPathComponent("measurements.json", isDirectory: false)
+      measurements = FileManager.default.fileExists(atPath: file.path) ? file : nil
+    }
+
+    /// The dataset's own options of `reconstruct`.
+    var words: [String] {
+      (masks.map { ["--masks", $0.path] } ?? [])
+        + (measurements.map { ["--measurements", $0.path] } ?? [])
     }
 
     /// Files that may be photos.
     var photoCount: Int { Self.files(in: photos).count }
 
-    /// A number, as text, that changes with the photos, their masks and the options.
+    /// A number, as text, that changes with the photos, their masks, measurements and the options.
     ///
     /// Files count by name, size and time: reading them all would take longer than a second run may.
     func stamp(options: [String]) -> String {
       var fingerprint = Fingerprint()
       for option in options { fingerprint.add(Array(option.utf8)) }
-      let folders = [photos] + PhotoFolder.maskFolderNames.map { photos.appendingPathComponent($0) }
-      for folder in folders {
-        for file in Self.files(in: folder) {
-          let attributes = try? FileManager.default.attributesOfItem(
-            atPath: file.resolvingSymlinksInPath().path)
-          fingerprint.add(Array(file.lastPathComponent.utf8))
-          fingerprint.add((attributes?[.size] as? NSNumber)?.intValue ?? -1)
-          let time = attributes?[.modificationDate] as? Date
-          fingerprint.add(time?.timeIntervalSinceReferenceDate ?? 0)
-        }
+      let folders =
+        [photos] + PhotoFolder.maskFolderNames.map { photos.appendingPathComponent($0) }
+        + (masks.map { [$0] } ?? [])
+      for file in folders.flatMap(Self.files) + (measurements.map { [$0] } ?? []) {
+        let attributes = try? FileManager.default.attributesOfItem(
+          atPath: file.resolvingSymlinksInPath().path)
+        fingerprint.add(Array(file.lastPathComponent.utf8))
+        fingerprint.add((attributes?[.size] as? NSNumber)?.intValue ?? -1)
+        let time = attributes?[.modificationDate] as? Date
+        fingerprint.add(time?.timeIntervalSinceReferenceDate ?? 0)
       }
       let digits = String(fingerprint.value, radix: 16)
       return String(repeating: "0", count: 16 - digits.count) + digits

@@ -43,8 +43,15 @@
       url.appendingPathComponent(modelName(of: dataset)).path + (format == .folder ? "/" : "")
     }
 
-    func hasModel(of dataset: BatchDataset) -> Bool {
-      FileManager.default.fileExists(atPath: modelPath(of: dataset))
+    /// The path of what is written beside a dataset's model.
+    func path(of companion: BatchCompanion, of dataset: BatchDataset) -> String {
+      url.appendingPathComponent(dataset.name + companion.suffix, isDirectory: false).path
+    }
+
+    /// Whether the model is there, and what was to be written beside it.
+    func hasModel(of dataset: BatchDataset, with companions: [BatchCompanion]) -> Bool {
+      ([modelPath(of: dataset)] + companions.map { path(of: $0, of: dataset) })
+        .allSatisfy { FileManager.default.fileExists(atPath: $0) }
     }
 
     /// Where a run of a dataset leaves finished stages.

@@ -1,7 +1,7 @@
 #if canImport(Pipeline)
   import Foundation
   import Logging
-  import Synchronization
+  import SceneModel
 
   /// Tells how a batch goes; any thread may call it.
   final class BatchProgress: Sendable {
@@ -14,7 +14,7 @@
     private let style: RunReporter.Style
     /// Datasets to be worked on.
     private let count: Int
-    private let state = Mutex(State())
+    private let state = Locked(State())
     private let logger = Logger(label: "photogrammetry-cli")
 
     init(_ style: RunReporter.Style, count: Int) {

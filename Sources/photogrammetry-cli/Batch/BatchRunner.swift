@@ -1,7 +1,7 @@
 #if canImport(Pipeline)
   import Foundation
   import Logging
-  import Synchronization
+  import SceneModel
 
   /// Works through the datasets of a batch, some at once, each in a process of its own.
   final class BatchRunner: Sendable {
@@ -11,7 +11,8 @@
       var keepsCheckpoints: Bool
       /// Of `reconstruct`, beyond the folders.
       var arguments: [String]
-      var drawsPreviews: Bool
+      /// Written beside each model.
+      var companions: [BatchCompanion]
     }
 
     private struct State {
@@ -28,34 +29,35 @@
     private let folder: BatchFolder
     private let options: Options
     private let progress: BatchProgress
-    private let state: Mutex<State>
+    private let state: Locked<State>
     private let logger = Logger(label: "photogrammetry-cli")
 
     /// Finds out what is done already.
     init(
       _ datasets: [BatchDataset], in folder: BatchFolder, stamped: [String],
-      _ style: RunReporter.Style,
+      companions: [BatchCompanion], _ style: RunReporter.Style,
       options: (_ open: Int) -> Options
     ) {
       let earlier = folder.earlierEntries()
       let entries = datasets.map { dataset in
         Self.entry(
-          of: dataset, in: folder, stamp: dataset.stamp(options: stamped), earlier[dataset.name])
+          of: dataset, stamp: dataset.stamp(options: stamped), earlier[dataset.name],
+          model: folder.modelName(of: dataset),
+          isThere: folder.hasModel(of: dataset, with: companions))
       }
       let open = entries.indices.filter { entries[$0].status != .skipped }
       self.datasets = datasets
       self.folder = folder
       self.options = options(open.count)
       progress = BatchProgress(style, count: open.count)
-      state = Mutex(State(entries: entries, open: open.reversed()))
+      state = Locked(State(entries: entries, open: open.reversed()))
     }
 
     private static func entry(
-      of dataset: BatchDataset, in folder: BatchFolder, stamp: String, _ earlier: BatchEntry?
+      of dataset: BatchDataset, stamp: String, _ earlier: BatchEntry?, model: String, isThere: Bool
     ) -> BatchEntry {
-      let model = folder.modelName(of: dataset)
       if var entry = earlier, [.done, .skipped].contains(entry.status), entry.stamp == stamp,
-        entry.model == model, folder.hasModel(of: dataset)
+        entry.model == model, isThere
       {
         entry.status = .skipped
         return entry
@@ -142,11 +144,10 @@
         "--until-input-ends", "--checkpoint-directory", folder.checkpoint(of: dataset).path,
         "--threads", "\(options.plan.threads)",
       ]
-      if options.drawsPreviews {
-        let file = folder.url.appendingPathComponent("\(dataset.name).png").path
-        arguments += ["--preview", file]
+      for companion in options.companions {
+        arguments += [companion.option, folder.path(of: companion, of: dataset)]
       }
-      return arguments + options.arguments
+      return arguments + dataset.words + options.arguments
     }
 
     /// Writes what is known so far, one thread at a time, so that the last one wins.

@@ -1,6 +1,7 @@
 #if canImport(Pipeline)
   import Foundation
   import Synchronization
+  import SceneModel
 
   /// A `reconstruct` in a process of its own, so that whatever becomes of it costs nobody else.
   ///
@@ -14,11 +15,11 @@
     }
 
     /// A descriptor that one child inherits must not get into another that starts meanwhile.
-    private static let starting = Mutex(())
+    private static let starting = Locked(())
 
     private let arguments: [String]
     private let log: URL
-    private let input = Mutex<Pipe?>(nil)
+    private let input = Locked<Pipe?>(nil)
     private let isStopped = Atomic<Bool>(false)
 
     /// `arguments` are those after the program's name; what is said goes to the file `log`.

@@ -11,8 +11,10 @@
       commandName: "batch",
       abstract: "Reconstruct every folder of photos in a folder.",
       discussion: """
-        Each folder in <folders> is a dataset: its photos are in itself or in images/. The model of \
-        <folders>/chair/ becomes <models>/chair.usdz. What failed is named with the reason, and the \
+        Each folder in <folders> is a dataset: its photos are in itself or in images/, masks as \
+        'reconstruct' finds them or in masks/ beside images/, and distances that give the scale, as \
+        for its --measurements, in measurements.json. The model of <folders>/chair/ becomes \
+        <models>/chair.usdz. What failed is named with the reason, and the \
         rest goes on. The summary is printed, and written to <models>/batch.json and batch.csv after \
         every dataset.
 
@@ -78,6 +80,12 @@
 
     @Flag(name: .long, help: "Draw each model from eight sides, into <models>/<name>.png.")
     var previews = false
+
+    @Flag(name: .long, help: "Write the cameras' poses into <models>/<name>.poses.json.")
+    var poses = false
+
+    @Flag(name: .long, help: "Write the coloured points into <models>/<name>.points.ply.")
+    var pointClouds = false
 
     @OptionGroup var detail: DetailArguments
 
@@ -148,8 +156,12 @@
             + "object; for the photos of one object leave out 'batch'.")
       }
       return BatchRunner(
-        datasets, in: try BatchFolder(output, format: format), stamped: modelWords, style,
-        options: options)
+        datasets, in: try BatchFolder(output, format: format), stamped: modelWords,
+        companions: companions, style, options: options)
+    }
+
+    private var companions: [BatchCompanion] {
+      (previews ? [.preview] : []) + (poses ? [.poses] : []) + (pointClouds ? [.pointCloud] : [])
     }
 
     /// The options that change models.
@@ -170,7 +182,7 @@
       }
       return BatchRunner.Options(
         plan: plan, retries: retries, keepsCheckpoints: keepCheckpoints,
-        arguments: modelWords + (logging.verbose ? ["--verbose"] : []), drawsPreviews: previews)
+        arguments: modelWords + (logging.verbose ? ["--verbose"] : []), companions: companions)
     }
 
     /// Prints the summary; throws unless there are all models.

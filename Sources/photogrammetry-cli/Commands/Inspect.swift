@@ -4,7 +4,6 @@
   import Kernels
   import Pipeline
   import SceneModel
-  import Synchronization
 
   /// Tells what a run would use.
   struct Inspect: ParsableCommand {
@@ -79,9 +78,9 @@
 
   /// A reporter that any thread may use.
   private final class ProgressBox: Sendable {
-    private let reporter: Mutex<RunReporter>
+    private let reporter: Locked<RunReporter>
 
-    init(_ reporter: RunReporter) { self.reporter = Mutex(reporter) }
+    init(_ reporter: RunReporter) { self.reporter = Locked(reporter) }
 
     func update(_ fraction: Double) {
       reporter.withLock {

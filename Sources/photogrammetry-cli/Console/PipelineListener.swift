@@ -1,7 +1,7 @@
 #if canImport(Pipeline)
   import Logging
   import Pipeline
-  import Synchronization
+  import SceneModel
 
   /// Shows the progress of a pipeline and logs what happens on the way; any thread may call it.
   final class PipelineListener: Sendable {
@@ -17,14 +17,14 @@
       }
     }
 
-    private let reporter: Mutex<RunReporter>
+    private let reporter: Locked<RunReporter>
     private let stages: [Stage]
     private let tellsDetails: Bool
     private let logger = Logger(label: "photogrammetry-cli")
 
     /// `stages` are in their order; with `tellsDetails` their details are for everybody.
     init(_ reporter: RunReporter, stages: [Stage], tellsDetails: Bool = false) {
-      self.reporter = Mutex(reporter)
+      self.reporter = Locked(reporter)
       self.stages = stages
       self.tellsDetails = tellsDetails
     }

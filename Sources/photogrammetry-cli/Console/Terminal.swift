@@ -1,5 +1,5 @@
 import Foundation
-import Synchronization
+import SceneModel
 
 /// The process's stdout and stderr: results to the one, everything else to the other.
 ///
@@ -10,7 +10,7 @@ final class Terminal: Sendable {
   /// Whether somebody looks at stderr.
   let isInteractive: Bool
   let usesColor: Bool
-  private let status = Mutex("")
+  private let status = Locked("")
 
   private init() {
     let environment = ProcessInfo.processInfo.environment

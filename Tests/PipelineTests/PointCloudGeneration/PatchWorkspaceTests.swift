@@ -1,7 +1,6 @@
 import Foundation
 import Kernels
 import SceneModel
-import Synchronization
 import TestSupport
 import Testing
 
@@ -243,7 +242,7 @@ import Testing
   @Test func progressOnlyGrows() throws {
     let folder = try TemporaryFolder()
     for expected in [40, 2] {
-      let fractions = Mutex<[Double]>([])
+      let fractions = Locked<[Double]>([])
       _ = try run(
         in: folder.url, control: KernelControl { new in fractions.withLock { $0.append(new) } })
       let seen = fractions.withLock { $0 }
