@@ -56,7 +56,7 @@ import Testing
     try addDataset("orbit", from: "orbit", photos: 20)
     let first = try batch(["--previews", "--poses", "--point-clouds"])
     #expect(first.exitCode == 1, "\(first.errors)")
-    let files = ["orbit.points.ply", "orbit.png", "orbit.poses.json", "orbit.usdz"]
+    let files = ["orbit.png", "orbit.points.ply", "orbit.poses.json", "orbit.usdz"]
     #expect(try left == ["batch.csv", "batch.json"] + files)
     let made = try summary().datasets
     #expect(made.map(\.name) == ["corrupt", "empty", "few", "orbit"])

@@ -53,7 +53,7 @@ import Testing
   func interruptLeavesNoModel(_ signal: Int32) throws {
     try makeCheckpoint()
     let run = try CommandProcess.run(
-      ["export", "work", "m.usdz", "-d", "medium"], in: folder
+      ["export", "work", "m.usdz", "-d", "full"], in: folder
     ) { kill($0.processIdentifier, signal) }
     #expect(run.exitCode == 130 && run.output.isEmpty, "\(run.errors)")
     #expect(run.errors.contains("no model was written"))
