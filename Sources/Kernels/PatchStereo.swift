@@ -72,11 +72,12 @@ package final class PatchMap: @unchecked Sendable {
     visibility?.initialize(repeating: 0, count: count)
   }
 
-  /// The C map, valid as long as this object lives.
+  /// The C map, valid as long as this object lives. Without visibility: of a neighbour it may just be
+  /// made room for.
   var raw: ck_patch_map {
     ck_patch_map(
       photo: Int32(view.photo.index), view: view.raw, rgb: view.rgb, patches: patches,
-      states: states, visibility: visibility)
+      states: states, visibility: nil)
   }
 
   /// All patches as they are in memory, in the machine's byte order; valid as long as this object
@@ -213,6 +214,7 @@ package enum PatchStereo {
     control: KernelControl
   ) throws {
     var (reference, rawCoarse, rawOptions) = (map.view.raw, coarse.raw, options.raw)
+    rawCoarse.visibility = UnsafePointer(coarse.visibility)
     let rawSources = sources.prefix(maximumSources).map(\.raw)
     try withExtendedLifetime((coarse, sources)) {
       try withKernel(control) {

@@ -12,6 +12,10 @@ struct ProgressEstimator: Sendable {
     /// Measured so far, in seconds.
     var seconds = 0.0
 
+    /// How much its duration tells of the machine. That of an alignment tells of the photos: of how
+    /// many features they have, and how many of the pairs show the same.
+    var evidence: Double { unit.stage == .imageAlignment ? 0.1 : 1 }
+
     var isDone: Bool { fraction >= 1 }
     /// Whether the work was really done and not taken over from an earlier run.
     var isMeasured: Bool { fraction > 0 && seconds > 0.02 * prior * fraction }
@@ -64,12 +68,13 @@ struct ProgressEstimator: Sendable {
   /// Measured seconds per usual second; nil before a hundredth of the work is measured.
   private var speed: Double? {
     let measured = steps.filter(\.isMeasured)
-    let usual = measured.reduce(0) { $0 + $1.prior * $1.fraction }
-    let open = steps.reduce(0) { $0 + $1.prior * (1 - $1.fraction) }
-    guard usual > 0, usual > 0.01 * (usual + open) else { return nil }
-    // Little work may be out of the ordinary: until a fifth is measured, the prior has a say.
-    let weight = 0.02 * max(0, usual + open - 5 * usual)
-    let seconds = measured.reduce(0) { $0 + $1.seconds }
+    let done = measured.reduce(0) { $0 + $1.prior * $1.fraction }
+    let total = done + steps.reduce(0) { $0 + $1.prior * (1 - $1.fraction) }
+    guard done > 0, done > 0.01 * total else { return nil }
+    let usual = measured.reduce(0) { $0 + $1.evidence * $1.prior * $1.fraction }
+    let seconds = measured.reduce(0) { $0 + $1.evidence * $1.seconds }
+    // Little work may be out of the ordinary: until a tenth is measured, the prior has a say.
+    let weight = 0.03 * max(0, total - 10 * usual)
     return (seconds + weight) / (usual + weight)
   }
 
