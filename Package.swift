@@ -54,7 +54,8 @@ var cliDependencies: [Target.Dependency] = [
   products += ["RealityKit", "RealityFoundation"].map { .library(name: $0, targets: [$0]) }
   // What else programs for the Mac import; a program names those that it needs.
   products += [
-    "CoreGraphics", "CoreImage", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "OSLog", "os",
+    "Combine", "CoreGraphics", "CoreImage", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "OSLog",
+    "os",
     "simd", "UniformTypeIdentifiers",
   ].map { .library(name: $0, targets: [$0]) }
   targets += [
@@ -72,6 +73,7 @@ var cliDependencies: [Target.Dependency] = [
     .target(
       name: "Pipeline", dependencies: ["Kernels", "Formats", "SceneModel", logging],
       swiftSettings: strict),
+    .target(name: "Combine", swiftSettings: strict),
     .target(name: "CoreFoundationTypes", swiftSettings: strict),
     .target(
       name: "BitmapGraphics", dependencies: ["Kernels", "SceneModel", "CoreFoundationTypes"],
