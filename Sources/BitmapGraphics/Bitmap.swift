@@ -6,9 +6,7 @@ struct Bitmap {
   let height: Int
   let bytesPerRow: Int
   let layout: PixelLayout
-  let base: UnsafeMutableRawPointer
-  /// Keeps the pixels where the context made them itself.
-  private let storage: PixelStorage?
+  let storage: PixelStorage
 
   init?(
     data: UnsafeMutableRawPointer?, width: Int, height: Int, bytesPerRow: Int, layout: PixelLayout
@@ -17,28 +15,31 @@ struct Bitmap {
     // 0 leaves the distance of rows to us.
     let distance = bytesPerRow == 0 ? (rowSize + 63) / 64 * 64 : bytesPerRow
     guard distance >= rowSize else { return nil }
-    storage = data == nil ? PixelStorage(byteCount: distance * height) : nil
-    guard let base = data ?? storage?.baseAddress else { return nil }
+    // The last row of a buffer need not be as long as the distance.
+    storage =
+      data.map { PixelStorage(borrowing: $0, byteCount: distance * (height - 1) + rowSize) }
+      ?? PixelStorage(byteCount: distance * height)
     self.width = width
     self.height = height
     self.bytesPerRow = distance
     self.layout = layout
-    self.base = base
   }
 
   /// The bytes of a row that hold pixels.
-  func row(_ y: Int) -> ArraySlice<UInt8> {
-    Array(UnsafeRawBufferPointer(start: base + y * bytesPerRow, count: width * layout.size))[...]
+  func row(_ y: Int) -> ArraySlice<UInt8> { storage.copy(place(0..<width, y))[...] }
+
+  /// Where pixels of a row are.
+  private func place(_ columns: Range<Int>, _ y: Int) -> Range<Int> {
+    let start = y * bytesPerRow + columns.lowerBound * layout.size
+    return start..<start + columns.count * layout.size
   }
 
   /// Sets the pixels of a rectangle, which is cut off at the rim, to zero.
   func clear(_ columns: Range<Int>, _ rows: Range<Int>) {
     let columns = columns.clamped(to: 0..<width)
+    let zeros = [UInt8](repeating: 0, count: columns.count * layout.size)
     for y in rows.clamped(to: 0..<height) {
-      UnsafeMutableRawBufferPointer(
-        start: base + y * bytesPerRow + columns.lowerBound * layout.size,
-        count: columns.count * layout.size
-      ).initializeMemory(as: UInt8.self, repeating: 0)
+      storage.write(zeros, at: place(columns, y).lowerBound)
     }
   }
 
@@ -46,40 +47,44 @@ struct Bitmap {
   /// leaves what is there.
   func draw(_ columns: Range<Int>, _ rows: Range<Int>, pixel: (Int, Int) -> PixelValue?) {
     let columns = columns.clamped(to: 0..<width)
-    let (size, alpha, unused) = (layout.size, layout.alpha, layout.unused)
-    let isGray = layout.colours.count == 1
-    let isColour = layout.colours.count == 3
-    let (red, green, blue) =
-      isColour ? (layout.colours[0], layout.colours[1], layout.colours[2]) : (0, 0, 0)
+    guard !columns.isEmpty else { return }
     for y in rows.clamped(to: 0..<height) {
-      let row = UnsafeMutableBufferPointer(
-        start: (base + y * bytesPerRow).assumingMemoryBound(to: UInt8.self), count: width * size)
+      let place = place(columns, y)
+      var bytes = storage.copy(place)
+      var at = 0
       for x in columns {
-        guard var value = pixel(x, y), value.alpha > 0 else { continue }
-        let at = x * size
-        if value.alpha < 255 { value = value.over(old(row, at)) }
-        let stored = layout.isPremultiplied ? value.premultiplied : value
-        if isColour {
-          row[at + red] = stored.red
-          row[at + green] = stored.green
-          row[at + blue] = stored.blue
-        } else if isGray {
-          row[at] = stored.gray
-        }
-        if let alpha { row[at + alpha] = stored.alpha }
-        if let unused { row[at + unused] = 255 }
+        if let value = pixel(x, y), value.alpha > 0 { store(value, in: &bytes, at) }
+        at += layout.size
       }
+      storage.write(bytes, at: place.lowerBound)
     }
   }
 
-  private func old(_ row: UnsafeMutableBufferPointer<UInt8>, _ at: Int) -> PixelValue {
-    let alpha = layout.alpha.map { row[at + $0] } ?? 255
-    guard let first = layout.colours.first else { return PixelValue(0, 0, 0, alpha) }
-    let value =
-      layout.colours.count == 3
-      ? PixelValue(
-        row[at + first], row[at + layout.colours[1]], row[at + layout.colours[2]], alpha)
-      : PixelValue(row[at], row[at], row[at], alpha)
+  private func store(_ value: PixelValue, in bytes: inout [UInt8], _ at: Int) {
+    let sum = value.alpha < 255 ? value.over(old(bytes, at)) : value
+    let stored = layout.isPremultiplied ? sum.premultiplied : sum
+    if layout.colours.count == 3 {
+      bytes[at + layout.colours[0]] = stored.red
+      bytes[at + layout.colours[1]] = stored.green
+      bytes[at + layout.colours[2]] = stored.blue
+    } else if layout.colours.count == 1 {
+      bytes[at] = stored.gray
+    }
+    if let alpha = layout.alpha { bytes[at + alpha] = stored.alpha }
+    if let unused = layout.unused { bytes[at + unused] = 255 }
+  }
+
+  private func old(_ bytes: [UInt8], _ at: Int) -> PixelValue {
+    let alpha = layout.alpha.map { bytes[at + $0] } ?? 255
+    let value: PixelValue
+    switch layout.colours.count {
+    case 0: return PixelValue(0, 0, 0, alpha)
+    case 1: value = PixelValue(bytes[at], bytes[at], bytes[at], alpha)
+    default:
+      value = PixelValue(
+        bytes[at + layout.colours[0]], bytes[at + layout.colours[1]],
+        bytes[at + layout.colours[2]], alpha)
+    }
     return layout.isPremultiplied ? value.unpremultiplied : value
   }
 }

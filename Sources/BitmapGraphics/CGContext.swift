@@ -42,7 +42,7 @@ public final class CGContext {
   }
 
   /// The first pixel of the top row.
-  public var data: UnsafeMutableRawPointer? { bitmap.base }
+  public var data: UnsafeMutableRawPointer? { bitmap.storage.baseAddress }
   /// The width in pixels.
   public var width: Int { bitmap.width }
   /// The height in pixels.

@@ -58,13 +58,13 @@ private struct Silence: LogHandler {
 ///
 /// Values marked `private` or `sensitive` aren't shown.
 public func os_log(
-  _ message: StaticString, dso: UnsafeRawPointer? = nil, log: OSLog = .default,
+  _ message: StaticString, log: OSLog = .default,
   type: OSLogType = .default, _ args: any CVarArg...
 ) { write(message, log, type, args) }
 
 /// Writes a message, its values after a format as `printf` has it.
 public func os_log(
-  _ type: OSLogType, dso: UnsafeRawPointer? = nil, log: OSLog = .default, _ message: StaticString,
+  _ type: OSLogType, log: OSLog = .default, _ message: StaticString,
   _ args: any CVarArg...
 ) { write(message, log, type, args) }
 

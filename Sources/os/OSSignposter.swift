@@ -154,13 +154,13 @@ public enum OSSignpostType: UInt8, Hashable, Sendable {
 
 /// Marks a point in time: a message of the level `debug`.
 public func os_signpost(
-  _ type: OSSignpostType, dso: UnsafeRawPointer? = nil, log: OSLog, name: StaticString,
+  _ type: OSSignpostType, log: OSLog, name: StaticString,
   signpostID: OSSignpostID = .exclusive
 ) { log.logger.trace("\(name.description, privacy: .public) \(verb(type), privacy: .public)") }
 
 /// Marks a point in time, with a message.
 public func os_signpost(
-  _ type: OSSignpostType, dso: UnsafeRawPointer? = nil, log: OSLog, name: StaticString,
+  _ type: OSSignpostType, log: OSLog, name: StaticString,
   signpostID: OSSignpostID = .exclusive, _ format: StaticString, _ arguments: any CVarArg...
 ) {
   let text = LogFormat(format.description).text(arguments)
