@@ -1,8 +1,8 @@
 import Foundation
 import SceneModel
 
-/// Draws images and rectangles into a bitmap of 8 bits a component: gray, opacity, or red, green and
-/// blue with a fourth byte.
+/// Draws images and shapes into a bitmap of 8 bits a component: gray, opacity, or red, green and blue
+/// with a fourth byte.
 ///
 /// As on a Mac the origin is the bottom left corner and y points up; images come out upright.
 public final class CGContext {
@@ -115,7 +115,8 @@ public final class CGContext {
     state.opacity = UInt8((min(max(alpha, 0), 1) * 255).rounded())
   }
 
-  /// Lets everything be drawn in a rectangle only; a turned one counts as the upright one around it.
+  /// Lets everything be drawn in a rectangle only; a turned one counts as the upright one around
+  /// it.
   public func clip(to rect: CGRect) {
     let box = rect.applying(state.transform.concatenating(flip))
     state.clip = state.clip.isInfinite ? box : state.clip.intersection(box)

@@ -39,8 +39,8 @@ public final class CGImageDestination {
   }
 }
 
-/// Begins to write a file; nil where the type is neither `public.jpeg` nor `public.png`, or there is to
-/// be more than one image.
+/// Begins to write a file; nil where the type is neither `public.jpeg` nor `public.png`, or there is
+/// to be more than one image.
 public func CGImageDestinationCreateWithURL(
   _ url: CFURL, _ type: CFString, _ count: Int, _ options: CFDictionary?
 ) -> CGImageDestination? { CGImageDestination(type, count) { try $0.write(to: url) } }

@@ -93,8 +93,8 @@ public func CGImageSourceCreateImageAtIndex(
   _ isrc: CGImageSource, _ index: Int, _ options: CFDictionary?
 ) -> CGImage? { index == 0 ? isrc.image().map { CGImage($0) } : nil }
 
-/// A smaller image, made from the whole: `kCGImageSourceThumbnailMaxPixelSize` is the longer side, and
-/// `kCGImageSourceCreateThumbnailWithTransform` turns it upright. Other options have no effect.
+/// A smaller image, made from the whole: `kCGImageSourceThumbnailMaxPixelSize` is the longer side,
+/// and `kCGImageSourceCreateThumbnailWithTransform` turns it upright. Other options have no effect.
 public func CGImageSourceCreateThumbnailAtIndex(
   _ isrc: CGImageSource, _ index: Int, _ options: CFDictionary?
 ) -> CGImage? {

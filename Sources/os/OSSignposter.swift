@@ -1,7 +1,7 @@
 import Foundation
 
-/// Marks intervals and events of a program. There is no tool that shows them here: they are written to
-/// the log as messages of the level `trace`, with the interval's length where it ends.
+/// Marks intervals and events of a program. There is no tool that shows them here: they are written
+/// to the log as messages of the level `trace`, with the interval's length where it ends.
 public struct OSSignposter: Sendable {
   private let logger: Logger?
 
@@ -152,7 +152,7 @@ public enum OSSignpostType: UInt8, Hashable, Sendable {
   case end
 }
 
-/// Marks a point in time: a message of the level `debug`.
+/// Marks a point in time: a message of the level `trace`.
 public func os_signpost(
   _ type: OSSignpostType, log: OSLog, name: StaticString,
   signpostID: OSSignpostID = .exclusive
@@ -164,9 +164,7 @@ public func os_signpost(
   signpostID: OSSignpostID = .exclusive, _ format: StaticString, _ arguments: any CVarArg...
 ) {
   let text = LogFormat(format.description).text(arguments)
-  log.logger.trace(
-    "\(name.description, privacy: .public) \(verb(type), privacy: .public) \(text, privacy: .public)"
-  )
+  log.logger.trace("\(name.description) \(verb(type)) \(text, privacy: .public)")
 }
 
 private func verb(_ type: OSSignpostType) -> String {
