@@ -25,14 +25,6 @@ public let kCFBooleanTrue: CFBoolean! = true
 /// False.
 public let kCFBooleanFalse: CFBoolean! = false
 
-/// A time span in seconds.
-public typealias CFTimeInterval = Double
-/// Seconds since the beginning of 2001.
-public typealias CFAbsoluteTime = CFTimeInterval
-
-/// The current time.
-public func CFAbsoluteTimeGetCurrent() -> CFAbsoluteTime { Date().timeIntervalSinceReferenceDate }
-
 /// Does some work. On a Mac, what it leaves behind for Objective-C is freed afterwards.
 public func autoreleasepool<Result>(
   invoking body: () throws -> Result

@@ -17,6 +17,7 @@ struct ImageInventory {
   }
 
   static func main() throws {
+    let start = CFAbsoluteTimeGetCurrent()
     let folder = URL(fileURLWithPath: CommandLine.arguments[1], isDirectory: true)
     let sheet = URL(fileURLWithPath: CommandLine.arguments[2])
     let files = try FileManager.default.contentsOfDirectory(
@@ -33,7 +34,10 @@ struct ImageInventory {
     encoder.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]
     print(String(decoding: try encoder.encode(Array(found.prefix(1))), as: UTF8.self))
     try drawSheet(of: files.prefix(9), to: sheet)
-    print("looked at \(found.count) of \(files.count)")
+    let seconds: CFTimeInterval = CFAbsoluteTimeGetCurrent() - start
+    DispatchQueue.main.async { CFRunLoopStop(CFRunLoopGetMain()) }
+    CFRunLoopRun()
+    print("looked at \(found.count) of \(files.count)", seconds < 60)
   }
 
   static func look(at file: URL) -> Entry? {
