@@ -53,8 +53,11 @@ var cliDependencies: [Target.Dependency] = [
 #if os(Linux)
   products += ["RealityKit", "RealityFoundation"].map { .library(name: $0, targets: [$0]) }
   // What else programs for the Mac import; a program names those that it needs.
-  products += ["CoreGraphics", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "os", "simd"]
-    .map { .library(name: $0, targets: [$0]) }
+  products += [
+    "Combine", "CoreGraphics", "CoreImage", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "OSLog",
+    "os",
+    "simd", "UniformTypeIdentifiers",
+  ].map { .library(name: $0, targets: [$0]) }
   targets += [
     .target(
       name: "CKernels", cxxSettings: strictCxx,
@@ -70,10 +73,26 @@ var cliDependencies: [Target.Dependency] = [
     .target(
       name: "Pipeline", dependencies: ["Kernels", "Formats", "SceneModel", logging],
       swiftSettings: strict),
-    .target(name: "CoreGraphics", swiftSettings: strict),
+    .target(name: "Combine", swiftSettings: strict),
+    .target(name: "CoreFoundationTypes", swiftSettings: strict),
+    .target(
+      name: "BitmapGraphics", dependencies: ["Kernels", "SceneModel", "CoreFoundationTypes"],
+      swiftSettings: strict),
+    .target(name: "CoreGraphics", dependencies: ["BitmapGraphics"], swiftSettings: strict),
+    .target(
+      name: "CoreImage",
+      dependencies: ["BitmapGraphics", "CoreVideo", "ImageIO", "Kernels", "SceneModel"],
+      swiftSettings: strict),
     .target(name: "CoreMotion", swiftSettings: strict),
-    .target(name: "CoreVideo", dependencies: ["Kernels"], swiftSettings: strict),
-    .target(name: "ImageIO", swiftSettings: strict),
+    .target(
+      name: "CoreVideo", dependencies: ["CoreFoundationTypes", "Kernels", "SceneModel"],
+      swiftSettings: strict),
+    .target(
+      name: "ImageIO",
+      dependencies: ["BitmapGraphics", "CoreFoundationTypes", "Kernels", "Pipeline", "SceneModel"],
+      swiftSettings: strict),
+    .target(name: "OSLog", dependencies: ["os"], swiftSettings: strict),
+    .target(name: "UniformTypeIdentifiers", swiftSettings: strict),
     .target(name: "Metal", swiftSettings: strict),
     .target(name: "OSLogModule"),
     .target(name: "os", dependencies: ["OSLogModule", logging], swiftSettings: strict),
@@ -81,9 +100,8 @@ var cliDependencies: [Target.Dependency] = [
     .target(
       name: "RealityFoundation",
       dependencies: [
-        "Pipeline", "Kernels", "Formats", "SceneModel", "CoreMotion", "CoreVideo", "ImageIO",
-        "simd",
-        logging,
+        "Pipeline", "Kernels", "Formats", "SceneModel", "BitmapGraphics", "CoreMotion", "CoreVideo",
+        "ImageIO", "simd", logging,
       ],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),

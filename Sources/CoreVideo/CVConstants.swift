@@ -1,5 +1,7 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 
+@_exported import CoreFoundationTypes
+
 /// The call succeeded.
 public let kCVReturnSuccess: CVReturn = 0
 /// A parameter of the call is not valid.

@@ -3,7 +3,8 @@ import Foundation
 import Kernels
 
 // The part of CoreVideo's C interface that fills and reads the pixel buffers of samples. Its
-// signatures are the only ones outside of Kernels that name unsafe pointers.
+// signatures and those of CoreGraphics are the only ones outside of Kernels that name unsafe
+// pointers.
 
 /// How a buffer is locked.
 public struct CVPixelBufferLockFlags: OptionSet, Sendable {

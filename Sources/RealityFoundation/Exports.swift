@@ -1,6 +1,10 @@
-// A program that imports RealityKit on a Mac sees these modules as well.
+// A program that imports RealityKit on a Mac sees these modules as well. There Foundation itself has
+// what is in FoundationNetworking here.
+@_exported import BitmapGraphics
 @_exported import CoreMotion
 @_exported import CoreVideo
 @_exported import Foundation
+@_exported import FoundationNetworking
 @_exported import ImageIO
+@_exported import Observation
 @_exported import simd

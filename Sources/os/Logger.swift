@@ -51,6 +51,12 @@ public struct Logger: Sendable {
   /// Writes that there is a fault in the program.
   public func fault(_ message: OSLogMessage) { write(message, .critical) }
 
+  /// Creates a logger that writes to a log.
+  public init(_ logObj: OSLog) { self = logObj.logger }
+
+  /// Whether messages of a level are taken down.
+  func isEnabled(_ type: OSLogType) -> Bool { logger.logLevel <= type.level }
+
   private func write(_ message: OSLogMessage, _ level: Logging.Logger.Level) {
     logger.log(level: level, "\(message.interpolation.text)")
   }

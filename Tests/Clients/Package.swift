@@ -41,9 +41,16 @@ let package = Package(
     program("SemaphoreProgram", "RealityFoundation", "simd"),
     program("TopLevelLoop", "RealityKit"),
     program("AsyncMain", "RealityKit", "CoreGraphics", "CoreVideo", "ImageIO"),
-    program("EverySymbol", "RealityKit", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "os"),
+    program(
+      "EverySymbol", "RealityKit", "Combine", "CoreGraphics", "CoreImage", "CoreMotion",
+      "CoreVideo", "ImageIO", "Metal", "OSLog", "os", "UniformTypeIdentifiers"),
     program("HelloPhotogrammetry", "RealityKit"),
     program("SampleSequence", "RealityKit", "CoreVideo"),
+    program("MaskedSamples", "RealityKit", "CoreGraphics", "CoreVideo", "ImageIO"),
+    program("SessionActor", "RealityKit", "os"),
+    program("InterruptedCommand", "RealityKit", "OSLog"),
+    program("ImageInventory", "CoreImage", "ImageIO", "os", "UniformTypeIdentifiers"),
+    program("ObservedModel", "RealityKit", "Combine"),
   ],
   swiftLanguageModes: languageModes
 )

@@ -54,7 +54,7 @@ package struct PhotoMetadata: Hashable, Sendable {
   }
 
   /// Finds the TIFF structure that holds the EXIF data of an image file.
-  private static func structure(_ reader: ByteReader) -> TIFFStructure? {
+  package static func structure(_ reader: ByteReader) -> TIFFStructure? {
     if reader.hasPrefix([0xFF, 0xD8]) {
       return JPEGSegments(reader).lazy
         .filter { $0.marker == 0xE1 && reader.hasText("Exif\0", at: $0.payload.lowerBound) }

@@ -1,3 +1,4 @@
+import ImageIO
 import Kernels
 import Pipeline
 
@@ -34,28 +35,7 @@ extension PhotogrammetrySample {
 
   private mutating func apply(_ read: PhotoMetadata) {
     orientation = CGImagePropertyOrientation(rawValue: UInt32(read.orientation)) ?? .up
-    metadata["Orientation"] = read.orientation
-    var tiff: [String: Any] = [:]
-    tiff["Make"] = read.make
-    tiff["Model"] = read.model
-    var exif: [String: Any] = [:]
-    exif["LensModel"] = read.lens
-    exif["BodySerialNumber"] = read.bodySerialNumber
-    exif["LensSerialNumber"] = read.lensSerialNumber
-    exif["FocalLength"] = read.focalLength
-    exif["FocalLenIn35mmFilm"] = read.focalLengthIn35mmFilm
-    exif["DateTimeOriginal"] = read.captureTime
-    metadata["{TIFF}"] = tiff
-    metadata["{Exif}"] = exif
-    if let position = read.position {
-      var gps: [String: Any] = [
-        "Latitude": abs(position.latitudeDegrees), "Longitude": abs(position.longitudeDegrees),
-        "LatitudeRef": position.latitudeDegrees < 0 ? "S" : "N",
-        "LongitudeRef": position.longitudeDegrees < 0 ? "W" : "E",
-      ]
-      gps["Altitude"] = position.altitude
-      metadata["{GPS}"] = gps
-    }
+    metadata = read.imageProperties
     captureTime = read.captureTime.flatMap(Self.date)
   }
 

@@ -14,7 +14,13 @@ struct EverySymbol {
     useErrors(folder)
     guard let name = try FileManager.default.contentsOfDirectory(atPath: photos.path).sorted().first
     else { return check(false, "there are no photos") }
-    try await useSamples(photos.appendingPathComponent(name))
+    let photo = photos.appendingPathComponent(name)
+    try await useSamples(photo)
+    try useImages(photo)
+    try useRendering(photo)
+    useLogs()
+    useKinds()
+    await usePublishers()
     let session = try Session(input: photos, configuration: makeConfiguration(checkpoint: folder))
     check(!session.isProcessing && session.activeRequests.isEmpty, "idle")
     check(session.configuration.meshPrimitive == .quad && session.id == session.id, "as it is told")

@@ -1,10 +1,9 @@
-import CoreVideo
 import Kernels
 import SceneModel
 
 extension CVPixelBuffer {
   /// The pixels as RGB; nil for formats without three colours.
-  var image: RasterImage? {
+  package var image: RasterImage? {
     let (size, offsets): (Int, [Int])
     switch pixelFormat {
     case kCVPixelFormatType_32BGRA: (size, offsets) = (4, [2, 1, 0])
@@ -25,7 +24,7 @@ extension CVPixelBuffer {
   }
 
   /// The pixels as gray; nil for formats that aren't OneComponent8.
-  var grayImage: RasterImage? {
+  package var grayImage: RasterImage? {
     guard pixelFormat == kCVPixelFormatType_OneComponent8 else { return nil }
     var pixels: [UInt8] = []
     pixels.reserveCapacity(width * height)
@@ -36,7 +35,7 @@ extension CVPixelBuffer {
   }
 
   /// Creates a 32BGRA buffer from an RGB image.
-  convenience init?(_ image: RasterImage) {
+  package convenience init?(_ image: RasterImage) {
     guard image.channels == 3 else { return nil }
     self.init(width: image.width, height: image.height, pixelFormat: kCVPixelFormatType_32BGRA)
     for row in 0..<image.height {

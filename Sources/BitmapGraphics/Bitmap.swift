@@ -1,0 +1,122 @@
+import Kernels
+
+/// The pixels that a context draws into: its own, or those of a buffer that outlives it.
+struct Bitmap {
+  let width: Int
+  let height: Int
+  let bytesPerRow: Int
+  let layout: PixelLayout
+  let storage: PixelStorage
+
+  init?(
+    data: UnsafeMutableRawPointer?, width: Int, height: Int, bytesPerRow: Int, layout: PixelLayout
+  ) {
+    let rowSize = width * layout.size
+    // 0 leaves the distance of rows to us.
+    let distance = bytesPerRow == 0 ? (rowSize + 63) / 64 * 64 : bytesPerRow
+    guard distance >= rowSize else { return nil }
+    // The last row of a buffer need not be as long as the distance.
+    storage =
+      data.map { PixelStorage(borrowing: $0, byteCount: distance * (height - 1) + rowSize) }
+      ?? PixelStorage(byteCount: distance * height)
+    self.width = width
+    self.height = height
+    self.bytesPerRow = distance
+    self.layout = layout
+  }
+
+  /// The bytes of a row that hold pixels.
+  func row(_ y: Int) -> ArraySlice<UInt8> { storage.copy(place(0..<width, y))[...] }
+
+  /// Where pixels of a row are.
+  private func place(_ columns: Range<Int>, _ y: Int) -> Range<Int> {
+    let start = y * bytesPerRow + columns.lowerBound * layout.size
+    return start..<start + columns.count * layout.size
+  }
+
+  /// Sets the pixels of a rectangle, which is cut off at the rim, to zero.
+  func clear(_ columns: Range<Int>, _ rows: Range<Int>) {
+    let columns = columns.clamped(to: 0..<width)
+    let zeros = [UInt8](repeating: 0, count: columns.count * layout.size)
+    for y in rows.clamped(to: 0..<height) {
+      storage.write(zeros, at: place(columns, y).lowerBound)
+    }
+  }
+
+  /// Draws one pixel for each of a rectangle, which is cut off at the rim, over what is there; nil
+  /// leaves what is there.
+  func draw(_ columns: Range<Int>, _ rows: Range<Int>, pixel: (Int, Int) -> PixelValue?) {
+    let columns = columns.clamped(to: 0..<width)
+    guard !columns.isEmpty else { return }
+    for y in rows.clamped(to: 0..<height) {
+      let place = place(columns, y)
+      var bytes = storage.copy(place)
+      var at = 0
+      for x in columns {
+        if let value = pixel(x, y), value.alpha > 0 { store(value, in: &bytes, at) }
+        at += layout.size
+      }
+      storage.write(bytes, at: place.lowerBound)
+    }
+  }
+
+  private func store(_ value: PixelValue, in bytes: inout [UInt8], _ at: Int) {
+    let sum = value.alpha < 255 ? value.over(old(bytes, at)) : value
+    let stored = layout.isPremultiplied ? sum.premultiplied : sum
+    if layout.colours.count == 3 {
+      bytes[at + layout.colours[0]] = stored.red
+      bytes[at + layout.colours[1]] = stored.green
+      bytes[at + layout.colours[2]] = stored.blue
+    } else if layout.colours.count == 1 {
+      bytes[at] = stored.gray
+    }
+    if let alpha = layout.alpha { bytes[at + alpha] = stored.alpha }
+    if let unused = layout.unused { bytes[at + unused] = 255 }
+  }
+
+  private func old(_ bytes: [UInt8], _ at: Int) -> PixelValue {
+    let alpha = layout.alpha.map { bytes[at + $0] } ?? 255
+    let value: PixelValue
+    switch layout.colours.count {
+    case 0: return PixelValue(0, 0, 0, alpha)
+    case 1: value = PixelValue(bytes[at], bytes[at], bytes[at], alpha)
+    default:
+      value = PixelValue(
+        bytes[at + layout.colours[0]], bytes[at + layout.colours[1]],
+        bytes[at + layout.colours[2]], alpha)
+    }
+    return layout.isPremultiplied ? value.unpremultiplied : value
+  }
+}
+
+extension PixelValue {
+  /// The colour, multiplied by its opacity.
+  var premultiplied: PixelValue {
+    guard alpha < 255 else { return self }
+    func scaled(_ value: UInt8) -> UInt8 { UInt8((Int(value) * Int(alpha) + 127) / 255) }
+    return PixelValue(scaled(red), scaled(green), scaled(blue), alpha)
+  }
+
+  /// The colour, divided by its opacity.
+  var unpremultiplied: PixelValue {
+    guard alpha > 0, alpha < 255 else { return self }
+    func scaled(_ value: UInt8) -> UInt8 {
+      UInt8(min(255, (Int(value) * 255 + Int(alpha) / 2) / Int(alpha)))
+    }
+    return PixelValue(scaled(red), scaled(green), scaled(blue), alpha)
+  }
+
+  /// This colour on another.
+  func over(_ other: PixelValue) -> PixelValue {
+    // All in units of 1/65025, the product of two bytes.
+    let (front, back) = (Int(alpha) * 255, Int(other.alpha) * (255 - Int(alpha)))
+    let sum = front + back
+    guard sum > 0 else { return PixelValue(0, 0, 0, 0) }
+    func mixed(_ a: UInt8, _ b: UInt8) -> UInt8 {
+      UInt8((Int(a) * front + Int(b) * back + sum / 2) / sum)
+    }
+    return PixelValue(
+      mixed(red, other.red), mixed(green, other.green), mixed(blue, other.blue),
+      UInt8((sum + 127) / 255))
+  }
+}

@@ -1,0 +1,218 @@
+import Foundation
+import SceneModel
+
+/// Draws images and shapes into a bitmap of 8 bits a component: gray, opacity, or red, green and blue
+/// with a fourth byte.
+///
+/// As on a Mac the origin is the bottom left corner and y points up; images come out upright.
+public final class CGContext {
+  private struct State {
+    var transform = CGAffineTransform.identity
+    var fill = CGColor.black.bytes
+    var interpolation = CGInterpolationQuality.default
+    var opacity: UInt8 = 255
+    /// Where something may be drawn, in the bitmap.
+    var clip = CGRect.infinite
+  }
+
+  private let bitmap: Bitmap
+  private var state = State()
+  private var saved: [State] = []
+  /// The space of the pixels.
+  public let colorSpace: CGColorSpace?
+  /// How the components lie in memory.
+  public let bitmapInfo: CGBitmapInfo
+
+  /// Creates a context that draws into memory, which must outlive it, or into its own.
+  ///
+  /// Fails where the components don't have 8 bits or their order is not one of those above.
+  public init?(
+    data: UnsafeMutableRawPointer?, width: Int, height: Int, bitsPerComponent: Int,
+    bytesPerRow: Int, space: CGColorSpace, bitmapInfo: UInt32
+  ) {
+    let info = CGBitmapInfo(rawValue: bitmapInfo)
+    guard let layout = PixelLayout(space.model, info), bitsPerComponent == 8,
+      (1...65536).contains(width), (1...65536).contains(height),
+      let bitmap = Bitmap(
+        data: data, width: width, height: height, bytesPerRow: bytesPerRow, layout: layout)
+    else { return nil }
+    self.bitmap = bitmap
+    colorSpace = space
+    self.bitmapInfo = info
+  }
+
+  /// The first pixel of the top row.
+  public var data: UnsafeMutableRawPointer? { bitmap.storage.baseAddress }
+  /// The width in pixels.
+  public var width: Int { bitmap.width }
+  /// The height in pixels.
+  public var height: Int { bitmap.height }
+  /// The bits of a component.
+  public var bitsPerComponent: Int { 8 }
+  /// The bits of a pixel.
+  public var bitsPerPixel: Int { 8 * bitmap.layout.size }
+  /// The distance of two rows in bytes.
+  public var bytesPerRow: Int { bitmap.bytesPerRow }
+  /// Where the opacity is.
+  public var alphaInfo: CGImageAlphaInfo { bitmap.layout.alphaInfo }
+
+  /// What was drawn so far.
+  public func makeImage() -> CGImage? {
+    CGImage(bitmap.layout.raster(width: width, height: height, row: bitmap.row))
+  }
+
+  /// Draws an image into a rectangle.
+  public func draw(_ image: CGImage, in rect: CGRect, byTiling: Bool = false) {
+    // The image's frame counts from its top left, as the rows of the bitmap do.
+    let toUser = CGAffineTransform(
+      a: rect.width, b: 0, c: 0, d: -rect.height, tx: rect.minX, ty: rect.maxY)
+    let toBitmap = toUser.concatenating(state.transform).concatenating(flip)
+    let opacity = state.opacity
+    guard !rect.isNull, !byTiling,
+      let placed = PlacedImage(image.raster, toBitmap, state.interpolation)
+    else { return }
+    bitmap.draw(
+      placed.columns.clamped(to: clippedColumns), placed.rows.clamped(to: clippedRows)
+    ) { x, y in
+      guard var value = placed.pixel(x, y) else { return nil }
+      if opacity < 255 { value.alpha = UInt8(Int(value.alpha) * Int(opacity) / 255) }
+      return value
+    }
+  }
+
+  /// Fills a rectangle.
+  public func fill(_ rect: CGRect) {
+    paint(rect, rounded: false, state.fill)
+  }
+
+  /// Fills rectangles.
+  public func fill(_ rects: [CGRect]) { for rect in rects { fill(rect) } }
+
+  /// Fills the ellipse that touches a rectangle's sides.
+  public func fillEllipse(in rect: CGRect) { paint(rect, rounded: true, state.fill) }
+
+  /// Sets the pixels in a rectangle to zero.
+  public func clear(_ rect: CGRect) {
+    let box = rect.applying(state.transform.concatenating(flip))
+    bitmap.clear(pixels(box.minX, box.maxX, width), pixels(box.minY, box.maxY, height))
+  }
+
+  /// Sets what shapes are filled with.
+  public func setFillColor(_ color: CGColor) { state.fill = color.bytes }
+
+  /// Sets what shapes are filled with.
+  public func setFillColor(gray: CGFloat, alpha: CGFloat) {
+    setFillColor(CGColor(gray: gray, alpha: alpha))
+  }
+
+  /// Sets what shapes are filled with.
+  public func setFillColor(red: CGFloat, green: CGFloat, blue: CGFloat, alpha: CGFloat) {
+    setFillColor(CGColor(red: red, green: green, blue: blue, alpha: alpha))
+  }
+
+  /// Sets how much all that is drawn hides of what is behind it.
+  public func setAlpha(_ alpha: CGFloat) {
+    state.opacity = UInt8((min(max(alpha, 0), 1) * 255).rounded())
+  }
+
+  /// Lets everything be drawn in a rectangle only; a turned one counts as the upright one around
+  /// it.
+  public func clip(to rect: CGRect) {
+    let box = rect.applying(state.transform.concatenating(flip))
+    state.clip = state.clip.isInfinite ? box : state.clip.intersection(box)
+  }
+
+  /// Keeps transform, colour, clip and interpolation until `restoreGState`.
+  public func saveGState() { saved.append(state) }
+
+  /// Takes up what the last `saveGState` kept.
+  public func restoreGState() { state = saved.popLast() ?? state }
+
+  /// From the frame of the program to that of the bitmap, y up.
+  public var ctm: CGAffineTransform { state.transform }
+
+  /// Lets the program's frame begin elsewhere.
+  public func translateBy(x tx: CGFloat, y ty: CGFloat) {
+    state.transform = state.transform.translatedBy(x: tx, y: ty)
+  }
+
+  /// Changes the size of the program's frame.
+  public func scaleBy(x sx: CGFloat, y sy: CGFloat) {
+    state.transform = state.transform.scaledBy(x: sx, y: sy)
+  }
+
+  /// Turns the program's frame.
+  public func rotate(by angle: CGFloat) { state.transform = state.transform.rotated(by: angle) }
+
+  /// Transforms the program's frame.
+  public func concatenate(_ transform: CGAffineTransform) {
+    state.transform = transform.concatenating(state.transform)
+  }
+
+  /// How images are brought to another size: `none` takes the nearest pixel, all others average.
+  public var interpolationQuality: CGInterpolationQuality {
+    get { state.interpolation }
+    set { state.interpolation = newValue }
+  }
+
+  /// Has no effect: pixels are there at once.
+  public func flush() {}
+
+  private var clippedColumns: Range<Int> {
+    if state.clip.isInfinite { return 0..<width }
+    return state.clip.isNull ? 0..<0 : pixels(state.clip.minX, state.clip.maxX, width)
+  }
+
+  private var clippedRows: Range<Int> {
+    if state.clip.isInfinite { return 0..<height }
+    return state.clip.isNull ? 0..<0 : pixels(state.clip.minY, state.clip.maxY, height)
+  }
+
+  private var flip: CGAffineTransform {
+    CGAffineTransform(a: 1, b: 0, c: 0, d: -1, tx: 0, ty: CGFloat(height))
+  }
+
+  /// The pixels whose centres are in a shape, which has hard edges.
+  private func paint(_ rect: CGRect, rounded: Bool, _ color: PixelValue) {
+    let toBitmap = state.transform.concatenating(flip)
+    let box = rect.applying(toBitmap)
+    let back = toBitmap.inverted()
+    let center = CGPoint(x: rect.midX, y: rect.midY)
+    let half = CGSize(width: rect.width / 2, height: rect.height / 2)
+    var color = color
+    color.alpha = UInt8(Int(color.alpha) * Int(state.opacity) / 255)
+    bitmap.draw(
+      pixels(box.minX, box.maxX, width).clamped(to: clippedColumns),
+      pixels(box.minY, box.maxY, height).clamped(to: clippedRows)
+    ) { x, y in
+      let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(back)
+      guard rounded else { return rect.contains(point) ? color : nil }
+      let (u, v) = ((point.x - center.x) / half.width, (point.y - center.y) / half.height)
+      return u * u + v * v <= 1 ? color : nil
+    }
+  }
+}
+
+/// How images are brought to another size.
+public enum CGInterpolationQuality: Int32, Hashable, Sendable {
+  /// As the system likes.
+  case `default`
+  /// By the nearest pixel.
+  case none
+  /// Fast.
+  case low
+  /// Better.
+  case high
+  /// In between.
+  case medium
+}
+
+/// The pixels that an interval touches, of those there are.
+func pixels(_ lower: CGFloat, _ upper: CGFloat, _ count: Int) -> Range<Int> {
+  guard lower < upper else { return 0..<0 }
+  // A rim that misses a pixel by less than this is on it.
+  let tolerance = 1e-6
+  let first = min(max((lower + tolerance).rounded(.down), 0), CGFloat(count))
+  let last = min(max((upper - tolerance).rounded(.up), 0), CGFloat(count))
+  return Int(first)..<max(Int(first), Int(last))
+}

@@ -1,0 +1,138 @@
+import Kernels
+import SceneModel
+
+/// Pixels that don't change: gray, or red, green and blue, with opacity or without; 8 bits each.
+public final class CGImage: Sendable {
+  /// 1 channel for gray, 3 for colours, 4 for colours and opacity that they are not multiplied by.
+  package let raster: RasterImage
+
+  package init(_ raster: RasterImage) { self.raster = raster }
+
+  /// Creates an image from its pixels, as they lie in memory.
+  ///
+  /// Fails for anything but 8 bits a component, and where there are fewer bytes than pixels need.
+  public convenience init?(
+    width: Int, height: Int, bitsPerComponent: Int, bitsPerPixel: Int, bytesPerRow: Int,
+    space: CGColorSpace, bitmapInfo: CGBitmapInfo, provider: CGDataProvider,
+    decode: UnsafePointer<CGFloat>?, shouldInterpolate: Bool, intent: CGColorRenderingIntent
+  ) {
+    guard let layout = PixelLayout(space.model, bitmapInfo), bitsPerComponent == 8,
+      bitsPerPixel == 8 * layout.size, (1...65536).contains(width), (1...65536).contains(height),
+      bytesPerRow >= width * layout.size
+    else { return nil }
+    let bytes = [UInt8](provider.bytes)
+    guard bytes.count >= (height - 1) * bytesPerRow + width * layout.size else { return nil }
+    self.init(
+      layout.raster(width: width, height: height) { row in
+        bytes[row * bytesPerRow..<row * bytesPerRow + width * layout.size]
+      })
+  }
+
+  /// The width in pixels.
+  public var width: Int { raster.width }
+  /// The height in pixels.
+  public var height: Int { raster.height }
+  /// The bits of a component.
+  public var bitsPerComponent: Int { 8 }
+  /// The bits of a pixel: 8 for gray and 32 for colours.
+  public var bitsPerPixel: Int { raster.channels == 1 ? 8 : 32 }
+  /// The distance of two rows in bytes.
+  public var bytesPerRow: Int { width * bitsPerPixel / 8 }
+  /// The space of the pixels.
+  public var colorSpace: CGColorSpace? {
+    CGColorSpace(name: raster.channels == 1 ? CGColorSpace.genericGrayGamma2_2 : CGColorSpace.sRGB)
+  }
+  /// Where the opacity is.
+  public var alphaInfo: CGImageAlphaInfo {
+    switch raster.channels {
+    case 1: .none
+    case 4: .last
+    default: .noneSkipLast
+    }
+  }
+  /// How the components lie in memory.
+  public var bitmapInfo: CGBitmapInfo { CGBitmapInfo(rawValue: alphaInfo.rawValue) }
+
+  /// The pixels as they lie in memory.
+  public var dataProvider: CGDataProvider? {
+    guard raster.channels == 3 else { return CGDataProvider(Data(raster.pixels)) }
+    var bytes = [UInt8](repeating: 255, count: width * height * 4)
+    for pixel in 0..<width * height {
+      for channel in 0..<3 { bytes[4 * pixel + channel] = raster.pixels[3 * pixel + channel] }
+    }
+    return CGDataProvider(Data(bytes))
+  }
+
+  /// The part of the image in a rectangle, whose y counts from the top; nil where they don't meet.
+  public func cropping(to rect: CGRect) -> CGImage? {
+    let part = rect.integral.intersection(CGRect(x: 0, y: 0, width: width, height: height))
+    guard !part.isNull, part.width >= 1, part.height >= 1 else { return nil }
+    let columns = Int(part.minX)..<Int(part.maxX)
+    var pixels: [UInt8] = []
+    pixels.reserveCapacity(columns.count * Int(part.height) * raster.channels)
+    for row in Int(part.minY)..<Int(part.maxY) {
+      let start = (row * width + columns.lowerBound) * raster.channels
+      pixels += raster.pixels[start..<start + columns.count * raster.channels]
+    }
+    return CGImage(
+      RasterImage(
+        width: columns.count, height: Int(part.height), channels: raster.channels, pixels: pixels))
+  }
+
+  /// The same image.
+  public func copy() -> CGImage? { CGImage(raster) }
+}
+
+/// Bytes for an image, or of one.
+public final class CGDataProvider: Sendable {
+  let bytes: Data
+
+  init(_ bytes: Data) { self.bytes = bytes }
+
+  /// Creates a provider of bytes.
+  public convenience init?(data: CFData) { self.init(data) }
+
+  /// The bytes.
+  public var data: CFData? { bytes }
+}
+
+/// How colours beyond the bounds of a space are shown; has no effect.
+public enum CGColorRenderingIntent: Int32, Hashable, Sendable {
+  /// As the system likes.
+  case defaultIntent
+  /// As they are.
+  case absoluteColorimetric
+  /// Relative to white.
+  case relativeColorimetric
+  /// As they seem.
+  case perceptual
+  /// As strong as they are.
+  case saturation
+}
+
+extension PixelLayout {
+  /// The rows of a bitmap as an image.
+  func raster(width: Int, height: Int, row: (Int) -> ArraySlice<UInt8>) -> RasterImage {
+    let channels = colours.count < 3 ? 1 : alpha == nil ? 3 : 4
+    var pixels: [UInt8] = []
+    pixels.reserveCapacity(width * height * channels)
+    for y in 0..<height {
+      let bytes = row(y)
+      for start in stride(from: bytes.startIndex, to: bytes.endIndex, by: size) {
+        let opacity = alpha.map { bytes[start + $0] } ?? 255
+        if colours.isEmpty { pixels.append(opacity) }
+        for place in colours {
+          let value = bytes[start + place]
+          pixels.append(isPremultiplied ? restored(value, opacity) : value)
+        }
+        if channels == 4 { pixels.append(opacity) }
+      }
+    }
+    return RasterImage(width: width, height: height, channels: channels, pixels: pixels)
+  }
+
+  private func restored(_ value: UInt8, _ opacity: UInt8) -> UInt8 {
+    guard opacity > 0, opacity < 255 else { return value }
+    return UInt8(min(255, (Int(value) * 255 + Int(opacity) / 2) / Int(opacity)))
+  }
+}

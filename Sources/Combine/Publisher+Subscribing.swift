@@ -1,0 +1,77 @@
+import Foundation
+
+extension Publisher {
+  /// Calls closures with each value and at the end, until the handle goes away.
+  public func sink(
+    receiveCompletion: @escaping (Subscribers.Completion<Failure>) -> Void,
+    receiveValue: @escaping (Output) -> Void
+  ) -> AnyCancellable {
+    let holder = SubscriptionHolder()
+    receive(
+      subscriber: Relay(
+        begin: { subscription in
+          holder.set(subscription)
+          subscription.request(.unlimited)
+        },
+        take: { value in
+          guard !holder.isCancelled else { return .none }
+          receiveValue(value)
+          return .none
+        },
+        end: { completion in
+          guard !holder.isCancelled else { return }
+          receiveCompletion(completion)
+        }))
+    return AnyCancellable { holder.cancel() }
+  }
+}
+
+extension Publisher where Failure == Never {
+  /// Calls a closure with each value, until the handle goes away.
+  public func sink(receiveValue: @escaping (Output) -> Void) -> AnyCancellable {
+    sink(receiveCompletion: { _ in }, receiveValue: receiveValue)
+  }
+
+  /// Sets a property to each value, until the handle goes away.
+  public func assign<Root: AnyObject>(
+    to keyPath: ReferenceWritableKeyPath<Root, Output>, on object: Root
+  ) -> AnyCancellable { sink { object[keyPath: keyPath] = $0 } }
+
+  /// Publishes each value as a property's, for as long as that is there.
+  public func assign(to published: inout Published<Output>.Publisher) {
+    published.follow(self)
+  }
+
+  /// The values, to be waited for.
+  public var values: AsyncStream<Output> {
+    AsyncStream { continuation in
+      let handle = sink(
+        receiveCompletion: { _ in continuation.finish() },
+        receiveValue: { value in
+          nonisolated(unsafe) let value = value
+          continuation.yield(value)
+        })
+      continuation.onTermination = { _ in handle.cancel() }
+    }
+  }
+}
+
+/// Keeps a subscription until it is cancelled.
+private final class SubscriptionHolder: @unchecked Sendable {
+  private let lock = NSLock()
+  private var subscription: (any Subscription)?
+  private var wasCancelled = false
+
+  var isCancelled: Bool { lock.withLock { wasCancelled } }
+
+  func set(_ subscription: any Subscription) { lock.withLock { self.subscription = subscription } }
+
+  func cancel() {
+    let subscription = lock.withLock {
+      wasCancelled = true
+      defer { self.subscription = nil }
+      return self.subscription
+    }
+    subscription?.cancel()
+  }
+}

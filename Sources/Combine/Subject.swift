@@ -1,0 +1,158 @@
+import Foundation
+
+/// A publisher that is told what to tell.
+public protocol Subject<Output, Failure>: AnyObject, Publisher {
+  /// Tells a value.
+  func send(_ value: Output)
+  /// Tells that there are no more values.
+  func send(completion: Subscribers.Completion<Failure>)
+}
+
+extension Subject where Output == Void {
+  /// Tells that something happened.
+  public func send() { send(()) }
+}
+
+/// Tells values to those that listen when it is told them.
+public final class PassthroughSubject<Output, Failure: Error>: Subject, @unchecked Sendable {
+  private let core = SubjectCore<Output, Failure>()
+
+  /// Creates a subject.
+  public init() {}
+
+  /// Begins to tell a subscriber.
+  public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
+    core.add(subscriber, first: nil)
+  }
+
+  /// Tells a value.
+  public func send(_ value: Output) { core.send(value) }
+
+  /// Tells that there are no more values.
+  public func send(completion: Subscribers.Completion<Failure>) { core.send(completion) }
+}
+
+/// Tells its value, and each new one.
+public final class CurrentValueSubject<Output, Failure: Error>: Subject, @unchecked Sendable {
+  private let core = SubjectCore<Output, Failure>()
+  private let lock = NSLock()
+  private var current: Output
+
+  /// Creates a subject with a value.
+  public init(_ value: Output) { current = value }
+
+  /// The value; setting it tells it.
+  public var value: Output {
+    get { lock.withLock { current } }
+    set { send(newValue) }
+  }
+
+  /// Begins to tell a subscriber, with the value that there is.
+  public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
+    core.add(subscriber, first: value)
+  }
+
+  /// Takes a value and tells it.
+  public func send(_ value: Output) {
+    lock.withLock { current = value }
+    core.send(value)
+  }
+
+  /// Tells that there are no more values.
+  public func send(completion: Subscribers.Completion<Failure>) { core.send(completion) }
+}
+
+/// The subscriptions of a subject.
+private final class SubjectCore<Output, Failure: Error>: @unchecked Sendable {
+  private let lock = NSLock()
+  private var members: [ObjectIdentifier: Member<Output, Failure>] = [:]
+  private var order: [ObjectIdentifier] = []
+  private var end: Subscribers.Completion<Failure>?
+
+  func add<S: Subscriber>(_ subscriber: S, first: Output?)
+  where S.Input == Output, S.Failure == Failure {
+    let member = Member<Output, Failure>(
+      subscriber.receive, subscriber.receive(completion:), first: first)
+    let id = ObjectIdentifier(member)
+    member.onCancel = { [weak self] in self?.remove(id) }
+    let end = lock.withLock {
+      if self.end == nil {
+        members[id] = member
+        order.append(id)
+      }
+      return self.end
+    }
+    subscriber.receive(subscription: member)
+    if let end { member.finish(end) }
+  }
+
+  func send(_ value: Output) { for member in current() { member.send(value) } }
+
+  func send(_ completion: Subscribers.Completion<Failure>) {
+    let members = current()
+    lock.withLock {
+      end = end ?? completion
+      self.members = [:]
+      order = []
+    }
+    for member in members { member.finish(completion) }
+  }
+
+  private func current() -> [Member<Output, Failure>] {
+    lock.withLock { order.compactMap { members[$0] } }
+  }
+
+  private func remove(_ id: ObjectIdentifier) {
+    lock.withLock {
+      members[id] = nil
+      order.removeAll { $0 == id }
+    }
+  }
+}
+
+/// One subscriber of a subject, with what it asked for. Values beyond that are not told.
+private final class Member<Output, Failure: Error>: Subscription, @unchecked Sendable {
+  private let lock = NSRecursiveLock()
+  private var demand = Subscribers.Demand.none
+  private var first: Output?
+  private var take: ((Output) -> Subscribers.Demand)?
+  private var end: ((Subscribers.Completion<Failure>) -> Void)?
+  var onCancel: () -> Void = {}
+
+  init(
+    _ take: @escaping (Output) -> Subscribers.Demand,
+    _ end: @escaping (Subscribers.Completion<Failure>) -> Void, first: Output?
+  ) { (self.take, self.end, self.first) = (take, end, first) }
+
+  func request(_ demand: Subscribers.Demand) {
+    let waiting: Output? = lock.withLock {
+      self.demand = self.demand + demand
+      defer { if self.demand > .none { first = nil } }
+      return self.demand > .none ? first : nil
+    }
+    if let waiting { send(waiting) }
+  }
+
+  func send(_ value: Output) {
+    let take = lock.withLock { () -> ((Output) -> Subscribers.Demand)? in
+      guard demand > .none else { return nil }
+      if let count = demand.max { demand = .max(count - 1) }
+      return self.take
+    }
+    guard let more = take?(value) else { return }
+    lock.withLock { demand = demand + more }
+  }
+
+  func finish(_ completion: Subscribers.Completion<Failure>) {
+    let end = lock.withLock {
+      defer { (self.end, take) = (nil, nil) }
+      return self.end
+    }
+    end?(completion)
+  }
+
+  func cancel() {
+    lock.withLock { (take, end) = (nil, nil) }
+    onCancel()
+  }
+}

@@ -1,0 +1,11 @@
+// Command lines for the Mac wait in `CFRunLoopRun()` and measure time with Core Foundation, which
+// Foundation exports there. Here these few names are exported: the other types of Core Foundation
+// can't be bridged.
+@_exported import typealias CoreFoundation.CFAbsoluteTime
+@_exported import func CoreFoundation.CFAbsoluteTimeGetCurrent
+@_exported import class CoreFoundation.CFRunLoop
+@_exported import func CoreFoundation.CFRunLoopGetCurrent
+@_exported import func CoreFoundation.CFRunLoopGetMain
+@_exported import func CoreFoundation.CFRunLoopRun
+@_exported import func CoreFoundation.CFRunLoopStop
+@_exported import typealias CoreFoundation.CFTimeInterval

@@ -1,0 +1,2 @@
+// Some programs import their log by this name.
+@_exported import os

@@ -1,0 +1,85 @@
+import Foundation
+import Logging
+
+/// A log for the functions that came before `Logger`.
+public final class OSLog: Sendable {
+  let logger: Logger
+
+  /// Creates a log for a part of a program.
+  public init(subsystem: String, category: String) {
+    logger = Logger(subsystem: subsystem, category: category)
+  }
+
+  /// Creates a log for a part of a program.
+  public convenience init(subsystem: String, category: Category) {
+    self.init(subsystem: subsystem, category: category.rawValue)
+  }
+
+  private init(_ logger: Logger) { self.logger = logger }
+
+  /// The log without a subsystem.
+  public static let `default` = OSLog(Logger())
+  /// The log that takes nothing down.
+  public static let disabled = OSLog(Logger(Logging.Logger(label: "", factory: { _ in Silence() })))
+
+  /// Whether messages of a level are taken down.
+  public func isEnabled(type: OSLogType) -> Bool { logger.isEnabled(type) }
+
+  /// Categories that tools know.
+  public struct Category: RawRepresentable, Hashable, Sendable {
+    /// The name of the category.
+    public let rawValue: String
+
+    /// Creates a category from its name.
+    public init(rawValue: String) { self.rawValue = rawValue }
+
+    /// Points that tools show.
+    public static let pointsOfInterest = Category(rawValue: "PointsOfInterest")
+  }
+}
+
+/// Takes nothing down.
+private struct Silence: LogHandler {
+  var logLevel = Logging.Logger.Level.critical
+  var metadata: Logging.Logger.Metadata = [:]
+
+  subscript(metadataKey key: String) -> Logging.Logger.Metadata.Value? {
+    get { metadata[key] }
+    set { metadata[key] = newValue }
+  }
+
+  func log(
+    level: Logging.Logger.Level, message: Logging.Logger.Message,
+    metadata: Logging.Logger.Metadata?, source: String, file: String, function: String, line: UInt
+  ) {}
+}
+
+/// Writes a message, its values after a format as `printf` has it: `%d`, `%{public}@`, `%.2f` ….
+///
+/// Values marked `private` or `sensitive` aren't shown.
+public func os_log(
+  _ message: StaticString, log: OSLog = .default,
+  type: OSLogType = .default, _ args: any CVarArg...
+) { write(message, log, type, args) }
+
+/// Writes a message, its values after a format as `printf` has it.
+public func os_log(
+  _ type: OSLogType, log: OSLog = .default, _ message: StaticString,
+  _ args: any CVarArg...
+) { write(message, log, type, args) }
+
+/// Writes a message whose values are in it.
+public func os_log(_ message: OSLogMessage) { OSLog.default.logger.log(message) }
+
+/// Writes a message whose values are in it.
+public func os_log(_ type: OSLogType, log: OSLog = .default, _ message: OSLogMessage) {
+  log.logger.log(level: type, message)
+}
+
+private func write(
+  _ message: StaticString, _ log: OSLog, _ type: OSLogType, _ values: [any CVarArg]
+) {
+  guard log.isEnabled(type: type) else { return }
+  let text = LogFormat(message.description).text(values)
+  log.logger.log(level: type, "\(text, privacy: .public)")
+}
