@@ -71,13 +71,13 @@ final class ScriptedEngine: SessionEngine {
 
   func plan(for specifications: [DetailSpecification]) {}
 
-  func ingest() throws -> Int {
+  func ingest() throws -> UsualDurations.Photos {
     journal.add("ingest")
     for photo in script.refused { onEvent(.refused(photo)) }
     if let error = script.ingestError { throw error }
     if script.isDownsampled { onEvent(.downsampled) }
     try work(.preProcessing)
-    return script.photos
+    return .init(count: script.photos)
   }
 
   func poses() throws -> PhotogrammetrySession.Poses {

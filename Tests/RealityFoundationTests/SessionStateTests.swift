@@ -27,7 +27,7 @@ import Testing
     var (state, plan) = try begun()
     #expect(state.isProcessing && state.phase == .ingesting)
     #expect(state.activeRequests == [.poses, Self.model])
-    #expect(names(state.ingested(photos: 9)) == ["inputComplete"])
+    #expect(names(state.ingested(.init(count: 9))) == ["inputComplete"])
     #expect(state.phase == .processing)
     let poses = Session.Result.poses(.init(posesBySample: [:], urlsBySample: [:]))
     #expect(
@@ -59,11 +59,11 @@ import Testing
     let photo = RefusedPhoto(sampleID: 3, name: "a.jpg", fault: .blurred, reason: "It is blurred.")
     #expect(names(state.refused(photo)) == ["invalidSample"])
     #expect(state.refused(photo).isEmpty)
-    _ = state.ingested(photos: 9)
+    _ = state.ingested(.init(count: 9))
     _ = state.finished()
     try state.begin(plan, photoCount: 10, threadCount: 2, at: 5)
     #expect(state.phase == .processing)
-    let repeated = state.refused(photo) + state.ingested(photos: 9)
+    let repeated = state.refused(photo) + state.ingested(.init(count: 9))
     #expect(repeated.isEmpty)
   }
 
@@ -77,7 +77,7 @@ import Testing
 
   @Test func cancellingSilencesEverythingButTheEnd() throws {
     var (state, plan) = try begun()
-    _ = state.ingested(photos: 9)
+    _ = state.ingested(.init(count: 9))
     let isStopping = state.cancel()
     #expect(isStopping)
     let again = state.cancel()
@@ -102,7 +102,7 @@ import Testing
 
   @Test func progressIsMonotoneAndGoesToAllWhoWait() throws {
     var (state, plan) = try begun()
-    _ = state.ingested(photos: 9)
+    _ = state.ingested(.init(count: 9))
     state.began(plan.entries[0])
     var fractions: [Session.Request: [Double]] = [:]
     var time = 0.0
@@ -129,7 +129,7 @@ import Testing
 
   @Test func smallStepsAreNotTold() throws {
     var (state, plan) = try begun()
-    _ = state.ingested(photos: 9)
+    _ = state.ingested(.init(count: 9))
     state.began(plan.entries[0])
     let outputs = (0..<100_000).flatMap {
       state.progressed(.imageAlignment, fraction: Double($0) / 100_000, at: Double($0) / 1000)
@@ -139,7 +139,7 @@ import Testing
 
   @Test func stagesAndRemainingTimeAreTold() throws {
     var (state, plan) = try begun()
-    _ = state.ingested(photos: 9)
+    _ = state.ingested(.init(count: 9))
     state.began(plan.entries[0])
     let outputs = state.progressed(.imageAlignment, fraction: 0.5, at: 10)
     let infos = outputs.compactMap { output -> Session.Output.ProgressInfo? in

@@ -43,7 +43,11 @@ final class ReconstructionEngine: SessionEngine {
 
   func limitResolution(to viewPixels: Int) { pipeline.limitResolution(to: viewPixels) }
 
-  func ingest() throws -> Int { try pipeline.ingest().photos.count }
+  func ingest() throws -> UsualDurations.Photos {
+    let photos = try pipeline.ingest().photos
+    let pixels = photos.reduce(0) { $0 + Double($1.width * $1.height) }
+    return .init(count: photos.count, megapixels: pixels / 1e6)
+  }
 
   func poses() throws -> PhotogrammetrySession.Poses {
     PhotogrammetrySession.Poses(try align(), sampleIDs: samples?.ids)

@@ -97,9 +97,9 @@ final class SessionCore: Sendable {
     let engine = try resident ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
     resident = engine
     engine.plan(for: plan.specifications)
-    let count = try engine.ingest()
-    sessionLogger.info("Ingestion done: \(count) photos are used.")
-    emit { $0.ingested(photos: count) }
+    let photos = try engine.ingest()
+    sessionLogger.info("Ingestion done: \(photos.count) photos are used.")
+    emit { $0.ingested(photos) }
     for entry in plan.entries {
       if flag.isCancelled { throw CancellationError() }
       shared.withLock { $0.state.began(entry) }

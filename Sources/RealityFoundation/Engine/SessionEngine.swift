@@ -5,8 +5,8 @@ import Pipeline
 protocol SessionEngine: AnyObject {
   /// Announces the models to come, so that shared stages work as finely as needed.
   func plan(for specifications: [DetailSpecification])
-  /// Reads all photos and returns the number of those that are used.
-  func ingest() throws -> Int
+  /// Reads all photos and tells which are used.
+  func ingest() throws -> UsualDurations.Photos
   func poses() throws -> PhotogrammetrySession.Poses
   func pointCloud(_ specification: DetailSpecification) throws -> PhotogrammetrySession.PointCloud
   func bounds(_ specification: DetailSpecification) throws -> BoundingBox

@@ -18,6 +18,8 @@ struct SessionState: Sendable {
   private(set) var hasIngested = false
 
   private var plan: RunPlan?
+  /// Known once they were read.
+  private var photos: UsualDurations.Photos?
   private var durations: UsualDurations?
   private var estimator: ProgressEstimator?
   private var specification: DetailSpecification?
@@ -42,7 +44,7 @@ struct SessionState: Sendable {
     told = [:]
     specification = nil
     let durations = UsualDurations(
-      photoCount: photoCount, finest: plan.finest, threadCount: threadCount)
+      photos: photos ?? .init(count: photoCount), finest: plan.finest, threadCount: threadCount)
     self.durations = durations
     estimator = ProgressEstimator(units: plan.units, at: time) { [known] in
       known.contains($0) ? 0 : durations.seconds(of: $0)
@@ -56,13 +58,14 @@ struct SessionState: Sendable {
     return true
   }
 
-  /// All photos were read; so many are used.
-  mutating func ingested(photos: Int) -> [Output] {
+  /// All photos were read; these are used.
+  mutating func ingested(_ photos: UsualDurations.Photos) -> [Output] {
     guard phase == .ingesting else { return [] }
     phase = .processing
     hasIngested = true
+    self.photos = photos
     if var durations {
-      durations.photoCount = photos
+      durations.photos = photos
       self.durations = durations
       estimator?.reweigh { [known] in known.contains($0) ? 0 : durations.seconds(of: $0) }
     }

@@ -34,7 +34,10 @@
       threadCount = count
       expectedSeconds =
         UsualDurations(
-          photoCount: report.used.count, finest: specification, threadCount: count
+          photos: .init(
+            count: report.used.count,
+            megapixels: ingested.photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6),
+          finest: specification, threadCount: count
         ).total
       memory = (
         BatchPlan.memory(for: arguments.detail.detail), Machine.current.availableMemoryBytes
