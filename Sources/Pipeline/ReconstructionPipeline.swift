@@ -331,14 +331,14 @@ package final class ReconstructionPipeline {
       guard !dense.triangles.isEmpty else { throw PipelineError.emptyCrop }
       let mesh = try Simplification(
         options: .init(maximumTriangles: specification.maximumTriangles)
-      ).run(dense, context.part(from: 0, to: 0.1))
+      ).run(dense, context.part(from: 0, to: 0.15))
       return try TextureMapping(
         options: .init(
           textureSide: specification.textureSide, maximumAtlases: specification.maximumAtlases,
           maps: specification.maps)
       ).run(
         mesh, dense: dense, occluders: parts?.outside ?? Mesh(), reconstruction: reconstruction,
-        images: images, context.part(from: 0.1, to: 1))
+        images: images, context.part(from: 0.15, to: 1))
     }
   }
 

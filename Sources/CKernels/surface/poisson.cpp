@@ -2,6 +2,7 @@
 #include <open3d/geometry/TriangleMesh.h>
 
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstring>
 #include <memory>
@@ -58,17 +59,23 @@ void run(const std::shared_ptr<Job>& job) {
   job->finished.notify_all();
 }
 
-/// Waits for the job; the solver has no progress of its own, so the fraction only nears 1.
+/// How far the solver is, which has no progress of its own: what it usually takes is gone through
+/// evenly to four fifths, and nears its end from there on.
+double fraction(double seconds, size_t points) {
+  const double usual = 1.5 + 5.5e-5 * static_cast<double>(points);
+  const double share = seconds / usual;
+  return share < 0.8 ? share : 1 - 0.2 * std::exp(4 - 5 * share);
+}
+
+/// Waits for the job.
 void await(Job& job, std::thread& worker, const ck_control* control) {
   const auto start = std::chrono::steady_clock::now();
-  const double expected =
-      2e-6 * static_cast<double>(job.cloud.points_.size()) * std::pow(3.0, job.options.depth - 6);
   std::unique_lock<std::mutex> lock(job.mutex);
   while (!job.done) {
     job.finished.wait_for(lock, std::chrono::milliseconds(50));
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     try {
-      ck::step(control, elapsed.count() / (elapsed.count() + expected));
+      ck::step(control, fraction(elapsed.count(), job.cloud.points_.size()));
     } catch (...) {
       worker.detach();
       throw;

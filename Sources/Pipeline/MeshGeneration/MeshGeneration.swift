@@ -39,24 +39,24 @@ package struct MeshGeneration {
   ) throws -> Mesh {
     try check(cloud)
     let selection = try select(
-      cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.15))
+      cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.05))
     var averaged = try CloudAveraging().run(
-      cloud.filtered(by: selection.isKept), context.part(from: 0.15, to: 0.2))
-    averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.2, to: 0.25))
+      cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
+    averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.07, to: 0.1))
     context.notes.count("samples", Double(averaged.cloud.count))
     var poisson = PoissonSurface()
     poisson.options.maximumDepth = options.maximumDepth
     let (closed, cell) = try poisson.run(
-      averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.25, to: 0.8))
+      averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.1, to: 0.85))
     var trimming = SurfaceTrimming()
     trimming.options.closing.closesLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
       closed, samples: averaged.cloud, scene: cloud, spacing: max(averaged.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
-      context.part(from: 0.8, to: 0.95))
+      context.part(from: 0.85, to: 0.96))
     let mesh = try MeshCleaning().run(
-      trimmed, samples: averaged.cloud, context.part(from: 0.95, to: 1))
+      trimmed, samples: averaged.cloud, context.part(from: 0.96, to: 1))
     context.notes.count("triangles", Double(mesh.triangles.count))
     return mesh
   }

@@ -63,36 +63,37 @@ package struct TextureMapping: Sendable {
     let seen = try ViewObservation(options: options.observation)
       .run(
         try occluded(mesh, by: occluders, context) ?? scene, faceCount: mesh.triangles.count,
-        views: views, source: source, context.part(from: 0, to: 0.3))
+        views: views, source: source, context.part(from: 0, to: 0.19))
     let gains = try ExposureCompensation(options: options.exposure)
-      .run(seen, viewCount: views.count, context.part(from: 0.3, to: 0.33))
+      .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
     var candidates = options.candidates
     candidates.outliers.thingArea = max(
       candidates.outliers.thingArea, options.thingShare * source.pixelsPerPhoto)
     let rated = try ViewCandidates(options: candidates)
-      .run(seen, gains: gains, topology: topology, context.part(from: 0.33, to: 0.35))
+      .run(seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
     let labels = try ViewSelection(options: options.selection)
-      .run(rated, mesh: mesh, topology: topology, context.part(from: 0.35, to: 0.4))
+      .run(rated, mesh: mesh, topology: topology, context.part(from: 0.22, to: 0.26))
     let weights = try ViewBlending(options: options.blending)
-      .run(rated, labels: labels, mesh: mesh, topology: topology, context.part(from: 0.4, to: 0.41))
+      .run(
+        rated, labels: labels, mesh: mesh, topology: topology, context.part(from: 0.26, to: 0.27))
     let leveling = try ColorLeveling(options: options.leveling)
       .run(
-        rated, weights: weights, mesh: mesh, topology: topology, context.part(from: 0.41, to: 0.46))
+        rated, weights: weights, mesh: mesh, topology: topology, context.part(from: 0.27, to: 0.3))
 
     let map = try Charting(options: options.charting)
-      .run(mesh, rated: rated, labels: labels, context.part(from: 0.46, to: 0.5))
+      .run(mesh, rated: rated, labels: labels, context.part(from: 0.3, to: 0.32))
     let layout = try AtlasPacking(
       options: .init(maximumSide: options.textureSide, maximumAtlases: options.maximumAtlases)
-    ).run(map, context.part(from: 0.5, to: 0.6))
+    ).run(map, context.part(from: 0.32, to: 0.35))
     let baking = try MapBaking(options: options.baking)
       .prepared(
         options.maps, mesh: mesh, scene: scene, dense: dense, layout: layout, charts: map.charts,
-        context.part(from: 0.6, to: 0.66))
+        context.part(from: 0.35, to: 0.39))
     let painting = TexturePainting(
       options: options.painting, weights: weights, leveling: leveling, gains: gains, views: views,
       source: source, magnification: layout.magnification)
     let maps = try images(
-      of: layout, scene: scene, baking, painting, context.part(from: 0.66, to: 1))
+      of: layout, scene: scene, baking, painting, context.part(from: 0.39, to: 1))
     return assembled(mesh, layout, maps)
   }
 
@@ -127,13 +128,13 @@ package struct TextureMapping: Sendable {
       let part = context.part(from: share * Double(atlas), to: share * Double(atlas + 1))
       let canvas = try TextureCanvas(
         scene, corners: layout.corners(in: atlas), side: layout.side,
-        part.part(from: 0, to: 0.1).control)
+        part.part(from: 0, to: 0.06).control)
       usage += canvas.usage * share
-      var maps = try baking.run(on: canvas, atlas: atlas, part.part(from: 0.1, to: 0.4))
+      var maps = try baking.run(on: canvas, atlas: atlas, part.part(from: 0.06, to: 0.73))
       if options.maps.contains(.diffuseColor) {
         try painting.run(
-          on: canvas, faces: layout.faces(in: atlas), part.part(from: 0.4, to: 0.95))
-        maps[.diffuseColor] = try canvas.colors(part.part(from: 0.95, to: 1).control)
+          on: canvas, faces: layout.faces(in: atlas), part.part(from: 0.73, to: 0.97))
+        maps[.diffuseColor] = try canvas.colors(part.part(from: 0.97, to: 1).control)
       }
       return maps
     }
