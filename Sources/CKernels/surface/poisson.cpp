@@ -62,7 +62,7 @@ void run(const std::shared_ptr<Job>& job) {
 /// How far the solver is, which has no progress of its own: what it usually takes is gone through
 /// evenly to four fifths, and nears its end from there on.
 double fraction(double seconds, size_t points) {
-  const double usual = 1.5 + 5.5e-5 * static_cast<double>(points);
+  const double usual = 1 + 4.2e-5 * static_cast<double>(points);
   const double share = seconds / usual;
   return share < 0.8 ? share : 1 - 0.2 * std::exp(4 - 5 * share);
 }

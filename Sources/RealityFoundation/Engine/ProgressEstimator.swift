@@ -82,7 +82,7 @@ struct ProgressEstimator: Sendable {
     let expected = step.prior * speed
     guard step.isMeasured else { return expected * (1 - step.fraction) }
     let extrapolated = step.seconds / step.fraction
-    let total = expected + (extrapolated - expected) * step.fraction.squareRoot()
+    let total = expected + (extrapolated - expected) * step.fraction
     return total * (1 - step.fraction)
   }
 }

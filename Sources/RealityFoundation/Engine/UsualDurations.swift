@@ -40,14 +40,14 @@ package struct UsualDurations: Sendable {
     // Neither a view nor a texture has more pixels than there are.
     let view = min(Double(specification.viewPixels) / 1e6, megapixels / count)
     let side = Double(specification.textureSide)
-    let texels = min(side * side / 1e6, 0.6 * megapixels)
+    let texels = min(side * side / 1e6, 0.45 * megapixels)
     let pairs = min(count * (count - 1) / 2, count * 20)
     let threads = Double(max(1, threadCount))
     return switch unit.stage {
     case .preProcessing: (0.01 * count + 0.015 * megapixels) / threads
     case .imageAlignment: (0.4 * count + 0.09 * megapixels + 0.005 * pairs) / threads
     case .pointCloudGeneration: 0.4 + 1.84 * count * view / threads
-    case .meshGeneration: 23.7 * view.squareRoot()
+    case .meshGeneration: 20 * pow(view, 0.45)
     case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
     case .optimization: 0.1 + 0.06 * texels
     }
