@@ -101,7 +101,7 @@ var cliDependencies: [Target.Dependency] = [
       name: "RealityFoundation",
       dependencies: [
         "Pipeline", "Kernels", "Formats", "SceneModel", "BitmapGraphics", "CoreMotion", "CoreVideo",
-        "ImageIO", "simd", logging,
+        "ImageIO", "os", "simd", logging,
       ],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),

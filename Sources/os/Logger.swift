@@ -8,7 +8,7 @@ public struct Logger: Sendable {
   private let logger: Logging.Logger
 
   /// Creates a logger without a subsystem.
-  public init() { self.init(Logging.Logger(label: "default")) }
+  public init() { self.init(Logging.Logger(quietLabel: "default")) }
 
   /// Creates a logger for a part of a program.
   ///
@@ -16,7 +16,7 @@ public struct Logger: Sendable {
   ///   - subsystem: The program, usually as a reverse domain name.
   ///   - category: The part of it.
   public init(subsystem: String, category: String) {
-    self.init(Logging.Logger(label: "\(subsystem):\(category)"))
+    self.init(Logging.Logger(quietLabel: "\(subsystem):\(category)"))
   }
 
   init(_ logger: Logging.Logger) { self.logger = logger }

@@ -1,7 +1,8 @@
 import Logging
+import os
 
 /// The logger of all sessions.
-let sessionLogger = Logger(label: "photogrammetry.session")
+let sessionLogger = Logging.Logger(quietLabel: "photogrammetry.session")
 
 /// The source of log messages about what a session tells as an output too.
 package let sessionOutputSource = "photogrammetry.session.output"
