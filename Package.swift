@@ -65,9 +65,9 @@ var cliDependencies: [Target.Dependency] = [
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
         .linkedLibrary("opencv_imgcodecs"),
         .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
-        .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"), .linkedLibrary("exif"),
+        .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"),
         .linkedLibrary("jpeg"), .linkedLibrary("png"), .linkedLibrary("deflate"),
-        .linkedLibrary("xxhash"),
+        .linkedLibrary("xxhash"), .linkedLibrary("heif"), .linkedLibrary("lcms2"),
       ]),
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(

@@ -3,14 +3,15 @@ import CoreFoundationTypes
 import Kernels
 import SceneModel
 
-/// Writes an image to a file or into memory: JPEG or PNG, its pixels only. Metadata is not written.
+/// Writes an image to a file or into memory: JPEG, PNG or HEIC, its pixels only. Metadata is not
+/// written.
 public final class CGImageDestination {
   private let type: CFString
   private let write: (Data) throws -> Void
   private var image: (raster: RasterImage, quality: Float)?
 
   init?(_ type: CFString, _ count: Int, write: @escaping (Data) throws -> Void) {
-    guard count == 1, ["public.jpeg", "public.png"].contains(type) else { return nil }
+    guard count == 1, ["public.jpeg", "public.png", "public.heic"].contains(type) else { return nil }
     self.type = type
     self.write = write
   }
@@ -26,21 +27,34 @@ public final class CGImageDestination {
   }
 
   private func encoded(_ raster: RasterImage, _ quality: Float) throws -> [UInt8] {
-    guard type == "public.jpeg" else { return try ImageCodec.encodePNG(raster) }
-    guard raster.channels == 4 else { return try ImageCodec.encodeJPEG(raster, quality: quality) }
-    // JPEG has no opacity.
-    var colours = RasterImage(width: raster.width, height: raster.height, channels: 3)
-    for index in 0..<raster.width * raster.height {
-      for channel in 0..<3 {
-        colours.pixels[3 * index + channel] = raster.pixels[4 * index + channel]
-      }
+    if type == "public.png" { return try ImageCodec.encodePNG(raster) }
+    if type == "public.jpeg" {
+      // JPEG has no opacity.
+      let image = raster.channels == 4 ? raster.withChannels([0, 1, 2]) : raster
+      return try ImageCodec.encodeJPEG(image, quality: quality)
     }
-    return try ImageCodec.encodeJPEG(colours, quality: quality)
+    var content = ImageCodec.HEICContent()
+    content.quality = quality
+    let image = raster.channels == 1 ? raster.withChannels([0, 0, 0]) : raster
+    return try ImageCodec.encodeHEIC(image, content)
   }
 }
 
-/// Begins to write a file; nil where the type is neither `public.jpeg` nor `public.png`, or there is
-/// to be more than one image.
+extension RasterImage {
+  /// The image of these of its channels, in this order.
+  fileprivate func withChannels(_ chosen: [Int]) -> RasterImage {
+    var result = RasterImage(width: width, height: height, channels: chosen.count)
+    for index in 0..<width * height {
+      for (target, source) in chosen.enumerated() {
+        result.pixels[chosen.count * index + target] = pixels[channels * index + source]
+      }
+    }
+    return result
+  }
+}
+
+/// Begins to write a file; nil where the type is neither `public.jpeg` nor `public.png` nor
+/// `public.heic`, or there is to be more than one image.
 public func CGImageDestinationCreateWithURL(
   _ url: CFURL, _ type: CFString, _ count: Int, _ options: CFDictionary?
 ) -> CGImageDestination? { CGImageDestination(type, count) { try $0.write(to: url) } }

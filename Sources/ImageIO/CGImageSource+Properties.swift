@@ -27,7 +27,7 @@ extension CGImageSource {
 extension CGImageSource {
   /// Fields that reconstruction doesn't use but programs show.
   private var further: [(directory: CFString, key: CFString, value: Any?)] {
-    guard let tiff = PhotoMetadata.structure(ByteReader(bytes)) else { return [] }
+    guard let tiff = TIFFStructure(exifOf: ByteReader(bytes)) else { return [] }
     let image = tiff.entries(ofDirectoryAt: tiff.firstDirectory)
     let link = image.first { $0.tag == 34665 }.flatMap { tiff.integer($0) }
     let exif = link.map { tiff.entries(ofDirectoryAt: $0) } ?? []

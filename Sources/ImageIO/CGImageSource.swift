@@ -69,6 +69,8 @@ public func CGImageSourceGetType(_ isrc: CGImageSource) -> CFString? {
   case .tiff: "public.tiff"
   case .bmp: "com.microsoft.bmp"
   case .webP: "org.webmproject.webp"
+  case .heic: "public.heic"
+  case .avif: "public.avif"
   case nil: nil
   }
 }

@@ -26,10 +26,11 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
 
 /// Reads and writes image files.
 ///
-/// Reads JPEG, PNG, TIFF, BMP and WebP, told apart by content. Images come as 8-bit RGB: 16 bits
-/// are reduced, gray, palette and CMYK converted, and an alpha channel, which `decodeAlpha` reads, is
-/// dropped, which keeps the colours under transparent pixels. No EXIF orientation is applied, see
-/// `RasterImage.turned`; only the decoder of TIFF files turns them upright by their own tag.
+/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, told apart by content. Images come as 8-bit sRGB:
+/// 16 bits are reduced, gray, palette and CMYK converted, colours of a profile too, and an alpha
+/// channel, which `decodeAlpha` reads, is dropped, which keeps the colours under transparent pixels.
+/// No EXIF orientation is applied, see `RasterImage.turned`; only the decoders of TIFF and HEIF files
+/// turn them upright by what these say themselves.
 package enum ImageCodec {
   /// Sizes that are refused before anything is decoded.
   package struct Limits: Hashable, Codable, Sendable {
@@ -73,9 +74,15 @@ package enum ImageCodec {
   package static func decode(
     _ bytes: [UInt8], reducedBy reduction: Int = 1, limits: Limits = Limits()
   ) throws(ImageError) -> RasterImage {
-    try decode(bytes, channels: 3, limits) {
+    var image = try decode(bytes, channels: 3, limits) {
       ck_image_decode(bytes, bytes.count, $0, Int32(clamping: reduction), $1, $2)
     }
+    do {
+      try ColorProfile(bytes)?.convert(&image)
+    } catch {
+      throw .damaged("its colours can't be converted (\(message(of: error)))")
+    }
+    return image
   }
 
   /// Decodes the alpha channel of an image file's content: gray, pixels as stored, 0 where they are
@@ -103,6 +110,7 @@ package enum ImageCodec {
       switch header.format {
       case .jpeg: ck_codec_jpeg
       case .png: ck_codec_png
+      case .heic, .avif: ck_codec_heif
       case .tiff, .bmp, .webP: ck_codec_other
       }
     let rawLimits = ck_decode_limits(
@@ -134,8 +142,48 @@ package enum ImageCodec {
 
   /// Encodes gray or RGB as JPEG; the same image gives the same bytes. `quality` runs from 0 to 1.
   package static func encodeJPEG(_ image: RasterImage, quality: Float) throws -> [UInt8] {
-    let percent = Int32((min(max(quality.isFinite ? quality : 1, 0), 1) * 100).rounded())
-    return try encode(image, ck_codec_jpeg, quality: percent)
+    try encode(image, ck_codec_jpeg, quality: percent(quality))
+  }
+
+  /// What a HEIC file holds beside pixels.
+  package struct HEICContent: Hashable, Sendable {
+    /// 0…1.
+    package var quality: Float = 0.9
+    /// As in EXIF, 1…8: how the pixels are to be turned.
+    package var orientation = 1
+    /// EXIF data from its TIFF header on.
+    package var exif: [UInt8] = []
+    /// An ICC profile; colours are sRGB's without one.
+    package var colorProfile: [UInt8] = []
+
+    package init() {}
+  }
+
+  /// Encodes RGB or RGBA as HEIC.
+  package static func encodeHEIC(
+    _ image: RasterImage, _ content: HEICContent = HEICContent()
+  ) throws -> [UInt8] {
+    var encoded: OpaquePointer?
+    try content.exif.withUnsafeBufferPointer { exif in
+      try content.colorProfile.withUnsafeBufferPointer { profile in
+        var options = ck_heif_options(
+          quality: percent(content.quality), orientation: Int32(clamping: content.orientation),
+          exif: exif.isEmpty ? nil : exif.baseAddress, exif_count: exif.count,
+          color_profile: profile.isEmpty ? nil : profile.baseAddress,
+          color_profile_count: profile.count)
+        try withKernel(KernelControl()) { _ in
+          ck_heif_encode(
+            image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), &options,
+            &encoded)
+        }
+      }
+    }
+    return [UInt8](taking: encoded)
+  }
+
+  /// Of a quality from 0 to 1.
+  private static func percent(_ quality: Float) -> Int32 {
+    Int32((min(max(quality.isFinite ? quality : 1, 0), 1) * 100).rounded())
   }
 
   private static func encode(
@@ -147,13 +195,7 @@ package enum ImageCodec {
         image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), codec,
         quality, &encoded)
     }
-    guard let encoded else { throw KernelError.failed("the image can't be encoded") }
-    defer { ck_bytes_free(encoded) }
-    let size = ck_bytes_count(encoded)
-    return [UInt8](unsafeUninitializedCapacity: size) { buffer, count in
-      if let base = buffer.baseAddress { ck_bytes_copy(encoded, base) }
-      count = size
-    }
+    return [UInt8](taking: encoded)
   }
 
   private static func message(of error: any Error) -> String {

@@ -10,10 +10,12 @@ package struct ImageHeader: Hashable, Sendable {
     case tiff = "TIFF"
     case bmp = "BMP"
     case webP = "WebP"
+    case heic = "HEIC"
+    case avif = "AVIF"
   }
 
   package var format: Format
-  /// Size in pixels as stored, before any EXIF orientation.
+  /// Size in pixels as decoded, before any EXIF orientation.
   package var width: Int
   package var height: Int
 
@@ -38,6 +40,8 @@ package struct ImageHeader: Hashable, Sendable {
       self = try Self.bmp(reader)
     } else if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
       self = try Self.webP(reader)
+    } else if let heif = HEIFFile.Kind(reader) {
+      self = try Self.heif(heif, bytes)
     } else if let tiff = TIFFStructure(reader) {
       self = try Self.tiff(tiff)
     } else {
@@ -96,6 +100,18 @@ package struct ImageHeader: Hashable, Sendable {
     return ImageHeader(format: .webP, width: width & 0x3FFF, height: height & 0x3FFF)
   }
 
+  private static func heif(
+    _ kind: HEIFFile.Kind, _ bytes: [UInt8]
+  ) throws(ImageError) -> ImageHeader {
+    let format: Format
+    switch kind {
+    case .image(let found): format = found
+    case .sequence: throw .unsupportedFormat("an image sequence")
+    }
+    let (width, height, _) = try HEIFFile.inspect(bytes, format)
+    return ImageHeader(format: format, width: width, height: height)
+  }
+
   private static func tiff(_ tiff: TIFFStructure) throws(ImageError) -> ImageHeader {
     let entries = tiff.entries(ofDirectoryAt: tiff.firstDirectory)
     func value(_ tag: Int) -> Int? {
@@ -111,7 +127,7 @@ package struct ImageHeader: Hashable, Sendable {
     return ImageHeader(format: .tiff, width: width, height: height)
   }
 
-  /// Whether a file's content says that it has an alpha channel: PNG, WebP and TIFF files may.
+  /// Whether a file's content says that it has an alpha channel: PNG, WebP, HEIF and TIFF files may.
   package static func promisesAlpha(_ bytes: [UInt8]) -> Bool {
     let reader = ByteReader(bytes)
     if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
@@ -122,6 +138,9 @@ package struct ImageHeader: Hashable, Sendable {
       if reader.hasText("VP8X", at: 12) { return (reader.byte(20) ?? 0) & 0x10 != 0 }
       return reader.hasText("VP8L", at: 12) && (reader.byte(24) ?? 0) & 0x10 != 0
     }
+    if HEIFFile.Kind(reader) != nil {
+      return (try? HEIFFile.inspect(bytes, .heic))?.hasAlpha == true
+    }
     guard let tiff = TIFFStructure(reader) else { return false }
     // Samples beyond the colours.
     return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains { $0.tag == 338 }
@@ -130,13 +149,8 @@ package struct ImageHeader: Hashable, Sendable {
   /// Tells images that need converting from files that are no images at all.
   private static func unsupported(_ reader: ByteReader) -> ImageError {
     if reader.hasText("ftyp", at: 4) {
-      switch reader.text(at: 8, count: 4) ?? "" {
-      case "heic", "heix", "hevc", "heim", "heis", "hevm", "hevs", "mif1", "msf1":
-        return .unsupportedFormat("a HEIC image")
-      case "avif", "avis": return .unsupportedFormat("an AVIF image")
-      case "crx ": return .unsupportedFormat("a camera raw file")
-      default: return .notAnImage("a video")
-      }
+      return reader.hasText("crx ", at: 8)
+        ? .unsupportedFormat("a camera raw file") : .notAnImage("a video")
     }
     let images: [(bytes: [UInt8], name: String)] = [
       (Array("GIF8".utf8), "a GIF image"), ([0x76, 0x2F, 0x31, 0x01], "an OpenEXR image"),

@@ -68,6 +68,45 @@ package struct TIFFStructure: Sendable {
     }
   }
 
+  /// Finds the structure that holds the EXIF data of an image file.
+  package init?(exifOf reader: ByteReader) {
+    if reader.hasPrefix([0xFF, 0xD8]) {
+      let found = JPEGSegments(reader).lazy
+        .filter { $0.marker == 0xE1 && reader.hasText("Exif\0", at: $0.payload.lowerBound) }
+        .compactMap { TIFFStructure(reader, at: $0.payload.lowerBound + 6) }.first
+      guard let found else { return nil }
+      self = found
+    } else if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
+      self.init(reader, FileChunks(png: reader).first { $0.name == "eXIf" })
+    } else if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+      self.init(reader, FileChunks(webP: reader).first { $0.name == "EXIF" })
+    } else if HEIFFile.Kind(reader) != nil {
+      guard let exif = HEIFFile.exif(reader.bytes) else { return nil }
+      self.init(ByteReader(exif))
+    } else {
+      self.init(reader)
+    }
+  }
+
+  /// Some programs put JPEG's name before the data.
+  private init?(_ reader: ByteReader, _ chunk: FileChunks.Chunk?) {
+    guard let start = chunk?.data.lowerBound else { return nil }
+    self.init(reader, at: reader.hasText("Exif\0", at: start) ? start + 6 : start)
+  }
+
+  /// The directory that a field of another points to.
+  package func directory(linkedBy tag: Int, in directory: Int) -> Int? {
+    entries(ofDirectoryAt: directory).first { $0.tag == tag }.flatMap { integer($0) }
+  }
+
+  /// The bytes of a field of bytes, or of an undefined kind.
+  package func bytes(_ entry: Entry) -> [UInt8]? {
+    guard entry.type == 1 || entry.type == 7, entry.valueOffset >= 0, entry.count > 0,
+      entry.valueOffset <= reader.bytes.count - entry.count
+    else { return nil }
+    return Array(reader.bytes[entry.valueOffset..<entry.valueOffset + entry.count])
+  }
+
   /// Value `index` of an unsigned integer field.
   package func integer(_ entry: Entry, _ index: Int = 0) -> Int? {
     let size = [1: 1, 3: 2, 4: 4, 13: 4][entry.type]

@@ -108,6 +108,9 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
       case ck_codec_png:
         ck::decode_png(bytes, byte_count, *limits, *result);
         break;
+      case ck_codec_heif:
+        ck::decode_heif(bytes, byte_count, *limits, *result);
+        break;
       default:
         ck::decode_other(bytes, byte_count, *limits, *result);
     }
@@ -121,6 +124,7 @@ ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_code
     ck::require(bytes && byte_count > 0, "the file is empty");
     auto result = std::make_unique<ck_image>();
     if (codec == ck_codec_png) ck::decode_png_alpha(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_heif) ck::decode_heif_alpha(bytes, byte_count, *limits, *result);
     if (codec == ck_codec_other) ck::decode_other_alpha(bytes, byte_count, *limits, *result);
     *image = result.release();
   });

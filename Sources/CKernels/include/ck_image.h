@@ -20,6 +20,8 @@ typedef enum {
   ck_codec_png = 1,
   /// TIFF, BMP and WebP through OpenCV.
   ck_codec_other = 2,
+  /// HEIC and AVIF through libheif.
+  ck_codec_heif = 3,
 } ck_codec;
 
 /// What a decoder refuses before it allocates pixels.
@@ -38,8 +40,8 @@ typedef struct {
   double distortion[4];
 } ck_camera;
 
-/// Decodes an image file in memory to RGB as stored: no EXIF orientation is applied (but TIFF files
-/// are turned by their own tag), alpha is dropped, 16 bits become 8, gray, palette and CMYK become
+/// Decodes an image file in memory to RGB as stored: no EXIF orientation is applied (but TIFF and
+/// HEIF files are turned by what they say themselves), alpha is dropped, 16 bits become 8, gray, palette and CMYK become
 /// RGB.
 ///
 /// `reduction` is 1, 2, 4 or 8: a JPEG comes with its sides divided by it and rounded up, which
@@ -62,6 +64,58 @@ int32_t ck_image_height(const ck_image* image);
 void ck_image_copy(const ck_image* image, uint8_t* destination);
 /// Frees the image; null does nothing.
 void ck_image_free(ck_image* image);
+
+/// What a HEIF file says of its primary image, turned upright.
+typedef struct {
+  int32_t width;
+  int32_t height;
+  bool has_alpha;
+} ck_heif_info;
+
+/// What else a HEIF file holds: EXIF data from its TIFF header on, an ICC profile.
+typedef enum { ck_heif_exif = 0, ck_heif_color_profile = 1 } ck_heif_block;
+
+/// Reads the header of a HEIF file (ISO/IEC 23008-12: HEIC, AVIF).
+ck_status ck_heif_inspect(const uint8_t* bytes, size_t byte_count, ck_heif_info* info);
+
+/// Reads a block; no bytes where the file has none.
+ck_status ck_heif_read(const uint8_t* bytes, size_t byte_count, ck_heif_block which,
+                       ck_bytes** block);
+
+/// How a HEIC file is written.
+typedef struct {
+  /// 0…100.
+  int32_t quality;
+  /// As in EXIF, 1…8: how the pixels are to be turned.
+  int32_t orientation;
+  /// EXIF data from its TIFF header on, or null.
+  const uint8_t* exif;
+  size_t exif_count;
+  /// An ICC profile, or null.
+  const uint8_t* color_profile;
+  size_t color_profile_count;
+} ck_heif_options;
+
+/// Encodes RGB or RGBA as HEIC. Fails with `ck_invalid_argument` where libheif has no encoder.
+ck_status ck_heif_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
+                         const ck_heif_options* options, ck_bytes** encoded);
+
+/// The colours that camera and program may have meant.
+typedef enum {
+  /// Those of an ICC profile.
+  ck_colors_icc = 0,
+  /// Adobe RGB (1998).
+  ck_colors_adobe_rgb = 1,
+} ck_colors;
+
+/// Converts RGB pixels in place to sRGB (IEC 61966-2-1), by relative colorimetry; out of its gamut
+/// they are clipped. Nothing changes where the colours are sRGB's up to two steps of 255, or the
+/// profile is damaged or not one of RGB.
+ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_colors colors,
+                                   const uint8_t* profile, size_t profile_count);
+
+/// Inflates a zlib stream of at most `maximum` bytes.
+ck_status ck_inflate(const uint8_t* bytes, size_t byte_count, size_t maximum, ck_bytes** inflated);
 
 /// Encodes gray, RGB or RGBA (JPEG: gray or RGB). `quality` is 0…100, JPEG only.
 ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,

@@ -3,7 +3,7 @@ import SceneModel
 
 /// What a camera wrote into a photo, as far as reconstruction uses it.
 ///
-/// Read from the EXIF data of JPEG, PNG, WebP and TIFF files (CIPA DC-008). Whatever is missing,
+/// Read from the EXIF data of JPEG, PNG, WebP, HEIF and TIFF files (CIPA DC-008). Whatever is missing,
 /// damaged or nonsense is nil.
 package struct PhotoMetadata: Hashable, Sendable {
   /// 1…8; turns the decoded pixels upright.
@@ -32,11 +32,11 @@ package struct PhotoMetadata: Hashable, Sendable {
   /// Reads the metadata of a file's content.
   package init(_ bytes: [UInt8]) {
     let reader = ByteReader(bytes)
-    guard let tiff = Self.structure(reader) else { return }
+    guard let tiff = TIFFStructure(exifOf: reader) else { return }
     let image = Fields(tiff, tiff.firstDirectory)
     let exif = Fields(tiff, image.integer(34665) ?? 0)
-    // The decoder of TIFF files turns them itself.
-    if TIFFStructure(reader) == nil {
+    // The decoders of TIFF and HEIF files turn them themselves.
+    if TIFFStructure(reader) == nil, HEIFFile.Kind(reader) == nil {
       orientation = image.integer(274).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
     }
     make = image.text(271)
@@ -51,40 +51,6 @@ package struct PhotoMetadata: Hashable, Sendable {
     originalHeight = exif.integer(40963).flatMap { $0 > 0 ? $0 : nil }
     captureTime = exif.text(36867) ?? image.text(306)
     position = Self.position(Fields(tiff, image.integer(34853) ?? 0))
-  }
-
-  /// Finds the TIFF structure that holds the EXIF data of an image file.
-  package static func structure(_ reader: ByteReader) -> TIFFStructure? {
-    if reader.hasPrefix([0xFF, 0xD8]) {
-      return JPEGSegments(reader).lazy
-        .filter { $0.marker == 0xE1 && reader.hasText("Exif\0", at: $0.payload.lowerBound) }
-        .compactMap { TIFFStructure(reader, at: $0.payload.lowerBound + 6) }.first
-    }
-    if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
-      return chunk("eXIf", reader, first: 8, nameOffset: 4, dataOffset: 8, trailer: 4, .big)
-    }
-    if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
-      return chunk("EXIF", reader, first: 12, nameOffset: 0, dataOffset: 8, trailer: 0, .little)
-    }
-    return TIFFStructure(reader)
-  }
-
-  /// Walks the chunks of a PNG (length, name, data, checksum) or WebP (name, length, data) file.
-  private static func chunk(
-    _ name: String, _ reader: ByteReader, first: Int, nameOffset: Int, dataOffset: Int,
-    trailer: Int, _ order: ByteReader.Order
-  ) -> TIFFStructure? {
-    var offset = first
-    while let length = reader.uint32(offset + (4 - nameOffset), order) {
-      if reader.hasText(name, at: offset + nameOffset) {
-        let start = offset + dataOffset
-        return TIFFStructure(reader, at: start)
-          ?? TIFFStructure(reader, at: reader.hasText("Exif\0", at: start) ? start + 6 : start)
-      }
-      let padding = order == .little ? length & 1 : 0
-      offset += dataOffset + length + padding + trailer
-    }
-    return nil
   }
 
   /// Units 2 and none: inch; 3: centimetre; 4: millimetre; 5: micrometre.

@@ -77,6 +77,19 @@ import Testing
     #expect(read.focalLengthIn35mmFilm == 28)
   }
 
+  @Test func decodersOfHEICTurnTheImageThemselves() throws {
+    var fields = ExifFields()
+    fields.orientation = 6
+    fields.focalLengthIn35mmFilm = 26
+    var content = ImageCodec.HEICContent()
+    content.orientation = 6
+    content.exif = ExifWriter.tiff(fields)
+    let heic = try ImageCodec.encodeHEIC(RasterImage(width: 96, height: 64, channels: 3), content)
+    let read = PhotoMetadata(heic)
+    #expect(read.orientation == 1 && read.focalLengthIn35mmFilm == 26)
+    #expect(try ImageCodec.decode(heic).width == 64)
+  }
+
   @Test func focalLengthComesFromTheBestSource() {
     let estimation = FocalLengthEstimation()
     func pixels(_ change: (inout PhotoMetadata) -> Void) -> (Double, Camera.Calibration) {

@@ -58,7 +58,14 @@ private func write(_ image: CGImage, _ source: CGImageSource) throws {
   CGImageDestinationAddImageFromSource(file, source, 0, quality)
   check(CGImageDestinationFinalize(file), "written")
   check(try !Data(contentsOf: url).isEmpty, "a file")
-  check(CGImageDestinationCreateWithURL(url, "public.heic", 1, nil) == nil, "no HEIC")
+  let shot = NSMutableData()
+  guard let heic = CGImageDestinationCreateWithData(shot, "public.heic" as CFString, 1, nil)
+  else { return check(false, "HEIC can be written") }
+  CGImageDestinationAddImage(heic, image, quality)
+  check(CGImageDestinationFinalize(heic), "HEIC written")
+  let read = CGImageSourceCreateWithData(shot, nil).flatMap(CGImageSourceGetType)
+  check(read == "public.heic" as CFString, "HEIC read")
+  check(CGImageDestinationCreateWithURL(url, "com.ilm.openexr-image", 1, nil) == nil, "no OpenEXR")
 }
 
 /// Names of what is known of an image are those that files of other programs have, too.
