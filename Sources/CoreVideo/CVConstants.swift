@@ -26,6 +26,11 @@ public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
 /// Disparities in 1/metre as 32-bit floating-point numbers.
 public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
 
+/// Depths in metres as 16-bit floating-point numbers.
+public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
+/// Disparities in 1/metre as 16-bit floating-point numbers.
+public let kCVPixelFormatType_DisparityFloat16: OSType = 0x6864_6973
+
 /// Attribute: the code of the pixel format. Attributes have no effect.
 public let kCVPixelBufferPixelFormatTypeKey: CFString = "PixelFormatType"
 /// Attribute: the width in pixels.

@@ -46,6 +46,7 @@ private func bytesPerPixel(of format: OSType) -> Int? {
   switch format {
   case kCVPixelFormatType_32BGRA, kCVPixelFormatType_32ARGB, kCVPixelFormatType_32RGBA: 4
   case kCVPixelFormatType_DepthFloat32, kCVPixelFormatType_DisparityFloat32: 4
+  case kCVPixelFormatType_DepthFloat16, kCVPixelFormatType_DisparityFloat16: 2
   case kCVPixelFormatType_OneComponent32Float: 4
   case kCVPixelFormatType_24RGB: 3
   case kCVPixelFormatType_OneComponent8: 1

@@ -11,7 +11,9 @@ public final class CGImageDestination {
   private var image: (raster: RasterImage, quality: Float)?
 
   init?(_ type: CFString, _ count: Int, write: @escaping (Data) throws -> Void) {
-    guard count == 1, ["public.jpeg", "public.png", "public.heic"].contains(type) else { return nil }
+    guard count == 1, ["public.jpeg", "public.png", "public.heic"].contains(type) else {
+      return nil
+    }
     self.type = type
     self.write = write
   }

@@ -46,7 +46,9 @@ package enum ColorProfile: Hashable, Sendable {
     if reader.hasPrefix([0xFF, 0xD8]) { return jpeg(reader) }
     if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) { return png(reader) }
     if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
-      return FileChunks(webP: reader).first { $0.name == "ICCP" }.map { Array(reader.bytes[$0.data]) }
+      return FileChunks(webP: reader).first { $0.name == "ICCP" }.map {
+        Array(reader.bytes[$0.data])
+      }
     }
     if HEIFFile.Kind(reader) != nil { return HEIFFile.colorProfile(reader.bytes) }
     guard let tiff = TIFFStructure(reader) else { return nil }
@@ -72,7 +74,8 @@ package enum ColorProfile: Hashable, Sendable {
   /// A name that ends in zero, a byte for the method, and the profile, deflated.
   private static func png(_ reader: ByteReader) -> [UInt8]? {
     guard let chunk = FileChunks(png: reader).first(where: { $0.name == "iCCP" }),
-      let end = reader.bytes[chunk.data].prefix(80).firstIndex(of: 0), end + 2 < chunk.data.upperBound
+      let end = reader.bytes[chunk.data].prefix(80).firstIndex(of: 0),
+      end + 2 < chunk.data.upperBound
     else { return nil }
     let deflated = Array(reader.bytes[end + 2..<chunk.data.upperBound])
     var inflated: OpaquePointer?

@@ -15,7 +15,7 @@ package final class ReconstructionPipeline {
 
   private let folder: URL
   private let knownCameras: KnownCameras?
-  private let gravity: [Int: SIMD3<Double>]
+  private let readings: [Int: SensorReading]
   private let saved: SavedRun?
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
@@ -34,15 +34,15 @@ package final class ReconstructionPipeline {
   private var surface: (viewPixels: Int, value: Mesh)?
 
   /// With `knownCameras` photos aren't aligned: these cameras, poses and points are used, unmoved.
-  /// `gravity` has its directions in the frames of the cameras, by sample id.
+  /// `readings` are by sample id.
   package init(
     folder: URL, configuration: PipelineConfiguration, knownCameras: KnownCameras? = nil,
-    gravity: [Int: SIMD3<Double>] = [:], flag: CancellationFlag = CancellationFlag(),
+    readings: [Int: SensorReading] = [:], flag: CancellationFlag = CancellationFlag(),
     onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
   ) {
     self.folder = folder
     self.knownCameras = knownCameras
-    self.gravity = gravity
+    self.readings = readings
     saved = nil
     self.configuration = configuration
     self.flag = flag
@@ -58,7 +58,7 @@ package final class ReconstructionPipeline {
   ) {
     folder = saved.photoFolder
     knownCameras = nil
-    gravity = [:]
+    readings = [:]
     self.saved = saved
     self.configuration = configuration
     self.flag = flag
@@ -123,7 +123,7 @@ package final class ReconstructionPipeline {
     guard let checkpoint, saved == nil, knownCameras == nil else { return }
     store = StageStore(
       checkpoint: checkpoint,
-      inputs: try RunInputs(ingested, configuration, gravity: gravity))
+      inputs: try RunInputs(ingested, configuration, readings: readings))
   }
 
   private func imageStore(of ingested: IngestedPhotos, isMasked: Bool = true) -> ImageStore {
@@ -163,7 +163,7 @@ package final class ReconstructionPipeline {
     options.isSequential = configuration.isSequential
     options.isHighSensitivity = configuration.isHighSensitivity
     options.framing.knownDistances = configuration.knownDistances
-    options.framing.gravity = gravity
+    options.framing.readings = readings
     options.mapping.method = configuration.mappingMethod
     return try MaskedAlignment(ImageAlignment(options))
       .run(

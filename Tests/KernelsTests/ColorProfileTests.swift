@@ -8,7 +8,8 @@ import Testing
 @Suite struct ColorProfileTests {
   /// Inside sRGB's gamut when they are taken as Display P3.
   private static let colors: [SIMD3<Double>] = [
-    [128, 128, 128], [180, 120, 90], [90, 140, 110], [70, 80, 130], [200, 190, 140], [255, 255, 255],
+    [128, 128, 128], [180, 120, 90], [90, 140, 110], [70, 80, 130], [200, 190, 140],
+    [255, 255, 255],
     [20, 24, 22],
   ]
 

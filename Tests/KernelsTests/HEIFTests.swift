@@ -100,7 +100,8 @@ import Testing
 
   @Test func sequencesAndVideosAreNamed() {
     func file(_ brands: String...) -> [UInt8] {
-      let content = Array("ftyp".utf8) + Array(brands[0].utf8) + [0, 0, 0, 0]
+      let content =
+        Array("ftyp".utf8) + Array(brands[0].utf8) + [0, 0, 0, 0]
         + brands.dropFirst().flatMap { Array($0.utf8) }
       return [0, 0, 0, UInt8(content.count + 4)] + content + [UInt8](repeating: 0, count: 64)
     }

@@ -71,14 +71,14 @@ import Testing
   }
 
   func store(
-    _ ingested: IngestedPhotos? = nil, gravity: [Int: SIMD3<Double>] = [:],
+    _ ingested: IngestedPhotos? = nil, readings: [Int: SensorReading] = [:],
     _ change: (inout PipelineConfiguration) -> Void = { _ in }
   ) throws -> StageStore {
     var configuration = PipelineConfiguration()
     change(&configuration)
     return StageStore(
       checkpoint: Checkpoint(directory: folder.url),
-      inputs: try RunInputs(ingested ?? self.ingested, configuration, gravity: gravity))
+      inputs: try RunInputs(ingested ?? self.ingested, configuration, readings: readings))
   }
 
   @Test func alignmentComesBackBitForBit() throws {
@@ -101,7 +101,8 @@ import Testing
     var other = ingested
     other.contentHashes[2] += 1
     let others = [
-      try store(other), try store(gravity: [1: [0, 1, 0]]),
+      try store(other), try store(readings: [1: SensorReading(gravity: [0, 1, 0])]),
+      try store(readings: [1: SensorReading(depth: DepthMap(width: 1, height: 1, depths: [2]))]),
       try store { $0.isSequential = true }, try store { $0.isHighSensitivity = true },
     ]
     for store in others { #expect(store.reconstruction(of: ingested.photos, StageNotes()) == nil) }

@@ -55,12 +55,12 @@ import Testing
   }
 
   /// Gravity in the frames of the cameras, when the scene's y is up.
-  private func gravity(noise: Double) -> [Int: SIMD3<Double>] {
+  private func gravity(noise: Double) -> [Int: SensorReading] {
     var random = SeededGenerator(seed: 5)
-    var result: [Int: SIMD3<Double>] = [:]
+    var result: [Int: SensorReading] = [:]
     for (index, pose) in SyntheticScene().poses.enumerated() {
       let down: SIMD3<Double> = pose.rotation * SIMD3(0, -1, 0)
-      result[index] = (down + noise * random.normal3()) * 9.81
+      result[index] = SensorReading(gravity: (down + noise * random.normal3()) * 9.81)
     }
     return result
   }
@@ -75,7 +75,7 @@ import Testing
 
   @Test func gravitySaysWhatIsUp() throws {
     var framing = WorldFraming()
-    framing.options.gravity = gravity(noise: 0.01)
+    framing.options.readings = gravity(noise: 0.01)
     for table in [false, true] {
       let framed = framing.run(scene(table: table), StageContext())
       #expect(framed.worldFrame.up == .gravity)
@@ -86,8 +86,8 @@ import Testing
 
   @Test func gravityMayBeWrongInSomePhotos() throws {
     var framing = WorldFraming()
-    framing.options.gravity = gravity(noise: 0.01)
-    for index in 0..<4 { framing.options.gravity[index] = [0, 0.6, 0.8] }
+    framing.options.readings = gravity(noise: 0.01)
+    for index in 0..<4 { framing.options.readings[index]?.gravity = [0, 0.6, 0.8] }
     let framed = framing.run(scene(table: false), StageContext())
     #expect(framed.worldFrame.up == .gravity)
     #expect(try tilt(framed) < 1)
@@ -96,11 +96,93 @@ import Testing
   @Test func gravityInAnotherFrameIsNotUsed() throws {
     var framing = WorldFraming()
     // As if the photos had been taken with the camera on its side.
-    framing.options.gravity = gravity(noise: 0).mapValues { SIMD3(-$0.y, $0.x, $0.z) }
+    framing.options.readings = gravity(noise: 0).mapValues {
+      SensorReading(gravity: $0.gravity.map { SIMD3(-$0.y, $0.x, $0.z) })
+    }
     let notes = StageNotes()
     let framed = framing.run(scene(table: true), StageContext(notes: notes))
     #expect(framed.worldFrame.up == .supportPlane)
     #expect(notes.warnings.contains { $0.contains("gravity") && $0.contains("phone") })
+  }
+
+  /// Depth maps as a sensor of 64 by 48 pixels sees the scene: of a ball as large as that of the
+  /// points is in the mean, on a far wall, `metersPerUnit` in size.
+  private func depthMaps(
+    metersPerUnit: Double, noise: Double = 0
+  ) throws -> [Int: SensorReading] {
+    var random = SeededGenerator(seed: 8)
+    let scene = SyntheticScene()
+    var result: [Int: SensorReading] = [:]
+    for (index, pose) in scene.poses.enumerated() {
+      let camera = scene.reconstruction.camera(of: ID(index))
+      let center = pose * .zero
+      var depths: [Float] = []
+      for row in 0..<48 {
+        for column in 0..<64 {
+          let place = SIMD2((Double(column) + 0.5) / 64, (Double(row) + 0.5) / 48)
+          let ray = camera.unproject(place * SIMD2(Double(camera.width), Double(camera.height)))
+          let direction = SIMD3(ray.x, ray.y, 1)
+          let half = direction.dot(center) / direction.squaredLength
+          let gap = half * half - (center.squaredLength - 1.05 * 1.05) / direction.squaredLength
+          let depth = gap > 0 ? half - gap.squareRoot() : 40
+          depths.append(Float(depth * metersPerUnit * (1 + noise * (random.uniform() - 0.5))))
+        }
+      }
+      result[index] = SensorReading(depth: DepthMap(width: 64, height: 48, depths: depths))
+    }
+    return result
+  }
+
+  /// Metres of the framed scene per unit of the true one, by the distance of two cameras.
+  private func metersPerUnit(_ framed: Reconstruction) throws -> Double {
+    let truth = SyntheticScene().poses
+    let (a, b) = (try #require(framed.poses[0]), try #require(framed.poses[5]))
+    return (a.center - b.center).length / (truth[0].center - truth[5].center).length
+  }
+
+  @Test func depthMapsGiveTheScale() throws {
+    var framing = WorldFraming()
+    framing.options.readings = try depthMaps(metersPerUnit: 0.08, noise: 0.04)
+    let notes = StageNotes()
+    let framed = framing.run(scene(table: false), StageContext(notes: notes))
+    #expect(framed.worldFrame.scale == .depth)
+    #expect(abs(try metersPerUnit(framed) / 0.08 - 1) < 0.01)
+    #expect(notes.counts["depthMapsUsed"] == notes.counts["depthMaps"])
+    #expect(notes.warnings.isEmpty)
+  }
+
+  @Test func depthMapsMayBeWrongInSomePhotos() throws {
+    var framing = WorldFraming()
+    framing.options.readings = try depthMaps(metersPerUnit: 2)
+    let wrong = try depthMaps(metersPerUnit: 3)
+    for index in 0..<3 { framing.options.readings[index] = wrong[index] }
+    framing.options.readings[3]?.depth = DepthMap(width: 1, height: 1, depths: [.nan])
+    let framed = framing.run(scene(table: true), StageContext())
+    #expect(abs(try metersPerUnit(framed) / 2 - 1) < 0.01)
+  }
+
+  @Test func depthMapsOfSomethingElseAreNotUsed() throws {
+    var random = SeededGenerator(seed: 2)
+    var framing = WorldFraming()
+    for index in SyntheticScene().poses.indices {
+      // Flat, and each of another distance.
+      let depth = Float(1 + 9 * random.uniform())
+      framing.options.readings[index] = SensorReading(
+        depth: DepthMap(width: 4, height: 3, depths: [Float](repeating: depth, count: 12)))
+    }
+    let notes = StageNotes()
+    let framed = framing.run(scene(table: false), StageContext(notes: notes))
+    #expect(framed.worldFrame.scale == .arbitrary)
+    #expect(notes.warnings.contains { $0.contains("depth maps") && $0.contains("metres") })
+  }
+
+  @Test func depthAtEdgesIsUnknown() throws {
+    let map = try #require(DepthMap(width: 4, height: 1, depths: [1, 1, 1, 3]))
+    #expect(map.depth(at: [0.1, 0.5]) == 1 && map.depth(at: [0.3, 0.5]) == 1)
+    #expect(map.depth(at: [0.6, 0.5]) == nil && map.depth(at: [0.9, 0.5]) == nil)
+    #expect(map.depth(at: [1, 0.5]) == nil && map.depth(at: [-0.1, 0.5]) == nil)
+    #expect(map.depth(at: [.nan, 0.5]) == nil)
+    #expect(DepthMap(width: 2, height: 2, depths: [1]) == nil)
   }
 
   @Test func withoutAPlaneTheCamerasSayWhatIsUp() {

@@ -39,6 +39,42 @@ import Testing
     #expect(sample.gravityInCamera == nil)
   }
 
+  @Test(arguments: 1...8) func depthIsTurnedAsThePhotoIs(orientation: Int) throws {
+    var sample = try sample(0)
+    sample.metadata["Orientation"] = orientation
+    let buffer = CVPixelBuffer(
+      width: 5, height: 3, pixelFormat: kCVPixelFormatType_DisparityFloat16)
+    let map = try #require(buffer)
+    var image = RasterImage(width: 5, height: 3, channels: 1)
+    for index in 0..<15 {
+      // Powers of two, so that nothing is rounded.
+      image.pixels[index] = UInt8(index)
+      let bits = Float16(sign: .plus, exponent: -index / 2, significand: index % 2 == 0 ? 1 : 1.5)
+      map.storage.write(
+        [UInt8(bits.bitPattern & 255), UInt8(bits.bitPattern >> 8)],
+        at: index / 5 * map.bytesPerRow + index % 5 * 2)
+    }
+    sample.depthDataMap = map
+    let turned = try image.turned(byOrientation: orientation)
+    let depth = try #require(sample.uprightDepth)
+    #expect((depth.width, depth.height) == (turned.width, turned.height))
+    #expect(
+      depth.depths
+        == turned.pixels.map { index in
+          1 / Float(sign: .plus, exponent: -Int(index) / 2, significand: index % 2 == 0 ? 1 : 1.5)
+        })
+  }
+
+  @Test func depthOfOtherFormatsIsNone() throws {
+    var sample = try sample(0)
+    #expect(sample.uprightDepth == nil)
+    sample.depthDataMap = sample.image
+    #expect(sample.uprightDepth == nil)
+    let map = CVPixelBuffer(width: 2, height: 1, pixelFormat: kCVPixelFormatType_DepthFloat32)
+    sample.depthDataMap = map
+    #expect(sample.uprightDepth == DepthMap(width: 2, height: 1, depths: [0, 0]))
+  }
+
   @Test func pixelBuffersKeepTheirColours() throws {
     let buffer = try #require(CVPixelBuffer(Self.image))
     #expect(buffer.bytesPerRow == 192 && buffer.pixelFormat == kCVPixelFormatType_32BGRA)
@@ -169,6 +205,26 @@ import Testing
     #expect(written.pixels.prefix(37 * 10 * 3).allSatisfy { $0 == 1 })
     #expect(written.pixels.dropFirst(37 * 10 * 3).allSatisfy { $0 == 0 })
     #expect(PhotoMetadata(bytes).orientation == 3)
+  }
+
+  @Test func readingsGoWithTheirPhotos() throws {
+    let depth = try #require(
+      CVPixelBuffer(width: 2, height: 1, pixelFormat: kCVPixelFormatType_DepthFloat32))
+    depth.storage.write([0, 0, 0, 64, 0, 0, 128, 63], at: 0)  // 2 and 1
+    var deep = try sample(4)
+    deep.depthDataMap = depth
+    deep.gravity = CMAcceleration(x: -1, y: 0, z: 0)
+    var wrong = try sample(9)
+    wrong.depthDataMap = wrong.image
+    let folder = SampleFolder([try sample(2), deep, wrong])
+    var warnings: [String] = []
+    _ = try folder.write(flag: CancellationFlag()) { event in
+      if case .warning(let sentence) = event { warnings.append(sentence) }
+    }
+    #expect(folder.readings[0] == SensorReading() && folder.readings[2] == SensorReading())
+    #expect(folder.readings[1]?.gravity == [0, 1, 0])
+    #expect(folder.readings[1]?.depth == DepthMap(width: 2, height: 1, depths: [2, 1]))
+    #expect(warnings.count == 1 && warnings[0].hasPrefix("The depth map of sample 9 is not used"))
   }
 
   @Test func cancelledSequencesGoOn() throws {

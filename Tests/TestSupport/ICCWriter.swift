@@ -17,7 +17,8 @@ package enum ICCWriter {
   }
 
   package static func profile(_ primaries: Primaries) -> [UInt8] {
-    let name = Array("mluc".utf8) + zeros(4) + big(1) + big(12) + Array("enUS".utf8) + big(2)
+    let name =
+      Array("mluc".utf8) + zeros(4) + big(1) + big(12) + Array("enUS".utf8) + big(2)
       + big(28) + [0, 0x41, 0, 0]
     // Exponent, slope, offset, slope near black and its end.
     let curve =

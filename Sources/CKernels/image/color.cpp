@@ -4,8 +4,8 @@
 #include <memory>
 #include <new>
 
-#include "core/guard.h"
 #include "ck_image.h"
+#include "core/guard.h"
 
 namespace {
 

@@ -24,8 +24,8 @@ using Image = std::unique_ptr<heif_image, Free<heif_image_release>>;
 inline void check(const heif_error& error) {
   if (error.code == heif_error_Ok) return;
   if (error.code == heif_error_Memory_allocation_error) throw std::bad_alloc();
-  const bool lacks_codec = error.code == heif_error_Unsupported_filetype ||
-                           error.code == heif_error_Unsupported_feature;
+  const bool lacks_codec =
+      error.code == heif_error_Unsupported_filetype || error.code == heif_error_Unsupported_feature;
   if (lacks_codec) throw std::invalid_argument(error.message);
   throw std::runtime_error(error.message);
 }

@@ -41,8 +41,8 @@ typedef struct {
 } ck_camera;
 
 /// Decodes an image file in memory to RGB as stored: no EXIF orientation is applied (but TIFF and
-/// HEIF files are turned by what they say themselves), alpha is dropped, 16 bits become 8, gray, palette and CMYK become
-/// RGB.
+/// HEIF files are turned by what they say themselves), alpha is dropped, 16 bits become 8, gray,
+/// palette and CMYK become RGB.
 ///
 /// `reduction` is 1, 2, 4 or 8: a JPEG comes with its sides divided by it and rounded up, which
 /// takes less time; other formats come whole.

@@ -8,10 +8,10 @@ struct RunInputs: Sendable {
   let alignment: UInt64
   private let configuration: Data
 
-  /// `gravity` has its directions by sample id.
+  /// `readings` are by sample id.
   init(
     _ ingested: IngestedPhotos, _ configuration: PipelineConfiguration,
-    gravity: [Int: SIMD3<Double>]
+    readings: [Int: SensorReading]
   ) throws {
     var fingerprint = Fingerprint()
     fingerprint.add(ProgramIdentity.fingerprint)
@@ -23,7 +23,7 @@ struct RunInputs: Sendable {
       // Where a mask's file is plays no part.
       fingerprint.add(photo.mask == nil ? 0 : 1)
       fingerprint.add(photo.mask?.contentHash ?? 0)
-      fingerprint.add(gravity[photo.sampleID] ?? .zero)
+      fingerprint.add(readings[photo.sampleID] ?? SensorReading())
     }
     fingerprint.add(ingested.processingPixels)
     fingerprint.add(
@@ -46,5 +46,13 @@ struct RunInputs: Sendable {
     fingerprint.add(configuration)
     fingerprint.add(viewPixels)
     return fingerprint.value
+  }
+}
+
+extension Fingerprint {
+  fileprivate mutating func add(_ reading: SensorReading) {
+    add(reading.gravity ?? .zero)
+    add(reading.depth?.width ?? 0)
+    if let depth = reading.depth { add(depth.depths.withUnsafeBytes { XXHash64.hash($0) }) }
   }
 }

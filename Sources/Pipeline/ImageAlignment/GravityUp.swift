@@ -14,14 +14,14 @@ struct GravityUp: Sendable {
 
   var options = Options()
 
-  /// `gravity` has directions in the frames of the cameras, by sample id. Nil where there are none or
-  /// where they contradict each other or the photos.
+  /// `readings` are by sample id. Nil where none has gravity, or where they contradict each other or
+  /// the photos.
   func run(
-    _ gravity: [Int: SIMD3<Double>], _ reconstruction: Reconstruction, _ notes: StageNotes
+    _ readings: [Int: SensorReading], _ reconstruction: Reconstruction, _ notes: StageNotes
   ) -> SIMD3<Double>? {
     let known = reconstruction.registered.compactMap {
       id -> (down: SIMD3<Double>, up: SIMD3<Double>)? in
-      guard let down = gravity[reconstruction.photos[id.index].sampleID]?.normalized,
+      guard let down = readings[reconstruction.photos[id.index].sampleID]?.gravity?.normalized,
         down.squaredLength > 0.5, let pose = reconstruction.poses[id.index]
       else { return nil }
       return (down, -(pose.rotation.conjugate * down))

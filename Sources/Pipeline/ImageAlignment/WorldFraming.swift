@@ -4,15 +4,15 @@ import SceneModel
 /// Gives a reconstruction its scale, its up direction and its origin.
 ///
 /// +y is up and the object stands on y = 0, centred in x and z on the points that most photos look
-/// at. Scale: known distances, else GPS, else the median distance from the cameras to the object is
-/// one metre. Up: gravity, else GPS, else the plane under the object, else the cameras, which people
+/// at. Scale: known distances, else depth maps, else GPS, else the median distance from the cameras to
+/// the object is one metre. Up: gravity, else GPS, else the plane under the object, else the cameras, which people
 /// hold upright.
 package struct WorldFraming: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Distances that were measured; they come before GPS.
     package var knownDistances: [KnownDistance] = []
-    /// Directions of gravity by sample id, in the frames of the cameras; they come before GPS, too.
-    package var gravity: [Int: SIMD3<Double>] = [:]
+    /// Gravity and depth by sample id; they come before GPS, too.
+    package var readings: [Int: SensorReading] = [:]
     /// Expected error of a GPS position in metres.
     package var gpsNoise = 5.0
     /// Positions must spread over this many times their error to say something.
@@ -46,7 +46,7 @@ package struct WorldFraming: Sendable {
     }
     let object = ObjectRegion(reconstruction)
     var frame = WorldFrame()
-    let gravityUp = GravityUp().run(options.gravity, reconstruction, context.notes)
+    let gravityUp = GravityUp().run(options.readings, reconstruction, context.notes)
     let heldUp = gravityUp ?? CameraUp(reconstruction).direction
     var up = heldUp
     frame.up = gravityUp == nil ? .cameras : .gravity
@@ -81,6 +81,9 @@ package struct WorldFraming: Sendable {
       notes.count("knownDistances", Double(measured.deviations.count))
       notes.count("knownDistanceDeviation", measured.deviations.map { abs($0) }.max() ?? 0)
       return (measured.metersPerUnit, .knownDistance)
+    }
+    if let scale = DepthScale().run(options.readings, reconstruction, notes) {
+      return (scale, .depth)
     }
     if let gps { return (gps.scale, .gps) }
     notes.warn(

@@ -27,7 +27,7 @@ final class ReconstructionEngine: SessionEngine {
       self.samples = samples
       let folder = try samples.write(flag: flag, onEvent: onEvent)
       pipeline = ReconstructionPipeline(
-        folder: folder, configuration: configuration, gravity: samples.gravity, flag: flag
+        folder: folder, configuration: configuration, readings: samples.readings, flag: flag
       ) { event in onEvent(samples.translated(event)) }
     }
   }

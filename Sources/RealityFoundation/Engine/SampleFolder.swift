@@ -9,8 +9,8 @@ import SceneModel
 final class SampleFolder: @unchecked Sendable {
   /// The sample ids in the order of the files.
   private(set) var ids: [Int] = []
-  /// Directions of gravity in the frames of the cameras, by the number of the file.
-  private(set) var gravity: [Int: SIMD3<Double>] = [:]
+  /// Gravity and depth by the number of the file.
+  private(set) var readings: [Int: SensorReading] = [:]
 
   private let next: () -> PhotogrammetrySample?
   private var folder: URL?
@@ -70,7 +70,8 @@ final class SampleFolder: @unchecked Sendable {
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.name(ids.count)))
     if let mask = sample.objectMask { try write(mask, of: sample, to: folder, onEvent) }
-    gravity[ids.count] = sample.gravityInCamera
+    readings[ids.count] = SensorReading(
+      gravity: sample.gravityInCamera, depth: depth(of: sample, onEvent))
     ids.append(sample.id)
   }
 
@@ -90,6 +91,19 @@ final class SampleFolder: @unchecked Sendable {
     guard image.pixels.contains(where: { $0 > 0 }) else { return refuse("all of it is zero") }
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.maskName(ids.count)))
+  }
+
+  private func depth(
+    of sample: PhotogrammetrySample, _ onEvent: (PipelineEvent) -> Void
+  ) -> DepthMap? {
+    guard sample.depthDataMap != nil else { return nil }
+    guard let depth = sample.uprightDepth else {
+      onEvent(
+        .warning(
+          "The depth map of sample \(sample.id) is not used: it is not of depths or disparities."))
+      return nil
+    }
+    return depth
   }
 
   /// The file of the sample that came as number `index`.

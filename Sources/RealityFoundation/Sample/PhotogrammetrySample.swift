@@ -6,7 +6,8 @@ public struct PhotogrammetrySample: Identifiable {
   public let image: CVPixelBuffer
   /// EXIF and other properties as image readers give them.
   public var metadata: [String: Any] = [:]
-  /// Depths in metres or disparities, as DepthFloat32 or DisparityFloat32.
+  /// Depths in metres along the optical axis, or disparities in 1/metre, of the image's field of view:
+  /// DepthFloat32, DisparityFloat32 or those of 16 bits. They give the model its size.
   public var depthDataMap: CVPixelBuffer?
   /// The direction of gravity in the device's frame, as a phone's motion sensors tell it: x to the
   /// right and y up on the screen, z towards the user. It says what is up in the model.

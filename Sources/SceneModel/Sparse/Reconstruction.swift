@@ -36,7 +36,7 @@ package struct ScenePoint: Hashable, Codable, Sendable {
 /// Where the scale and the up direction of the world come from.
 package struct WorldFrame: Hashable, Codable, Sendable {
   package enum Scale: String, Hashable, Codable, Sendable {
-    case gps, knownDistance, arbitrary
+    case depth, gps, knownDistance, arbitrary
     /// The cameras were given, and their unit is said to be the metre.
     case given
 

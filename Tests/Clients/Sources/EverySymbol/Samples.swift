@@ -78,6 +78,7 @@ private func copy(of image: CVImageBuffer) throws -> CVPixelBuffer {
   let formats = [
     kCVPixelFormatType_32ARGB, kCVPixelFormatType_32RGBA, kCVPixelFormatType_24RGB,
     kCVPixelFormatType_OneComponent32Float, kCVPixelFormatType_DepthFloat32,
+    kCVPixelFormatType_DepthFloat16, kCVPixelFormatType_DisparityFloat16,
   ]
   let keys = [
     kCVPixelBufferPixelFormatTypeKey, kCVPixelBufferWidthKey, kCVPixelBufferHeightKey,
