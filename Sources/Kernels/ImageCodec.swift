@@ -97,6 +97,20 @@ package enum ImageCodec {
     return alpha.pixels.isEmpty ? nil : alpha
   }
 
+  /// Decodes a TIFF file of one floating-point number a pixel, row by row from the top.
+  package static func decodeNumbers(
+    _ bytes: [UInt8], limits: Limits = Limits()
+  ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
+    let decoded = try decode(bytes, channels: 4, limits) {
+      ck_image_decode_numbers(bytes, bytes.count, $1, $2)
+    }
+    guard !decoded.pixels.isEmpty else {
+      throw .unsupportedFormat("an image of colours where one of numbers is meant")
+    }
+    let values = decoded.pixels.withUnsafeBytes { Array($0.bindMemory(to: Float.self)) }
+    return (decoded.width, decoded.height, values)
+  }
+
   private static func decode(
     _ bytes: [UInt8], channels: Int, _ limits: Limits,
     _ body: (ck_codec, UnsafePointer<ck_decode_limits>, UnsafeMutablePointer<OpaquePointer?>)

@@ -123,7 +123,12 @@ package final class ReconstructionPipeline {
     guard let checkpoint, saved == nil, knownCameras == nil else { return }
     store = StageStore(
       checkpoint: checkpoint,
-      inputs: try RunInputs(ingested, configuration, readings: readings))
+      inputs: try RunInputs(ingested, configuration, readings: readings(ingested)))
+  }
+
+  /// What the caller knows, else what lies beside the photos.
+  private func readings(_ ingested: IngestedPhotos) -> [Int: SensorReading] {
+    readings.merging(ingested.readings) { known, _ in known }
   }
 
   private func imageStore(of ingested: IngestedPhotos, isMasked: Bool = true) -> ImageStore {
@@ -163,7 +168,7 @@ package final class ReconstructionPipeline {
     options.isSequential = configuration.isSequential
     options.isHighSensitivity = configuration.isHighSensitivity
     options.framing.knownDistances = configuration.knownDistances
-    options.framing.readings = readings
+    options.framing.readings = readings(ingested)
     options.mapping.method = configuration.mappingMethod
     return try MaskedAlignment(ImageAlignment(options))
       .run(

@@ -151,6 +151,23 @@ import Testing
     #expect(notes.warnings.isEmpty)
   }
 
+  @Test func disparitiesAreToldFromDepths() throws {
+    for areDisparities in [true, false] {
+      var framing = WorldFraming()
+      for (index, reading) in try depthMaps(metersPerUnit: 0.5, noise: 0.04) {
+        let depth = try #require(reading.depth)
+        var map = DepthMap(
+          width: depth.width, height: depth.height,
+          depths: depth.depths.map { areDisparities ? 1 / $0 : $0 })
+        map?.mayBeDisparities = true
+        framing.options.readings[index] = SensorReading(depth: map)
+      }
+      let framed = framing.run(scene(table: false), StageContext())
+      #expect(framed.worldFrame.scale == .depth)
+      #expect(abs(try metersPerUnit(framed) / 0.5 - 1) < 0.01)
+    }
+  }
+
   @Test func depthMapsMayBeWrongInSomePhotos() throws {
     var framing = WorldFraming()
     framing.options.readings = try depthMaps(metersPerUnit: 2)

@@ -130,6 +130,26 @@ ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_code
   });
 }
 
+ck_status ck_image_decode_numbers(const uint8_t* bytes, size_t byte_count,
+                                  const ck_decode_limits* limits, ck_image** image) {
+  return ck::guarded([&] {
+    ck::require(bytes && byte_count > 0, "the file is empty");
+    ck::require(byte_count <= static_cast<size_t>(INT32_MAX), "the file is too large");
+    const cv::Mat data(1, static_cast<int>(byte_count), CV_8U, const_cast<uint8_t*>(bytes));
+    const cv::Mat decoded = cv::imdecode(data, cv::IMREAD_UNCHANGED);
+    if (decoded.empty()) throw std::runtime_error("it can't be decoded");
+    ck::require_within(*limits, decoded.cols, decoded.rows);
+    auto result = std::make_unique<ck_image>();
+    if (decoded.type() == CV_32FC1) {
+      result->width = decoded.cols;
+      result->height = decoded.rows;
+      result->pixels.resize(decoded.total() * sizeof(float));
+      std::memcpy(result->pixels.data(), decoded.ptr(), result->pixels.size());
+    }
+    *image = result.release();
+  });
+}
+
 int32_t ck_image_width(const ck_image* image) { return image->width; }
 int32_t ck_image_height(const ck_image* image) { return image->height; }
 void ck_image_copy(const ck_image* image, uint8_t* destination) {

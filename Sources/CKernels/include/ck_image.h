@@ -7,8 +7,8 @@
 extern "C" {
 #endif
 
-/// A decoded RGB image, three bytes a pixel, or an alpha channel, one byte a pixel; top row first.
-/// Free with `ck_image_free`.
+/// A decoded RGB image, three bytes a pixel, an alpha channel, one byte a pixel, or one of numbers
+/// of four bytes; top row first. Free with `ck_image_free`.
 typedef struct ck_image ck_image;
 
 /// Bytes of unknown size that a kernel made. Free with `ck_bytes_free`.
@@ -56,11 +56,16 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
 ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                                 const ck_decode_limits* limits, ck_image** image);
 
+/// Decodes an image of one floating-point number a pixel, four bytes each, as it is stored. An
+/// image without pixels where the file holds others.
+ck_status ck_image_decode_numbers(const uint8_t* bytes, size_t byte_count,
+                                  const ck_decode_limits* limits, ck_image** image);
+
 /// Pixels of a row.
 int32_t ck_image_width(const ck_image* image);
 /// Rows.
 int32_t ck_image_height(const ck_image* image);
-/// Copies `width × height × 3` bytes, of an alpha channel a third of that.
+/// Copies all bytes: `width × height × 3` of an RGB image.
 void ck_image_copy(const ck_image* image, uint8_t* destination);
 /// Frees the image; null does nothing.
 void ck_image_free(ck_image* image);

@@ -53,6 +53,8 @@ extension Fingerprint {
   fileprivate mutating func add(_ reading: SensorReading) {
     add(reading.gravity ?? .zero)
     add(reading.depth?.width ?? 0)
-    if let depth = reading.depth { add(depth.depths.withUnsafeBytes { XXHash64.hash($0) }) }
+    guard let depth = reading.depth else { return }
+    add(depth.mayBeDisparities ? 1 : 0)
+    add(depth.depths.withUnsafeBytes { XXHash64.hash($0) })
   }
 }

@@ -10,7 +10,9 @@ package struct IngestedPhotos: Sendable {
   package var cameras: [Camera]
   /// In the order of the files.
   package var refused: [RefusedPhoto]
-  /// All files of the folder but masks; a sample id is an index into them.
+  /// Of other sensors, by sample id.
+  package var readings: [Int: SensorReading] = [:]
+  /// All files of the folder but masks and readings; a sample id is an index into them.
   package var files: [URL]
   /// Masks that are not used, in the order of the files; their photos are.
   package var refusedMasks: [RefusedMask]
@@ -24,8 +26,8 @@ package struct IngestedPhotos: Sendable {
 
 /// Validates the files of a folder: the first stage of a run.
 ///
-/// Every file is read and decoded once; its name plays no part, but for masks: see `MaskFiles`. What
-/// can't be used is refused with a reason, and the rest goes on. Where masks are not to be used, they
+/// Every file is read and decoded once; its name plays no part, but for masks and what other sensors
+/// told: see `MaskFiles` and `SensorFiles`. What can't be used is refused with a reason, and the rest goes on. Where masks are not to be used, they
 /// still are no photos.
 package struct PhotoIngestion: Sendable {
   package struct Options: Hashable, Codable, Sendable {
@@ -61,7 +63,8 @@ package struct PhotoIngestion: Sendable {
   }
 
   private func run(_ masks: MaskFiles, _ context: StageContext) throws -> IngestedPhotos {
-    let files = masks.photos
+    let sensors = SensorFiles(masks.photos)
+    let files = sensors.photos
     var (candidates, refused) = try inspect(files, masks, context.part(from: 0, to: 0.95))
     let originals = try DuplicateDetection(options.duplicates)
       .run(candidates, context.part(from: 0.95, to: 1))
@@ -85,6 +88,12 @@ package struct PhotoIngestion: Sendable {
           name: $0.lastPathComponent,
           reason: "\($0.lastPathComponent) is a mask without a photo; it is not used.")
       }
+    }
+    for photo in candidates {
+      var problems: [String] = []
+      result.readings[photo.sampleID] = sensors.reading(
+        beside: photo.url, orientation: photo.metadata.sensorOrientation, &problems)
+      problems.forEach(context.notes.warn)
     }
     report(result, candidates, context.notes)
     return result

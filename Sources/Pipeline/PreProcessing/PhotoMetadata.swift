@@ -8,6 +8,8 @@ import SceneModel
 package struct PhotoMetadata: Hashable, Sendable {
   /// 1…8; turns the decoded pixels upright.
   package var orientation = 1
+  /// How the pixels of the sensor are turned upright, 1…8, even where the decoder has done so.
+  package var sensorOrientation = 1
   package var make: String?
   package var model: String?
   package var lens: String?
@@ -35,9 +37,10 @@ package struct PhotoMetadata: Hashable, Sendable {
     guard let tiff = TIFFStructure(exifOf: reader) else { return }
     let image = Fields(tiff, tiff.firstDirectory)
     let exif = Fields(tiff, image.integer(34665) ?? 0)
+    sensorOrientation = image.integer(274).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
     // The decoders of TIFF and HEIF files turn them themselves.
     if TIFFStructure(reader) == nil, HEIFFile.Kind(reader) == nil {
-      orientation = image.integer(274).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
+      orientation = sensorOrientation
     }
     make = image.text(271)
     model = image.text(272)

@@ -11,40 +11,26 @@ package struct SensorReading: Hashable, Codable, Sendable {
   }
 }
 
-/// How far away is what a photo shows, along the optical axis, in metres; its field of view is that of
-/// the upright photo, its resolution its own.
-package struct DepthMap: Hashable, Codable, Sendable {
-  package let width: Int
-  package let height: Int
-  /// Row by row from the top; what is not positive and finite is unknown.
-  package let depths: [Float]
-
-  /// Nil unless there is a depth for each pixel.
-  package init?(width: Int, height: Int, depths: [Float]) {
-    guard width > 0, height > 0, depths.count == width * height else { return nil }
-    self.width = width
-    self.height = height
-    self.depths = depths
-  }
-
-  /// The depth at a place from (0, 0), the photo's top-left corner, to (1, 1); nil outside, where it
-  /// is unknown, and at edges, where a pixel of the map stands for near and far.
-  package func depth(at place: SIMD2<Double>) -> Double? {
-    guard place.x >= 0, place.x < 1, place.y >= 0, place.y < 1 else { return nil }
-    let column = Int(place.x * Double(width))
-    let row = Int(place.y * Double(height))
-    let center = depths[row * width + column]
-    guard center > 0, center.isFinite else { return nil }
-    for y in max(0, row - 1)...min(height - 1, row + 1) {
-      for x in max(0, column - 1)...min(width - 1, column + 1) {
-        // Unknown neighbours are signs of an edge, too.
-        let isClose = abs(depths[y * width + x] - center) <= Self.edge * center
-        if !isClose { return nil }
-      }
+extension SensorReading {
+  /// The direction of gravity in the frame of the camera, from that in the frame of a phone: x to the
+  /// right and y up on its screen, z towards its user. Nil for none.
+  ///
+  /// `orientation` is how the pixels of the sensor are turned upright, 1…8 as in EXIF: a phone stores
+  /// what its camera sees when it is held with its right side up.
+  package static func gravity(
+    ofPhone gravity: SIMD3<Double>, orientation: Int
+  ) -> SIMD3<Double>? {
+    guard gravity.squaredLength > 0, gravity.squaredLength.isFinite else { return nil }
+    let v = SIMD3(-gravity.y, -gravity.x, -gravity.z)
+    return switch orientation {
+    case 2: SIMD3(-v.x, v.y, v.z)
+    case 3: SIMD3(-v.x, -v.y, v.z)
+    case 4: SIMD3(v.x, -v.y, v.z)
+    case 5: SIMD3(v.y, v.x, v.z)
+    case 6: SIMD3(-v.y, v.x, v.z)
+    case 7: SIMD3(-v.y, -v.x, v.z)
+    case 8: SIMD3(v.y, -v.x, v.z)
+    default: v
     }
-    return Double(center)
   }
-
-  /// Relative difference of neighbours across an edge.
-  private static let edge: Float = 0.05
 }

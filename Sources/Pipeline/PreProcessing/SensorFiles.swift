@@ -1,0 +1,87 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Tells what phones write beside photos from the photos: for `IMG_1.HEIC` the map of disparities
+/// `IMG_1_depth.TIF` and the direction of gravity `IMG_1_gravity.TXT`, three numbers in the frame of
+/// the phone. Apple's sample app for taking photos for Object Capture, and what grew out of it, name
+/// them so. Upper and lower case are alike.
+struct SensorFiles {
+  /// The other files, in their order.
+  private(set) var photos: [URL] = []
+  /// By the lowercase name of their photo, without suffix.
+  private var depth: [String: URL] = [:]
+  private var gravity: [String: URL] = [:]
+
+  init(_ files: [URL]) {
+    let names = Set(files.map(Self.name))
+    for file in files {
+      let suffix = file.pathExtension.lowercased()
+      if let owner = Self.owner(file, "_depth"), names.contains(owner),
+        ["tif", "tiff"].contains(suffix)
+      {
+        depth[owner] = depth[owner] ?? file
+      } else if let owner = Self.owner(file, "_gravity"), names.contains(owner), suffix == "txt" {
+        gravity[owner] = gravity[owner] ?? file
+      } else {
+        photos.append(file)
+      }
+    }
+  }
+
+  /// What lies beside a photo, whose sensor's pixels are turned by `orientation`; nil for nothing.
+  /// `problems` are sentences about files that can't be used.
+  func reading(
+    beside photo: URL, orientation: Int, _ problems: inout [String]
+  ) -> SensorReading? {
+    let name = Self.name(photo)
+    var reading = SensorReading()
+    if let file = gravity[name] {
+      reading.gravity = Self.gravity(file).flatMap {
+        SensorReading.gravity(ofPhone: $0, orientation: orientation)
+      }
+      if reading.gravity == nil {
+        problems.append("\(file.lastPathComponent) is not used: it holds no direction.")
+      }
+    }
+    if let file = depth[name] {
+      do throws(ImageError) {
+        reading.depth = try Self.depth(file).turned(byOrientation: orientation)
+      } catch {
+        let reason = error.errorDescription ?? "it can't be read"
+        problems.append("\(file.lastPathComponent) is not used: \(reason).")
+      }
+    }
+    return reading == SensorReading() ? nil : reading
+  }
+
+  private static func name(_ file: URL) -> String {
+    file.deletingPathExtension().lastPathComponent.lowercased()
+  }
+
+  private static func owner(_ file: URL, _ ending: String) -> String? {
+    let name = name(file)
+    return name.hasSuffix(ending) ? String(name.dropLast(ending.count)) : nil
+  }
+
+  private static func depth(_ file: URL) throws(ImageError) -> DepthMap {
+    let (width, height, values) = try ImageCodec.decodeNumbers(ImageCodec.contents(of: file))
+    guard var map = DepthMap(width: width, height: height, depths: values) else {
+      throw .damaged("it has no pixels")
+    }
+    map.mayBeDisparities = true
+    return map
+  }
+
+  /// Three numbers with commas between them.
+  private static func gravity(_ file: URL) -> SIMD3<Double>? {
+    let limits = {
+      var limits = ImageCodec.Limits(); limits.maximumFileSize = 4096; return limits
+    }()
+    guard let bytes = try? ImageCodec.contents(of: file, limits: limits) else { return nil }
+    let parts = String(decoding: bytes, as: UTF8.self).split(separator: ",")
+      .map { Double($0.trimmingCharacters(in: .whitespacesAndNewlines)) }
+    guard parts.count == 3, let x = parts[0], let y = parts[1], let z = parts[2] else { return nil }
+    return SIMD3(x, y, z)
+  }
+}

@@ -1,0 +1,63 @@
+/// How far away is what a photo shows, along the optical axis, in metres; its field of view is that of
+/// the upright photo, its resolution its own.
+package struct DepthMap: Hashable, Codable, Sendable {
+  package private(set) var width: Int
+  package private(set) var height: Int
+  /// Row by row from the top; what is not positive and finite is unknown.
+  package private(set) var depths: [Float]
+  /// Whether the numbers may be disparities in 1/metre just as well: files don't tell.
+  package var mayBeDisparities = false
+
+  /// Relative difference of neighbours across an edge.
+  private static let edge: Float = 0.05
+
+  /// Nil unless there is a depth for each pixel.
+  package init?(width: Int, height: Int, depths: [Float]) {
+    guard width > 0, height > 0, depths.count == width * height else { return nil }
+    self.width = width
+    self.height = height
+    self.depths = depths
+  }
+
+  /// The depth at a place from (0, 0), the photo's top-left corner, to (1, 1); nil outside, where it
+  /// is unknown, and at edges, where a pixel of the map stands for near and far.
+  package func depth(at place: SIMD2<Double>) -> Double? {
+    guard place.x >= 0, place.x < 1, place.y >= 0, place.y < 1 else { return nil }
+    let column = Int(place.x * Double(width))
+    let row = Int(place.y * Double(height))
+    let center = depths[row * width + column]
+    guard center > 0, center.isFinite else { return nil }
+    for y in max(0, row - 1)...min(height - 1, row + 1) {
+      for x in max(0, column - 1)...min(width - 1, column + 1) {
+        // Unknown neighbours are signs of an edge, too.
+        let isClose = abs(depths[y * width + x] - center) <= Self.edge * center
+        if !isClose { return nil }
+      }
+    }
+    return Double(center)
+  }
+
+  /// The map turned by an orientation of EXIF, 1…8.
+  package func turned(byOrientation orientation: Int) -> DepthMap {
+    var result = self
+    if orientation >= 5 { (result.width, result.height) = (height, width) }
+    result.depths.removeAll(keepingCapacity: true)
+    for row in 0..<result.height {
+      for column in 0..<result.width {
+        let (x, y) =
+          switch orientation {
+          case 2: (width - 1 - column, row)
+          case 3: (width - 1 - column, height - 1 - row)
+          case 4: (column, height - 1 - row)
+          case 5: (row, column)
+          case 6: (row, height - 1 - column)
+          case 7: (width - 1 - row, height - 1 - column)
+          case 8: (width - 1 - row, column)
+          default: (column, row)
+          }
+        result.depths.append(depths[y * width + x])
+      }
+    }
+    return result
+  }
+}
