@@ -40,7 +40,7 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .unreadableFolder:
       "Check the path and its permissions."
     case .noPhotos:
-      "Name a folder with JPEG or PNG photos of one object, taken all around it."
+      "Name a folder with photos (JPEG, HEIC or PNG) of one object, taken all around it."
     case .tooFewPhotos:
       "Take 20 or more photos all around the object, each overlapping its neighbours by 70 %."
     case .tooFewCameras:

@@ -63,7 +63,7 @@ import Testing
     #expect(made.map(\.status) == [.failed, .failed, .failed, .done])
     #expect(made.map(\.attempts) == [1, 1, 1, 1])
     #expect(made[3].photos == 20 && made[3].registered == 20 && (made[3].triangles ?? 0) > 1000)
-    #expect(made[1].error?.contains("JPEG or PNG") == true)
+    #expect(made[1].error?.contains("JPEG, HEIC or PNG") == true)
     #expect(made[2].error?.contains("at least 3") == true)
     #expect(first.output.contains("4 datasets: 1 done, 3 failed."))
     #expect(first.errors.contains("3 of 4 datasets have no model"))

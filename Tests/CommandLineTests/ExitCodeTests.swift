@@ -76,9 +76,9 @@ import Testing
     }
     try makePhotos(2, in: folder, "two")
     try expectFailure(
-      ["empty", "m.usdz"], in: folder, code: 1, mentioning: ["empty", "JPEG or PNG"])
+      ["empty", "m.usdz"], in: folder, code: 1, mentioning: ["empty", "JPEG, HEIC or PNG"])
     try expectFailure(
-      ["texts", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "JPEG or PNG"])
+      ["texts", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "JPEG, HEIC or PNG"])
     try expectFailure(["two", "m.usdz"], in: folder, code: 1, mentioning: ["error: ", "2"])
     _ = temporary
   }

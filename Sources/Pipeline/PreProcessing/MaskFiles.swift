@@ -72,7 +72,7 @@ struct MaskFiles {
   }
 
   private static func isImageName(_ file: URL) -> Bool {
-    ["png", "jpg", "jpeg", "tif", "tiff", "webp", "bmp"]
+    ["png", "jpg", "jpeg", "tif", "tiff", "webp", "bmp", "heic"]
       .contains(file.pathExtension.lowercased())
   }
 }

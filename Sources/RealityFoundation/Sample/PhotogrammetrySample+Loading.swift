@@ -29,7 +29,7 @@ extension PhotogrammetrySample {
       throw ProcessingError(
         code: .invalidInput,
         reason: "\(url.path) can't be loaded: \(error.errorDescription ?? "it is damaged").",
-        remedy: "Name a JPEG or PNG photo.")
+        remedy: "Name a photo: JPEG, HEIC or PNG.")
     }
   }
 

@@ -35,7 +35,7 @@ extension PhotogrammetrySession.Error {
   public var recoverySuggestion: String? {
     switch self {
     case .invalidImages:
-      "Name a folder with JPEG or PNG photos of one object, taken all around it."
+      "Name a folder with photos (JPEG, HEIC or PNG) of one object, taken all around it."
     case .invalidOutput:
       "Name a file ending in .usdz in a folder that can be written to, "
         + "or a folder, with a slash at the end, for OBJ, MTL, USDA and textures."

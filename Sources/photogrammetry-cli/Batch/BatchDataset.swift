@@ -87,7 +87,7 @@
 
     /// By name, for finding photos among folders; whether a file is one its content decides.
     private static func isImage(_ file: URL) -> Bool {
-      ["jpg", "jpeg", "png", "tif", "tiff", "bmp", "webp", "heic"]
+      ["jpg", "jpeg", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif"]
         .contains(file.pathExtension.lowercased())
     }
   }

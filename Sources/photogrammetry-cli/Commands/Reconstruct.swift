@@ -38,7 +38,7 @@ struct Reconstruct: AsyncParsableCommand {
       """)
 
   @Argument(
-    help: ArgumentHelp("The folder with the photos: JPEG or PNG.", valueName: "input-folder"),
+    help: ArgumentHelp("The folder with the photos: JPEG, HEIC or PNG.", valueName: "input-folder"),
     completion: .directory)
   var inputFolder: String
 

@@ -113,7 +113,9 @@ import RealityKit
     /// How the scale is told, as a section of help.
     static let scaleHelp = """
       SCALE
-        Photos with GPS give it. Distances that you measured come before GPS:
+        Photos with GPS give it. Before GPS come depth maps that a phone wrote beside
+        the photos (for IMG_1.HEIC IMG_1_depth.TIF; IMG_1_gravity.TXT tells what is
+        up), and before these distances that you measured:
         --camera-distance IMG_1.jpg,IMG_5.jpg=0.42
             The two photos were taken 0.42 m apart (lens to lens).
         --measurements points.json

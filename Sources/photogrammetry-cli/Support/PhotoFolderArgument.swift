@@ -26,7 +26,7 @@ struct PhotoFolderArgument {
         throw CommandFailure.usage("The folder \(path) is empty. It should hold the \(content).")
       }
       throw CommandFailure.run(
-        "The folder \(path) is empty. Name a folder with JPEG or PNG photos of one object, taken "
+        "The folder \(path) is empty. Name a folder with photos (JPEG, HEIC or PNG) of one object, taken "
           + "all around it.")
     }
   }
