@@ -55,8 +55,7 @@ var cliDependencies: [Target.Dependency] = [
   // What else programs for the Mac import; a program names those that it needs.
   products += [
     "Combine", "CoreGraphics", "CoreImage", "CoreMotion", "CoreVideo", "ImageIO", "Metal", "OSLog",
-    "os",
-    "simd", "UniformTypeIdentifiers",
+    "QuartzCore", "os", "simd", "UniformTypeIdentifiers",
   ].map { .library(name: $0, targets: [$0]) }
   targets += [
     .target(
@@ -81,7 +80,7 @@ var cliDependencies: [Target.Dependency] = [
     .target(name: "CoreGraphics", dependencies: ["BitmapGraphics"], swiftSettings: strict),
     .target(
       name: "CoreImage",
-      dependencies: ["BitmapGraphics", "CoreVideo", "ImageIO", "Kernels", "SceneModel"],
+      dependencies: ["BitmapGraphics", "CoreVideo", "ImageIO", "Kernels", "Metal", "SceneModel"],
       swiftSettings: strict),
     .target(name: "CoreMotion", swiftSettings: strict),
     .target(
@@ -92,6 +91,7 @@ var cliDependencies: [Target.Dependency] = [
       dependencies: ["BitmapGraphics", "CoreFoundationTypes", "Kernels", "Pipeline", "SceneModel"],
       swiftSettings: strict),
     .target(name: "OSLog", dependencies: ["os"], swiftSettings: strict),
+    .target(name: "QuartzCore", dependencies: ["CoreFoundationTypes"], swiftSettings: strict),
     .target(name: "UniformTypeIdentifiers", swiftSettings: strict),
     .target(name: "Metal", swiftSettings: strict),
     .target(name: "OSLogModule"),

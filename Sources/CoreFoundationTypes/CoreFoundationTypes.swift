@@ -35,3 +35,6 @@ public final class CFAllocator: Sendable {}
 
 /// The default allocator, which has no effect.
 public let kCFAllocatorDefault: CFAllocator! = nil
+
+/// The same allocator by its full name.
+public let kCFAllocatorSystemDefault: CFAllocator! = nil

@@ -1,11 +1,15 @@
 import BitmapGraphics
 import CoreVideo
 import ImageIO
+import Metal
 
 /// Renders images, with the processor. Options have no effect, and colours are not converted.
 public final class CIContext: Sendable {
   /// Creates a context.
   public init(options: [CIContextOption: Any]? = nil) {}
+
+  /// Creates a context that renders with a device: the processor is the only one.
+  public init(mtlDevice device: any MTLDevice, options: [CIContextOption: Any]? = nil) {}
 
   /// Renders an image into a buffer of colours or `OneComponent8`, whose bottom left corner is the
   /// origin; buffers of other kinds stay as they are.

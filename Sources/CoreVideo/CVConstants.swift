@@ -25,6 +25,18 @@ public let kCVPixelFormatType_OneComponent32Float: OSType = 0x4C30_3066
 public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
 /// Disparities in 1/metre as 32-bit floating-point numbers.
 public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
+/// Depths in metres as 16-bit floating-point numbers.
+public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
+/// Disparities in 1/metre as 16-bit floating-point numbers.
+public let kCVPixelFormatType_DisparityFloat16: OSType = 0x6864_6973
+/// One 16-bit floating-point component.
+public let kCVPixelFormatType_OneComponent16Half: OSType = 0x4C30_3068
+/// Alpha, blue, green, red; 8 bits each. There are no buffers of it.
+public let kCVPixelFormatType_32ABGR: OSType = 0x4142_4752
+/// Luma and chroma in planes, in the range of video. There are no buffers of it.
+public let kCVPixelFormatType_420YpCbCr8BiPlanarVideoRange: OSType = 0x3432_3076
+/// Luma and chroma in planes, in the full range. There are no buffers of it.
+public let kCVPixelFormatType_420YpCbCr8BiPlanarFullRange: OSType = 0x3432_3066
 
 /// Depths in metres as 16-bit floating-point numbers.
 public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
@@ -47,3 +59,7 @@ public let kCVPixelBufferCGBitmapContextCompatibilityKey: CFString = "CGBitmapCo
 public let kCVPixelBufferMetalCompatibilityKey: CFString = "MetalCompatibility"
 /// Attribute: how the pixels are shared between processes.
 public let kCVPixelBufferIOSurfacePropertiesKey: CFString = "IOSurfaceProperties"
+/// Attribute of a pool: how many buffers it keeps.
+public let kCVPixelBufferPoolMinimumBufferCountKey: CFString = "MinimumBufferCount"
+/// Attribute of a pool: for how many seconds it keeps a buffer.
+public let kCVPixelBufferPoolMaximumBufferAgeKey: CFString = "MaximumBufferAge"

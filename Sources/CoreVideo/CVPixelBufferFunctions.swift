@@ -96,3 +96,46 @@ public func CVPixelBufferIsPlanar(_ pixelBuffer: CVPixelBuffer) -> Bool { false 
 
 /// The number of planes: 0 where the components don't lie in planes of their own.
 public func CVPixelBufferGetPlaneCount(_ pixelBuffer: CVPixelBuffer) -> Int { 0 }
+
+/// The address of a plane: nil, since buffers have no planes.
+public func CVPixelBufferGetBaseAddressOfPlane(
+  _ pixelBuffer: CVPixelBuffer, _ planeIndex: Int
+) -> UnsafeMutableRawPointer? { nil }
+
+/// The bytes from one row of a plane to the next: 0, since buffers have no planes.
+public func CVPixelBufferGetBytesPerRowOfPlane(
+  _ pixelBuffer: CVPixelBuffer, _ planeIndex: Int
+) -> Int { 0 }
+
+/// The width of a plane in pixels: 0, since buffers have no planes.
+public func CVPixelBufferGetWidthOfPlane(_ pixelBuffer: CVPixelBuffer, _ planeIndex: Int) -> Int {
+  0
+}
+
+/// The height of a plane in pixels: 0, since buffers have no planes.
+public func CVPixelBufferGetHeightOfPlane(_ pixelBuffer: CVPixelBuffer, _ planeIndex: Int) -> Int {
+  0
+}
+
+/// The width and height in pixels.
+public func CVImageBufferGetEncodedSize(_ imageBuffer: CVImageBuffer) -> CGSize {
+  CGSize(width: imageBuffer.width, height: imageBuffer.height)
+}
+
+/// The width and height in pixels, as an image is shown.
+public func CVImageBufferGetDisplaySize(_ imageBuffer: CVImageBuffer) -> CGSize {
+  CVImageBufferGetEncodedSize(imageBuffer)
+}
+
+/// Fills memory with a byte. The Mac's C library takes addresses that may be missing.
+@discardableResult public func memset(
+  _ address: UnsafeMutableRawPointer?, _ byte: Int32, _ count: Int
+) -> UnsafeMutableRawPointer? { address.map { Foundation.memset($0, byte, count) } }
+
+/// Copies memory. The Mac's C library takes addresses that may be missing.
+@discardableResult public func memcpy(
+  _ target: UnsafeMutableRawPointer?, _ source: UnsafeRawPointer?, _ count: Int
+) -> UnsafeMutableRawPointer? {
+  guard let target, let source else { return target }
+  return Foundation.memcpy(target, source, count)
+}

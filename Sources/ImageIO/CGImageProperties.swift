@@ -105,3 +105,58 @@ public let kCGImageDestinationLossyCompressionQuality: CFString =
 public let kCGImageAuxiliaryDataTypeDepth: CFString = "kCGImageAuxiliaryDataTypeDepth"
 /// Disparities that come with an image.
 public let kCGImageAuxiliaryDataTypeDisparity: CFString = "kCGImageAuxiliaryDataTypeDisparity"
+
+// Properties that programs ask for. Those that numbers tell of are read, the others are never there.
+
+/// What Apple's cameras note; never there.
+public let kCGImagePropertyMakerAppleDictionary: CFString = "{MakerApple}"
+/// Pixels an inch, across; never there.
+public let kCGImagePropertyDPIWidth: CFString = "DPIWidth"
+/// Pixels an inch, down; never there.
+public let kCGImagePropertyDPIHeight: CFString = "DPIHeight"
+/// The name of the colour profile; never there.
+public let kCGImagePropertyProfileName: CFString = "ProfileName"
+/// The aperture as an exponent.
+public let kCGImagePropertyExifApertureValue: CFString = "ApertureValue"
+/// The exposure time as an exponent.
+public let kCGImagePropertyExifShutterSpeedValue: CFString = "ShutterSpeedValue"
+/// The brightness of the scene.
+public let kCGImagePropertyExifBrightnessValue: CFString = "BrightnessValue"
+/// By how much the exposure was changed.
+public let kCGImagePropertyExifExposureBiasValue: CFString = "ExposureBiasValue"
+/// The widest aperture of the lens.
+public let kCGImagePropertyExifMaxApertureValue: CFString = "MaxApertureValue"
+/// The distance in metres.
+public let kCGImagePropertyExifSubjectDistance: CFString = "SubjectDistance"
+/// How light was measured.
+public let kCGImagePropertyExifMeteringMode: CFString = "MeteringMode"
+/// The kind of light.
+public let kCGImagePropertyExifLightSource: CFString = "LightSource"
+/// Whether there was a flash.
+public let kCGImagePropertyExifFlash: CFString = "Flash"
+/// How colours were balanced.
+public let kCGImagePropertyExifWhiteBalance: CFString = "WhiteBalance"
+/// How the exposure was chosen.
+public let kCGImagePropertyExifExposureMode: CFString = "ExposureMode"
+/// By which program the exposure was chosen.
+public let kCGImagePropertyExifExposureProgram: CFString = "ExposureProgram"
+/// The colour space: 1 for sRGB.
+public let kCGImagePropertyExifColorSpace: CFString = "ColorSpace"
+/// By how much the image was enlarged.
+public let kCGImagePropertyExifDigitalZoomRatio: CFString = "DigitalZoomRatio"
+/// The kind of scene.
+public let kCGImagePropertyExifSceneCaptureType: CFString = "SceneCaptureType"
+/// A remark.
+public let kCGImagePropertyExifUserComment: CFString = "UserComment"
+/// Who made the image.
+public let kCGImagePropertyTIFFArtist: CFString = "Artist"
+/// Whose image it is.
+public let kCGImagePropertyTIFFCopyright: CFString = "Copyright"
+/// The time by satellite.
+public let kCGImagePropertyGPSTimeStamp: CFString = "TimeStamp"
+/// The day by satellite.
+public let kCGImagePropertyGPSDateStamp: CFString = "DateStamp"
+/// Where the camera looked, in degrees.
+public let kCGImagePropertyGPSImgDirection: CFString = "ImgDirection"
+/// From which north directions count.
+public let kCGImagePropertyGPSImgDirectionRef: CFString = "ImgDirectionRef"

@@ -37,11 +37,22 @@ extension CGImageSource {
     func number(_ tag: Int) -> NSNumber? {
       exif.first { $0.tag == tag }.flatMap { tiff.number($0) }.map { NSNumber(value: $0) }
     }
-    return [
+    let numbers: [(CFString, Int)] = [
+      (kCGImagePropertyExifExposureTime, 33434), (kCGImagePropertyExifFNumber, 33437),
+      (kCGImagePropertyExifExposureProgram, 34850), (kCGImagePropertyExifShutterSpeedValue, 37377),
+      (kCGImagePropertyExifApertureValue, 37378), (kCGImagePropertyExifBrightnessValue, 37379),
+      (kCGImagePropertyExifExposureBiasValue, 37380),
+      (kCGImagePropertyExifMaxApertureValue, 37381), (kCGImagePropertyExifSubjectDistance, 37382),
+      (kCGImagePropertyExifMeteringMode, 37383), (kCGImagePropertyExifLightSource, 37384),
+      (kCGImagePropertyExifFlash, 37385), (kCGImagePropertyExifColorSpace, 40961),
+      (kCGImagePropertyExifExposureMode, 41986), (kCGImagePropertyExifWhiteBalance, 41987),
+      (kCGImagePropertyExifDigitalZoomRatio, 41988), (kCGImagePropertyExifSceneCaptureType, 41990),
+    ]
+    return numbers.map { (kCGImagePropertyExifDictionary, $0, number($1)) } + [
+      (kCGImagePropertyTIFFDictionary, kCGImagePropertyTIFFArtist, text(315, image)),
+      (kCGImagePropertyTIFFDictionary, kCGImagePropertyTIFFCopyright, text(33432, image)),
       (kCGImagePropertyTIFFDictionary, kCGImagePropertyTIFFDateTime, text(306, image)),
       (kCGImagePropertyTIFFDictionary, kCGImagePropertyTIFFSoftware, text(305, image)),
-      (kCGImagePropertyExifDictionary, kCGImagePropertyExifExposureTime, number(33434)),
-      (kCGImagePropertyExifDictionary, kCGImagePropertyExifFNumber, number(33437)),
       (
         kCGImagePropertyExifDictionary, kCGImagePropertyExifISOSpeedRatings,
         number(34855).map { [$0] }

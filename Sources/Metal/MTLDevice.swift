@@ -50,8 +50,71 @@ public protocol MTLDevice: AnyObject, Sendable {
   /// Whether BC-compressed textures can be read.
   var supportsBCTextureCompression: Bool { get }
 
+  /// Whether the samples of a pixel have places of their own.
+  var areProgrammableSamplePositionsSupported: Bool { get }
+  /// Whether the parts of a drawing can wait for each other by pixel.
+  var areRasterOrderGroupsSupported: Bool { get }
+  /// Whether textures tell which of their sizes is read.
+  var supportsQueryTextureLOD: Bool { get }
+  /// Whether values in a triangle are known at any place.
+  var supportsPullModelInterpolation: Bool { get }
+  /// Whether 32-bit numbers have several samples a pixel.
+  var supports32BitMSAA: Bool { get }
+  /// Whether programs of the device are put together when they run.
+  var supportsDynamicLibraries: Bool { get }
+  /// Whether programs that draw are put together when they run.
+  var supportsRenderDynamicLibraries: Bool { get }
+  /// Whether rays meet what moves.
+  var supportsPrimitiveMotionBlur: Bool { get }
+  /// Whether depth of 24 bits is known.
+  var isDepth24Stencil8PixelFormatSupported: Bool { get }
+  /// How well arguments can be put into buffers.
+  var argumentBuffersSupport: MTLArgumentBuffersTier { get }
+  /// Which textures can be read and written at once.
+  var readWriteTextureSupport: MTLReadWriteTextureTier { get }
+  /// The group of devices that exchange memory; 0 where there is none.
+  var peerGroupID: UInt64 { get }
+  /// The number of the device in its group.
+  var peerIndex: UInt32 { get }
+  /// The devices of the group; 0 where there is none.
+  var peerCount: UInt32 { get }
+  /// A sentence about the device.
+  var description: String { get }
+
   /// Whether the device can do what all of a family can.
   func supportsFamily(_ gpuFamily: MTLGPUFamily) -> Bool
+
+  /// Whether pixels can have so many samples.
+  func supportsTextureSampleCount(_ sampleCount: Int) -> Bool
+
+  /// Makes a queue of commands, where the device takes commands. This one doesn't: nil.
+  func makeCommandQueue() -> (any MTLCommandQueue)?
+}
+
+/// Where the commands of a device wait.
+public protocol MTLCommandQueue: AnyObject, Sendable {
+  /// A name of the queue.
+  var label: String? { get set }
+  /// The device that takes the commands.
+  var device: any MTLDevice { get }
+}
+
+/// How well a device can put arguments into buffers.
+public enum MTLArgumentBuffersTier: UInt, Hashable, Sendable {
+  /// Some.
+  case tier1
+  /// All.
+  case tier2
+}
+
+/// Which textures a device reads and writes at once.
+public enum MTLReadWriteTextureTier: UInt, Hashable, Sendable {
+  /// None.
+  case tierNone
+  /// Those of 32 bits.
+  case tier1
+  /// Most.
+  case tier2
 }
 
 /// The kind of a device.
@@ -104,6 +167,10 @@ public enum MTLGPUFamily: Int, Hashable, Sendable {
   case common2
   /// What newer devices can do.
   case common3
+  /// The first generation of the Mac with programs of the iPad.
+  case macCatalyst1 = 4001
+  /// The second generation of the Mac with programs of the iPad.
+  case macCatalyst2
   /// What Metal 3 needs.
   case metal3 = 5001
   /// What Metal 4 needs.

@@ -11,7 +11,7 @@ public func MTLCopyAllDevices() -> [any MTLDevice] { [ProcessorDevice.shared] }
 ///
 /// Its properties answer the question that programs ask: whether models can be made here. Whether
 /// this machine has the memory for it, `PhotogrammetrySession.isSupported` tells.
-final class ProcessorDevice: MTLDevice {
+final class ProcessorDevice: MTLDevice, CustomStringConvertible {
   static let shared = ProcessorDevice()
 
   let name = "Processor"
@@ -33,6 +33,22 @@ final class ProcessorDevice: MTLDevice {
   let areBarycentricCoordsSupported = true
   let supports32BitFloatFiltering = true
   let supportsBCTextureCompression = true
+  let areProgrammableSamplePositionsSupported = true
+  let areRasterOrderGroupsSupported = true
+  let supportsQueryTextureLOD = true
+  let supportsPullModelInterpolation = true
+  let supports32BitMSAA = true
+  let supportsDynamicLibraries = true
+  let supportsRenderDynamicLibraries = true
+  let supportsPrimitiveMotionBlur = true
+  let isDepth24Stencil8PixelFormatSupported = true
+  let argumentBuffersSupport = MTLArgumentBuffersTier.tier2
+  let readWriteTextureSupport = MTLReadWriteTextureTier.tier2
+  let peerGroupID: UInt64 = 0
+  let peerIndex: UInt32 = 0
+  let peerCount: UInt32 = 0
+
+  var description: String { "<MTLDevice: \(name)>" }
 
   var maxThreadsPerThreadgroup: MTLSize { MTLSizeMake(1024, 1024, 1024) }
 
@@ -45,4 +61,8 @@ final class ProcessorDevice: MTLDevice {
   var maxBufferLength: Int { Int(clamping: recommendedMaxWorkingSetSize / 2) }
 
   func supportsFamily(_ gpuFamily: MTLGPUFamily) -> Bool { true }
+
+  func supportsTextureSampleCount(_ sampleCount: Int) -> Bool { [1, 2, 4, 8].contains(sampleCount) }
+
+  func makeCommandQueue() -> (any MTLCommandQueue)? { nil }
 }

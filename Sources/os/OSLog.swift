@@ -25,6 +25,9 @@ public final class OSLog: Sendable {
   /// Whether messages of a level are taken down.
   public func isEnabled(type: OSLogType) -> Bool { logger.isEnabled(type) }
 
+  /// Whether signposts are taken down.
+  public var signpostsEnabled: Bool { logger.isEnabled(.debug) }
+
   /// Categories that tools know.
   public struct Category: RawRepresentable, Hashable, Sendable {
     /// The name of the category.

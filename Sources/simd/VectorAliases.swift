@@ -47,6 +47,24 @@ public typealias vector_float3 = SIMD3<Float>
 public typealias vector_float4 = SIMD4<Float>
 /// The name in C of `simd_double3`.
 public typealias vector_double3 = SIMD3<Double>
+/// A vector of 2 scalars of the type `Double`.
+public typealias vector_double2 = SIMD2<Double>
+/// A vector of 4 scalars of the type `Double`.
+public typealias vector_double4 = SIMD4<Double>
+/// A vector of 2 scalars of the type `Int32`.
+public typealias vector_int2 = SIMD2<Int32>
+/// A vector of 3 scalars of the type `Int32`.
+public typealias vector_int3 = SIMD3<Int32>
+/// A vector of 4 scalars of the type `Int32`.
+public typealias vector_int4 = SIMD4<Int32>
+/// A vector of 2 scalars of the type `UInt32`.
+public typealias vector_uint2 = SIMD2<UInt32>
+/// A vector of 3 scalars of the type `UInt32`.
+public typealias vector_uint3 = SIMD3<UInt32>
+/// A vector of 4 scalars of the type `UInt32`.
+public typealias vector_uint4 = SIMD4<UInt32>
+/// A vector of 4 scalars of the type `UInt8`.
+public typealias vector_uchar4 = SIMD4<UInt8>
 
 /// Makes a vector of two scalars.
 public func simd_make_float2(_ x: Float, _ y: Float) -> simd_float2 { simd_float2(x, y) }

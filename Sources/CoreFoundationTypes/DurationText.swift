@@ -1,0 +1,93 @@
+import Foundation
+
+/// A number of seconds as a formatter writes it.
+struct DurationText {
+  private typealias Part = (unit: DurationUnit, count: Double)
+
+  private let formatter: DateComponentsFormatter
+  private let parts: [Part]
+  private let isNegative: Bool
+
+  init(
+    _ formatter: DateComponentsFormatter, seconds: Double, unitsUnlessChosen others: [DurationUnit]
+  ) {
+    self.formatter = formatter
+    isNegative = seconds < 0
+    let chosen = formatter.allowedUnits
+    let units = chosen.isEmpty ? others : DurationUnit.all.filter { chosen.contains($0.unit) }
+    var parts = Self.split(abs(seconds), into: units, keepsFraction: formatter.allowsFractionalUnits)
+    if formatter.collapsesLargestUnit, parts.count > 1, parts[0].count == 1 {
+      parts[1].count += (parts[0].unit.seconds / parts[1].unit.seconds).rounded()
+      parts.removeFirst()
+    }
+    self.parts = Self.bounded(parts, to: formatter.maximumUnitCount, abs(seconds), formatter)
+  }
+
+  private static func split(
+    _ seconds: Double, into units: [DurationUnit], keepsFraction: Bool
+  ) -> [Part] {
+    var rest = keepsFraction ? seconds : seconds.rounded(.down)
+    return units.enumerated().map { index, unit in
+      let isLast = index == units.count - 1
+      let exact = rest / unit.seconds
+      let count = isLast && keepsFraction ? exact : exact.rounded(.down)
+      rest -= count * unit.seconds
+      return (unit, count)
+    }
+  }
+
+  /// Fewer units hold the time rounded to the last of them.
+  private static func bounded(
+    _ parts: [Part], to limit: Int, _ seconds: Double, _ formatter: DateComponentsFormatter
+  ) -> [Part] {
+    guard limit > 0, let first = parts.firstIndex(where: { $0.count > 0 }),
+      parts.count - first > limit
+    else { return parts }
+    let kept = parts[first..<first + limit].map(\.unit)
+    let last = kept[limit - 1].seconds
+    let rounded = formatter.allowsFractionalUnits ? seconds : (seconds / last).rounded() * last
+    return split(rounded, into: kept, keepsFraction: formatter.allowsFractionalUnits)
+  }
+
+  var text: String? {
+    guard !parts.isEmpty else { return nil }
+    let shown = shown
+    let isPositional = formatter.unitsStyle == .positional
+    var text: String
+    if isPositional {
+      text = shown.enumerated().map { index, part in
+        let digits = DurationUnit.digits(part.count)
+        let isPadded = index > 0 || formatter.zeroFormattingBehavior.contains(.pad)
+        return isPadded && digits.count < 2 ? "0" + digits : digits
+      }.joined(separator: ":")
+    } else {
+      let isNarrow = formatter.unitsStyle == .abbreviated || formatter.unitsStyle == .brief
+      text = shown.map { $0.unit.text($0.count, formatter.unitsStyle) }
+        .joined(separator: isNarrow ? " " : ", ")
+    }
+    if isNegative { text = "-" + text }
+    if formatter.includesApproximationPhrase { text = "About \(text)" }
+    return formatter.includesTimeRemainingPhrase ? "\(text) remaining" : text
+  }
+
+  private var shown: [Part] {
+    let behavior = formatter.zeroFormattingBehavior
+    if behavior.contains(.pad) { return parts }
+    let isPositional = formatter.unitsStyle == .positional
+    let isDefault = behavior.contains(.default)
+    let (lead, middle, trail) = (
+      isDefault || behavior.contains(.dropLeading),
+      isDefault && !isPositional || behavior.contains(.dropMiddle),
+      isDefault && !isPositional || behavior.contains(.dropTrailing)
+    )
+    // Nothing at all is written as none of the shortest unit.
+    guard let first = parts.firstIndex(where: { $0.count > 0 }),
+      let last = parts.lastIndex(where: { $0.count > 0 })
+    else { return lead || trail ? parts.suffix(1) : parts }
+    return parts.indices.filter { index in
+      if parts[index].count > 0 { return true }
+      if index < first { return !lead }
+      return index > last ? !trail : !middle
+    }.map { parts[$0] }
+  }
+}

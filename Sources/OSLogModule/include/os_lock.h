@@ -1,0 +1,1 @@
+// What `import os.lock` gives is in the Swift module `os`.

@@ -1,0 +1,1 @@
+// What `import os.signpost` gives is in the Swift module `os`.
