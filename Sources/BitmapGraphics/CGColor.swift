@@ -17,6 +17,11 @@ public final class CGColor: Hashable, Sendable {
     self.init([red, green, blue, alpha], CGColorSpaceCreateDeviceRGB())
   }
 
+  /// Creates a colour of sRGB, which is what all colours are.
+  public convenience init(
+    srgbRed red: CGFloat, green: CGFloat, blue: CGFloat, alpha: CGFloat
+  ) { self.init(red: red, green: green, blue: blue, alpha: alpha) }
+
   init(_ components: [CGFloat], _ space: CGColorSpace) {
     self.components = components
     colorSpace = space

@@ -92,6 +92,12 @@ public final class CGDataProvider: Sendable {
   /// Creates a provider of bytes.
   public convenience init?(data: CFData) { self.init(data) }
 
+  /// Creates a provider of the bytes of a file; nil where there is none.
+  public convenience init?(url: CFURL) {
+    guard let bytes = try? Data(contentsOf: url) else { return nil }
+    self.init(bytes)
+  }
+
   /// The bytes.
   public var data: CFData? { bytes }
 }

@@ -15,7 +15,8 @@ struct DurationText {
     isNegative = seconds < 0
     let chosen = formatter.allowedUnits
     let units = chosen.isEmpty ? others : DurationUnit.all.filter { chosen.contains($0.unit) }
-    var parts = Self.split(abs(seconds), into: units, keepsFraction: formatter.allowsFractionalUnits)
+    var parts = Self.split(
+      abs(seconds), into: units, keepsFraction: formatter.allowsFractionalUnits)
     if formatter.collapsesLargestUnit, parts.count > 1, parts[0].count == 1 {
       parts[1].count += (parts[0].unit.seconds / parts[1].unit.seconds).rounded()
       parts.removeFirst()

@@ -25,10 +25,6 @@ public let kCVPixelFormatType_OneComponent32Float: OSType = 0x4C30_3066
 public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
 /// Disparities in 1/metre as 32-bit floating-point numbers.
 public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
-/// Depths in metres as 16-bit floating-point numbers.
-public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
-/// Disparities in 1/metre as 16-bit floating-point numbers.
-public let kCVPixelFormatType_DisparityFloat16: OSType = 0x6864_6973
 /// One 16-bit floating-point component.
 public let kCVPixelFormatType_OneComponent16Half: OSType = 0x4C30_3068
 /// Alpha, blue, green, red; 8 bits each. There are no buffers of it.

@@ -49,7 +49,6 @@ private func bytesPerPixel(of format: OSType) -> Int? {
   case kCVPixelFormatType_DepthFloat16, kCVPixelFormatType_DisparityFloat16: 2
   case kCVPixelFormatType_OneComponent32Float: 4
   case kCVPixelFormatType_24RGB: 3
-  case kCVPixelFormatType_DepthFloat16, kCVPixelFormatType_DisparityFloat16: 2
   case kCVPixelFormatType_OneComponent16Half: 2
   case kCVPixelFormatType_OneComponent8: 1
   default: nil

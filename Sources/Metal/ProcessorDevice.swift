@@ -62,7 +62,9 @@ final class ProcessorDevice: MTLDevice, CustomStringConvertible {
 
   func supportsFamily(_ gpuFamily: MTLGPUFamily) -> Bool { true }
 
-  func supportsTextureSampleCount(_ sampleCount: Int) -> Bool { [1, 2, 4, 8].contains(sampleCount) }
+  func supportsTextureSampleCount(_ sampleCount: Int) -> Bool {
+    [1, 2, 4, 8].contains(sampleCount)
+  }
 
   func makeCommandQueue() -> (any MTLCommandQueue)? { nil }
 }

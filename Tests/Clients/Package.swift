@@ -43,7 +43,7 @@ let package = Package(
     program("AsyncMain", "RealityKit", "CoreGraphics", "CoreVideo", "ImageIO"),
     program(
       "EverySymbol", "RealityKit", "Combine", "CoreGraphics", "CoreImage", "CoreMotion",
-      "CoreVideo", "ImageIO", "Metal", "OSLog", "os", "UniformTypeIdentifiers"),
+      "CoreVideo", "ImageIO", "Metal", "OSLog", "QuartzCore", "os", "UniformTypeIdentifiers"),
     program("HelloPhotogrammetry", "RealityKit"),
     program("SampleSequence", "RealityKit", "CoreVideo"),
     program("MaskedSamples", "RealityKit", "CoreGraphics", "CoreVideo", "ImageIO"),

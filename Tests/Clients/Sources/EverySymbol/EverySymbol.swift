@@ -11,15 +11,18 @@ struct EverySymbol {
     let folder = URL(fileURLWithPath: CommandLine.arguments[2], isDirectory: true)
     try useGeometry()
     useMachine()
+    useDurations()
     useErrors(folder)
     guard let name = try FileManager.default.contentsOfDirectory(atPath: photos.path).sorted().first
     else { return check(false, "there are no photos") }
     let photo = photos.appendingPathComponent(name)
     try await useSamples(photo)
+    try usePool()
     try useImages(photo)
     try useRendering(photo)
     useLogs()
     useKinds()
+    try useSystem(photo)
     await usePublishers()
     let session = try Session(input: photos, configuration: makeConfiguration(checkpoint: folder))
     check(!session.isProcessing && session.activeRequests.isEmpty, "idle")

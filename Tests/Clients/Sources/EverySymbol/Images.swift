@@ -28,6 +28,15 @@ private func useSource(_ photo: URL) throws {
   check(CGImageSourceGetType(source) == "public.jpeg", "type")
   check(CGImageSourceGetStatus(source) == CGImageSourceStatus.statusComplete, "status")
   check(properties[kCGImagePropertyPixelWidth] as? Int == image.width, "width")
+  guard let provider = CGDataProvider(url: photo as CFURL),
+    let same = CGImage(
+      jpegDataProviderSource: provider, decode: nil, shouldInterpolate: true,
+      intent: .defaultIntent)
+  else { return check(false, "a file is an image") }
+  check(same.width == image.width, "the same file")
+  let other = CGImage(
+    pngDataProviderSource: provider, decode: nil, shouldInterpolate: false, intent: .perceptual)
+  check(other == nil, "no PNG")
   check(properties[kCGImagePropertyPixelHeight] as? Double == Double(image.height), "height")
   check((properties[kCGImagePropertyOrientation] as? NSNumber)?.intValue == 1, "upright")
   check(properties[kCGImagePropertyColorModel] as? String == kCGImagePropertyColorModelRGB, "RGB")
@@ -63,7 +72,7 @@ private func write(_ image: CGImage, _ source: CGImageSource) throws {
   else { return check(false, "HEIC can be written") }
   CGImageDestinationAddImage(heic, image, quality)
   check(CGImageDestinationFinalize(heic), "HEIC written")
-  let read = CGImageSourceCreateWithData(shot, nil).flatMap(CGImageSourceGetType)
+  let read = CGImageSourceCreateWithData(shot as CFData, nil).flatMap(CGImageSourceGetType)
   check(read == "public.heic" as CFString, "HEIC read")
   check(CGImageDestinationCreateWithURL(url, "com.ilm.openexr-image", 1, nil) == nil, "no OpenEXR")
 }
@@ -85,6 +94,18 @@ private func useProperties() {
     kCGImagePropertyExifPixelYDimension, kCGImagePropertyGPSLatitude,
     kCGImagePropertyGPSLatitudeRef, kCGImagePropertyGPSLongitude, kCGImagePropertyGPSLongitudeRef,
     kCGImagePropertyGPSAltitude, kCGImagePropertyGPSAltitudeRef,
+    kCGImagePropertyGPSDateStamp, kCGImagePropertyGPSTimeStamp, kCGImagePropertyGPSImgDirection,
+    kCGImagePropertyGPSImgDirectionRef, kCGImagePropertyDPIWidth, kCGImagePropertyDPIHeight,
+    kCGImagePropertyProfileName, kCGImagePropertyMakerAppleDictionary,
+    kCGImagePropertyTIFFArtist, kCGImagePropertyTIFFCopyright,
+    kCGImagePropertyExifApertureValue, kCGImagePropertyExifBrightnessValue,
+    kCGImagePropertyExifColorSpace, kCGImagePropertyExifDigitalZoomRatio,
+    kCGImagePropertyExifExposureBiasValue, kCGImagePropertyExifExposureMode,
+    kCGImagePropertyExifExposureProgram, kCGImagePropertyExifFlash,
+    kCGImagePropertyExifLightSource, kCGImagePropertyExifMaxApertureValue,
+    kCGImagePropertyExifMeteringMode, kCGImagePropertyExifSceneCaptureType,
+    kCGImagePropertyExifShutterSpeedValue, kCGImagePropertyExifSubjectDistance,
+    kCGImagePropertyExifUserComment, kCGImagePropertyExifWhiteBalance,
   ]
   check(names.allSatisfy { !$0.isEmpty } && names[3] == "{Exif}", "names")
   let numbers = [NSNumber(value: 1.5) as CFNumber] as CFArray
@@ -183,7 +204,8 @@ private func useColours() {
   check(names.allSatisfy { CGColorSpace(name: $0)?.model == CGColorSpaceModel.rgb }, "colours")
   check(grays.allSatisfy { CGColorSpace(name: $0)?.model == .monochrome }, "grays")
   check(CGColor.black != CGColor.white && CGColor.clear.alpha == 0, "colours are told apart")
-  let red = CGColor(red: 1, green: 0, blue: 0, alpha: 0.5)
+  let red = CGColor(srgbRed: 1, green: 0, blue: 0, alpha: 0.5)
+  check(red == CGColor(red: 1, green: 0, blue: 0, alpha: 0.5), "the space of all colours")
   check(red.components == [1, 0, 0, 0.5] && red.colorSpace?.model == .rgb, "components")
   let orders: CGBitmapInfo = [.byteOrder16Little, .byteOrder16Big, .byteOrder32Big]
   check(CGBitmapInfo.byteOrderMask.isSuperset(of: orders), "orders")

@@ -3,6 +3,7 @@ import CoreImage
 import CoreVideo
 import Foundation
 import ImageIO
+import Metal
 
 /// Images that are turned, cut and rendered.
 func useRendering(_ photo: URL) throws {
@@ -34,6 +35,10 @@ func useRendering(_ photo: URL) throws {
   check(half.extent.width == CGFloat(width) / 2, "half of it")
   let part = CIImage(cgImage: original).cropped(to: CGRect(x: 0, y: 0, width: 8, height: 4))
   check(context.createCGImage(part, from: part.extent)?.height == 4, "a part")
+  if let device = MTLCreateSystemDefaultDevice() {
+    let other = CIContext(mtlDevice: device, options: nil)
+    check(other.createCGImage(part, from: part.extent)?.width == 8, "by a device")
+  }
   try write(part, with: context)
 }
 

@@ -79,6 +79,9 @@ private func copy(of image: CVImageBuffer) throws -> CVPixelBuffer {
     kCVPixelFormatType_32ARGB, kCVPixelFormatType_32RGBA, kCVPixelFormatType_24RGB,
     kCVPixelFormatType_OneComponent32Float, kCVPixelFormatType_DepthFloat32,
     kCVPixelFormatType_DepthFloat16, kCVPixelFormatType_DisparityFloat16,
+    kCVPixelFormatType_OneComponent16Half, kCVPixelFormatType_32ABGR,
+    kCVPixelFormatType_420YpCbCr8BiPlanarFullRange,
+    kCVPixelFormatType_420YpCbCr8BiPlanarVideoRange,
   ]
   let keys = [
     kCVPixelBufferPixelFormatTypeKey, kCVPixelBufferWidthKey, kCVPixelBufferHeightKey,
@@ -89,10 +92,42 @@ private func copy(of image: CVImageBuffer) throws -> CVPixelBuffer {
   let time: CFAbsoluteTime = CFAbsoluteTimeGetCurrent()
   let span: CFTimeInterval = autoreleasepool { CFAbsoluteTimeGetCurrent() - time }
   check(span >= 0, "time goes on")
-  check(Set(formats).count == 5 && Set(keys as [String]).count == 5, "codes")
+  check(Set(formats).count == 11 && Set(keys as [String]).count == 5, "codes")
   let orientations: [CGImagePropertyOrientation] = [
     .up, .upMirrored, .down, .downMirrored, .leftMirrored, .right, .rightMirrored, .left,
   ]
   check(orientations.map(\.rawValue) == Array(1...8), "orientations")
   return result
+}
+
+/// Buffers of a pool.
+func usePool() throws {
+  let attributes: [String: Any] = [
+    kCVPixelBufferPixelFormatTypeKey as String: kCVPixelFormatType_32BGRA,
+    kCVPixelBufferWidthKey as String: 6, kCVPixelBufferHeightKey as String: 4,
+  ]
+  let keeping = [
+    kCVPixelBufferPoolMinimumBufferCountKey: 2, kCVPixelBufferPoolMaximumBufferAgeKey: 1,
+  ]
+  var pool: CVPixelBufferPool?
+  CVPixelBufferPoolCreate(
+    kCFAllocatorSystemDefault, keeping as CFDictionary, attributes as CFDictionary, &pool)
+  guard let pool else { throw NoBuffer(code: 3) }
+  var (first, second): (CVPixelBuffer?, CVPixelBuffer?)
+  let codes = [
+    CVPixelBufferPoolCreatePixelBuffer(nil, pool, &first),
+    CVPixelBufferPoolCreatePixelBuffer(nil, pool, &second),
+  ]
+  guard codes == [kCVReturnSuccess, kCVReturnSuccess], let first, let second else {
+    throw NoBuffer(code: 4)
+  }
+  check(first != second && CVImageBufferGetEncodedSize(first).width == 6, "two buffers")
+  check(CVImageBufferGetDisplaySize(second).height == 4, "size")
+  memset(CVPixelBufferGetBaseAddress(first), 7, CVPixelBufferGetDataSize(first))
+  memcpy(CVPixelBufferGetBaseAddress(second), CVPixelBufferGetBaseAddress(first), 24)
+  let byte = CVPixelBufferGetBaseAddress(second)?.load(fromByteOffset: 23, as: UInt8.self)
+  check(byte == 7, "copied")
+  check(CVPixelBufferGetBaseAddressOfPlane(first, 0) == nil, "no planes")
+  check(CVPixelBufferGetBytesPerRowOfPlane(first, 0) == 0, "no rows")
+  check(CVPixelBufferGetWidthOfPlane(first, 0) + CVPixelBufferGetHeightOfPlane(first, 0) == 0, "")
 }
