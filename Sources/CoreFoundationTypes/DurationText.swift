@@ -44,10 +44,14 @@ struct DurationText {
     guard limit > 0, let first = parts.firstIndex(where: { $0.count > 0 }),
       parts.count - first > limit
     else { return parts }
-    let kept = parts[first..<first + limit].map(\.unit)
-    let last = kept[limit - 1].seconds
-    let rounded = formatter.allowsFractionalUnits ? seconds : (seconds / last).rounded() * last
-    return split(rounded, into: kept, keepsFraction: formatter.allowsFractionalUnits)
+    let last = parts[first + limit - 1].unit.seconds
+    let keepsFraction = formatter.allowsFractionalUnits
+    let rounded = keepsFraction ? seconds : (seconds / last).rounded() * last
+    // Rounding may fill the next unit: 59 minutes and 50 seconds are an hour.
+    let all = split(rounded, into: parts.map(\.unit), keepsFraction: keepsFraction)
+    let start = all.firstIndex { $0.count > 0 } ?? first
+    let units = all[start..<min(all.count, start + limit)].map(\.unit)
+    return split(rounded, into: units, keepsFraction: keepsFraction)
   }
 
   var text: String? {
