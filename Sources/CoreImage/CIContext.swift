@@ -49,12 +49,7 @@ public final class CIContext: Sendable {
   /// An image as a JPEG file; nil where it can't be rendered.
   public func jpegRepresentation(
     of image: CIImage, colorSpace: CGColorSpace, options: [CIImageRepresentationOption: Any] = [:]
-  ) -> Data? {
-    let name = CIImageRepresentationOption(rawValue: kCGImageDestinationLossyCompressionQuality)
-    var properties: CFDictionary = [:]
-    properties[kCGImageDestinationLossyCompressionQuality] = options[name]
-    return file(of: image, "public.jpeg", properties)
-  }
+  ) -> Data? { file(of: image, "public.jpeg", quality(options)) }
 
   /// An image as a PNG file; nil where it can't be rendered.
   public func pngRepresentation(
@@ -67,10 +62,8 @@ public final class CIContext: Sendable {
     of image: CIImage, to url: URL, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
   ) throws {
-    guard let data = jpegRepresentation(of: image, colorSpace: colorSpace, options: options) else {
-      throw CocoaError(.fileWriteUnknown, userInfo: [NSFilePathErrorKey: url.path])
-    }
-    try data.write(to: url)
+    try write(
+      jpegRepresentation(of: image, colorSpace: colorSpace, options: options), to: url)
   }
 
   /// Writes an image as a PNG file.
@@ -78,7 +71,34 @@ public final class CIContext: Sendable {
     of image: CIImage, to url: URL, format: CIFormat, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
   ) throws {
-    guard let data = file(of: image, "public.png", [:]) else {
+    try write(file(of: image, "public.png", [:]), to: url)
+  }
+
+  /// The image as a HEIC file, of the quality that the options name.
+  public func heifRepresentation(
+    of image: CIImage, format: CIFormat, colorSpace: CGColorSpace,
+    options: [CIImageRepresentationOption: Any] = [:]
+  ) -> Data? { file(of: image, "public.heic", quality(options)) }
+
+  /// Writes an image as a HEIC file.
+  public func writeHEIFRepresentation(
+    of image: CIImage, to url: URL, format: CIFormat, colorSpace: CGColorSpace,
+    options: [CIImageRepresentationOption: Any] = [:]
+  ) throws {
+    try write(
+      heifRepresentation(of: image, format: format, colorSpace: colorSpace, options: options),
+      to: url)
+  }
+
+  /// The option that files have an equivalent of.
+  private func quality(_ options: [CIImageRepresentationOption: Any]) -> CFDictionary {
+    let key = kCGImageDestinationLossyCompressionQuality
+    let value = options[CIImageRepresentationOption(rawValue: key)]
+    return value.map { [key: $0] } ?? [:]
+  }
+
+  private func write(_ data: Data?, to url: URL) throws {
+    guard let data else {
       throw CocoaError(.fileWriteUnknown, userInfo: [NSFilePathErrorKey: url.path])
     }
     try data.write(to: url)

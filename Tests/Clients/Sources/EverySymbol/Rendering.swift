@@ -56,4 +56,9 @@ private func write(_ image: CIImage, with context: CIContext) throws {
   try context.writeJPEGRepresentation(of: image, to: url, colorSpace: space)
   try context.writePNGRepresentation(of: image, to: url, format: .BGRA8, colorSpace: space)
   check(CIImage(contentsOf: url) != nil, "a file")
+  let heic = context.heifRepresentation(
+    of: image, format: .RGBA8, colorSpace: space, options: [quality: 0.8])
+  check(heic.flatMap { CIImage(data: $0) }?.extent == image.extent, "HEIC")
+  try context.writeHEIFRepresentation(of: image, to: url, format: .RGBA8, colorSpace: space)
+  check(CIImage(contentsOf: url)?.extent == image.extent, "a file again")
 }
