@@ -61,8 +61,9 @@ void run(const std::shared_ptr<Job>& job) {
 
 /// How far the solver is, which has no progress of its own: what it usually takes is gone through
 /// evenly to four fifths, and nears its end from there on.
-double fraction(double seconds, size_t points) {
-  const double usual = 1 + 4.2e-5 * static_cast<double>(points);
+double fraction(double seconds, int depth, size_t points) {
+  const double usual =
+      3.4 * std::pow(2.4, depth - 8) * std::pow(1e-5 * static_cast<double>(points), 0.25);
   const double share = seconds / usual;
   return share < 0.8 ? share : 1 - 0.2 * std::exp(4 - 5 * share);
 }
@@ -75,7 +76,7 @@ void await(Job& job, std::thread& worker, const ck_control* control) {
     job.finished.wait_for(lock, std::chrono::milliseconds(50));
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     try {
-      ck::step(control, fraction(elapsed.count(), job.cloud.points_.size()));
+      ck::step(control, fraction(elapsed.count(), job.options.depth, job.cloud.points_.size()));
     } catch (...) {
       worker.detach();
       throw;

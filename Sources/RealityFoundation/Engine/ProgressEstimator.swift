@@ -13,8 +13,8 @@ struct ProgressEstimator: Sendable {
     var seconds = 0.0
 
     /// How much its duration tells of the machine. That of an alignment tells of the photos: of how
-    /// many features they have, and how many of the pairs show the same.
-    var evidence: Double { unit.stage == .imageAlignment ? 0.1 : 1 }
+    /// many features they have, and how many of the pairs show the same; that of a mesh of the shape.
+    var evidence: Double { [.imageAlignment, .meshGeneration].contains(unit.stage) ? 0.1 : 1 }
 
     var isDone: Bool { fraction >= 1 }
     /// Whether the work was really done and not taken over from an earlier run.

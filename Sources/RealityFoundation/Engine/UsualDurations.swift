@@ -2,7 +2,7 @@ import Pipeline
 
 /// How long units of work usually take: where an estimate begins.
 ///
-/// Fitted to eight runs on two threads, from 8 to 40 photos of 0.5 to 6 megapixels, at all levels from
+/// Fitted to ten runs on two threads, from 8 to 40 photos of 0.5 to 6 megapixels, at all levels from
 /// preview to full. Meshes and textures take one thread for the most part.
 package struct UsualDurations: Sendable {
   /// The photos that are used.
@@ -47,7 +47,8 @@ package struct UsualDurations: Sendable {
     case .preProcessing: (0.01 * count + 0.015 * megapixels) / threads
     case .imageAlignment: (0.4 * count + 0.09 * megapixels + 0.005 * pairs) / threads
     case .pointCloudGeneration: 0.4 + 1.84 * count * view / threads
-    case .meshGeneration: 20 * pow(view, 0.45)
+    // The octree is mostly as deep for a fifth of a megapixel as for half of one, and shallower below.
+    case .meshGeneration: view < 0.12 ? 4.2 : 14.5 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
     case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
     case .optimization: 0.1 + 0.06 * texels
     }
