@@ -135,6 +135,8 @@ package enum ImageCodec {
       try withKernel(KernelControl()) { _ in
         withUnsafePointer(to: rawLimits) { body(codec, $0, &image) }
       }
+    } catch KernelError.invalidArgument where codec == ck_codec_heif {
+      throw HEIFFile.unsupported(header.format)
     } catch {
       throw .damaged("its \(header.format.rawValue) data is damaged (\(message(of: error)))")
     }

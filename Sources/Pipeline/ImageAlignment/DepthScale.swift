@@ -26,6 +26,7 @@ struct DepthScale: Sendable {
   func run(
     _ readings: [Int: SensorReading], _ reconstruction: Reconstruction, _ notes: StageNotes
   ) -> Double? {
+    guard readings.values.contains(where: { $0.depth != nil }) else { return nil }
     let asDepths = agreement(readings, reconstruction, isDisparity: false)
     let asDisparities = agreement(readings, reconstruction, isDisparity: true)
     let best = asDisparities.isBetter(than: asDepths) ? asDisparities : asDepths
