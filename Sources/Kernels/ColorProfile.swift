@@ -86,11 +86,12 @@ package enum ColorProfile: Hashable, Sendable {
     return profile.isEmpty ? nil : profile
   }
 
-  /// EXIF has a word for sRGB only; what is not sRGB and of the kind R03 is Adobe RGB.
+  /// EXIF has a number for sRGB only; what isn't said to be sRGB and of the kind R03 is Adobe RGB.
   private static func isAdobeRGB(_ reader: ByteReader) -> Bool {
     guard let tiff = TIFFStructure(exifOf: reader),
-      let exif = tiff.directory(linkedBy: 34665, in: tiff.firstDirectory),
-      let interoperability = tiff.directory(linkedBy: 40965, in: exif),
+      let exif = tiff.integer(of: 34665, in: tiff.firstDirectory),
+      tiff.integer(of: 40961, in: exif) != 1,
+      let interoperability = tiff.integer(of: 40965, in: exif),
       let kind = tiff.entries(ofDirectoryAt: interoperability).first(where: { $0.tag == 1 })
     else { return false }
     return tiff.text(kind) == "R03"

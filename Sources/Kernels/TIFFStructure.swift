@@ -94,8 +94,8 @@ package struct TIFFStructure: Sendable {
     self.init(reader, at: reader.hasText("Exif\0", at: start) ? start + 6 : start)
   }
 
-  /// The directory that a field of another points to.
-  package func directory(linkedBy tag: Int, in directory: Int) -> Int? {
+  /// The unsigned integer of a directory's field: a number, or where another directory is.
+  package func integer(of tag: Int, in directory: Int) -> Int? {
     entries(ofDirectoryAt: directory).first { $0.tag == tag }.flatMap { integer($0) }
   }
 

@@ -96,6 +96,10 @@ import Testing
     expectConverted(image, within: 1.01, fromAdobeRGB)
     let ordinary = jpeg(try ImageCodec.encodeJPEG(Self.patches, quality: 1), withKind: "R98")
     #expect(ColorProfile(ordinary) == nil)
+    // A program has converted it, and left the kind as it was.
+    let converted = jpeg(
+      try ImageCodec.encodeJPEG(Self.patches, quality: 1), withKind: "R03", colorSpace: 1)
+    #expect(ColorProfile(converted) == nil)
   }
 
   @Test func colorsOfSRGBStay() throws {
@@ -151,13 +155,17 @@ import Testing
   }
 
   /// A JPEG file whose EXIF data has a directory for interoperability, with its kind.
-  private func jpeg(_ jpeg: [UInt8], withKind kind: String) -> [UInt8] {
-    func directory(_ tag: Int, _ type: Int, _ count: Int, _ value: [UInt8]) -> [UInt8] {
-      [0, 1] + big(tag).suffix(2) + big(type).suffix(2) + big(count) + value + big(0)
+  private func jpeg(
+    _ jpeg: [UInt8], withKind kind: String, colorSpace: Int = 65535
+  ) -> [UInt8] {
+    func field(_ tag: Int, _ type: Int, _ count: Int, _ value: [UInt8]) -> [UInt8] {
+      big(tag).suffix(2) + big(type).suffix(2) + big(count) + value
     }
+    let space = field(40961, 3, 1, big(colorSpace).suffix(2) + [0, 0])
     let tiff =
-      Array("MM".utf8) + [0, 42] + big(8) + directory(34665, 4, 1, big(26))
-      + directory(40965, 4, 1, big(44)) + directory(1, 2, 4, Array(kind.utf8) + [0])
+      Array("MM".utf8) + [0, 42] + big(8) + [0, 1] + field(34665, 4, 1, big(26)) + big(0)
+      + [0, 2] + space + field(40965, 4, 1, big(56)) + big(0)
+      + [0, 1] + field(1, 2, 4, Array(kind.utf8) + [0]) + big(0)
     let content = Array("Exif\0\0".utf8) + tiff
     return Array(jpeg.prefix(2)) + [0xFF, 0xE1] + big(content.count + 2).suffix(2) + content
       + jpeg.dropFirst(2)

@@ -48,8 +48,7 @@ struct SensorFiles {
       do throws(ImageError) {
         reading.depth = try Self.depth(file).turned(byOrientation: orientation)
       } catch {
-        let reason = error.errorDescription ?? "it can't be read"
-        problems.append("\(file.lastPathComponent) is not used: \(reason).")
+        problems.append("\(file.lastPathComponent) is not used: \(Self.reason(error)).")
       }
     }
     return reading == SensorReading() ? nil : reading
@@ -71,6 +70,14 @@ struct SensorFiles {
     }
     map.mayBeDisparities = true
     return map
+  }
+
+  /// What may be done about a photo that can't be read is of no use here.
+  private static func reason(_ error: ImageError) -> String {
+    switch error {
+    case .unsupportedFormat, .notAnImage: "it is no image of 32-bit floating-point numbers"
+    case .tooLarge, .damaged, .unreadable: error.errorDescription ?? "it can't be read"
+    }
   }
 
   /// Three numbers with commas between them.

@@ -63,6 +63,7 @@ import Testing
       #expect(notes.warnings.contains { $0.hasPrefix("\(name) is not used") }, "\(name)")
     }
     #expect(notes.warnings.count == 3)
+    #expect(!notes.warnings.contains { $0.contains("JPEG") })
   }
 
   @Test func namesAloneMakeNoReading() {
