@@ -32,6 +32,13 @@ let strictCxx: [CXXSetting] = [
   ]),
 ]
 
+/// A module that stands in for one of Apple's; see `Sources/AppleModules/README.md`.
+func appleModule(_ name: String, _ dependencies: [Target.Dependency] = []) -> Target {
+  .target(
+    name: name, dependencies: dependencies, path: "Sources/AppleModules/\(name)",
+    swiftSettings: strict)
+}
+
 var products: [Product] = [
   .executable(name: "photogrammetry-cli", targets: ["photogrammetry-cli"])
 ]
@@ -64,52 +71,51 @@ var cliDependencies: [Target.Dependency] = [
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
         .linkedLibrary("opencv_imgcodecs"),
         .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
-        .linkedLibrary("meshoptimizer"), .linkedLibrary("embree3"),
+        .linkedLibrary("embree3"),
         .linkedLibrary("jpeg"), .linkedLibrary("png"), .linkedLibrary("deflate"),
         .linkedLibrary("xxhash"), .linkedLibrary("heif"), .linkedLibrary("lcms2"),
       ]),
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(
-      name: "Pipeline", dependencies: ["Kernels", "Formats", "SceneModel", logging],
-      swiftSettings: strict),
-    .target(name: "Combine", swiftSettings: strict),
-    .target(name: "CoreFoundationTypes", swiftSettings: strict),
-    .target(
-      name: "BitmapGraphics", dependencies: ["Kernels", "SceneModel", "CoreFoundationTypes"],
-      swiftSettings: strict),
-    .target(name: "CoreGraphics", dependencies: ["BitmapGraphics"], swiftSettings: strict),
-    .target(
-      name: "CoreImage",
-      dependencies: ["BitmapGraphics", "CoreVideo", "ImageIO", "Kernels", "Metal", "SceneModel"],
-      swiftSettings: strict),
-    .target(name: "CoreMotion", swiftSettings: strict),
-    .target(
-      name: "CoreVideo", dependencies: ["CoreFoundationTypes", "Kernels", "SceneModel"],
+      name: "ImageFiles", dependencies: ["CKernels", "Kernels", "SceneModel"],
       swiftSettings: strict),
     .target(
-      name: "ImageIO",
-      dependencies: ["BitmapGraphics", "CoreFoundationTypes", "Kernels", "Pipeline", "SceneModel"],
+      name: "Pipeline", dependencies: ["Kernels", "ImageFiles", "Formats", "SceneModel", logging],
       swiftSettings: strict),
-    .target(name: "OSLog", dependencies: ["os"], swiftSettings: strict),
-    .target(name: "QuartzCore", dependencies: ["CoreFoundationTypes"], swiftSettings: strict),
-    .target(name: "UniformTypeIdentifiers", swiftSettings: strict),
-    .target(name: "Metal", swiftSettings: strict),
-    .target(name: "OSLogModule"),
-    .target(name: "os", dependencies: ["OSLogModule", logging], swiftSettings: strict),
-    .target(name: "simd", swiftSettings: strict),
+    appleModule("CoreFoundationTypes"),
+    appleModule("BitmapGraphics", ["CoreFoundationTypes", "ImageFiles", "Kernels", "SceneModel"]),
+    appleModule("Combine"),
+    appleModule("CoreGraphics", ["BitmapGraphics"]),
+    appleModule(
+      "CoreImage",
+      [
+        "BitmapGraphics", "CoreVideo", "ImageFiles", "ImageIO", "Kernels", "Metal", "SceneModel",
+      ]),
+    appleModule("CoreMotion"),
+    appleModule("CoreVideo", ["CoreFoundationTypes", "Kernels", "SceneModel"]),
+    appleModule(
+      "ImageIO", ["BitmapGraphics", "CoreFoundationTypes", "ImageFiles", "Kernels", "SceneModel"]),
+    appleModule("Metal"),
+    .target(name: "OSLogModule", path: "Sources/AppleModules/OSLogModule"),
+    appleModule("OSLog", ["os"]),
+    appleModule("QuartzCore", ["CoreFoundationTypes"]),
+    appleModule("UniformTypeIdentifiers"),
+    appleModule("os", ["OSLogModule", logging]),
+    appleModule("simd"),
     .target(
       name: "RealityFoundation",
       dependencies: [
-        "Pipeline", "Kernels", "Formats", "SceneModel", "BitmapGraphics", "CoreMotion", "CoreVideo",
-        "ImageIO", "os", "simd", logging,
+        "Pipeline", "Kernels", "ImageFiles", "Formats", "SceneModel", "BitmapGraphics",
+        "CoreMotion", "CoreVideo", "ImageIO", "os", "simd", logging,
       ],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),
     .target(
-      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "Formats"],
+      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles", "Formats"],
       path: "Tests/TestSupport", swiftSettings: strict),
     .executableTarget(
-      name: "render-fixtures", dependencies: ["TestSupport", "SceneModel", "Kernels", "Formats"],
+      name: "render-fixtures",
+      dependencies: ["TestSupport", "SceneModel", "Kernels", "ImageFiles", "Formats"],
       path: "Tests/FixtureRenderer", swiftSettings: strict),
     .executableTarget(
       name: "growth-benchmark",
@@ -124,21 +130,31 @@ var cliDependencies: [Target.Dependency] = [
       name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
+      name: "ImageFilesTests",
+      dependencies: ["ImageFiles", "Kernels", "SceneModel", "TestSupport"],
+      swiftSettings: strict),
+    .testTarget(
+      name: "AppleModulesTests",
+      dependencies: ["RealityFoundation", "Metal", "SceneModel", "os", "simd", logging],
+      swiftSettings: strict),
+    .testTarget(
       name: "PipelineTests",
-      dependencies: ["Pipeline", "Evaluation", "Formats", "Kernels", "SceneModel", "TestSupport"],
+      dependencies: [
+        "Pipeline", "Evaluation", "Formats", "ImageFiles", "Kernels", "SceneModel", "TestSupport",
+      ],
       swiftSettings: strict),
     .testTarget(
       name: "RealityFoundationTests",
       dependencies: [
-        "RealityKit", "RealityFoundation", "Metal", "os", "Pipeline", "Formats", "Kernels",
-        "SceneModel", "simd", "TestSupport", logging,
+        "RealityKit", "RealityFoundation", "Metal", "os", "Pipeline", "Formats", "ImageFiles",
+        "Kernels", "SceneModel", "simd", "TestSupport", logging,
       ],
       swiftSettings: strict),
     .testTarget(
       name: "CommandLineTests",
       dependencies: [
-        "photogrammetry-cli", "Evaluation", "Formats", "Pipeline", "Kernels", "SceneModel",
-        "TestSupport",
+        "photogrammetry-cli", "Evaluation", "Formats", "Pipeline", "ImageFiles", "Kernels",
+        "SceneModel", "TestSupport",
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]

@@ -1,5 +1,6 @@
 import Formats
 import Foundation
+import ImageFiles
 import Kernels
 import SceneModel
 import TestSupport

@@ -3,7 +3,7 @@
 #include <ceres/manifold.h>
 #include <ceres/sized_cost_function.h>
 
-#include "bundle/camera_model.h"
+#include "geometry/camera_model.h"
 #include "ck_bundle.h"
 
 namespace ck {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "bundle/camera_model.h"
+#include "geometry/camera_model.h"
 #include "ck_bundle.h"
 #include "core/guard.h"
 #include "core/parallel.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "bundle/camera_model.h"
+#include "geometry/camera_model.h"
 #include "ck_global.h"
 #include "core/guard.h"
 #include "global/block_cholesky.h"

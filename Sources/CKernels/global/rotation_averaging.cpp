@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bundle/camera_model.h"
+#include "geometry/camera_model.h"
 #include "ck_global.h"
 #include "core/guard.h"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "bundle/camera_model.h"
+#include "geometry/camera_model.h"
 
 namespace ck {
 

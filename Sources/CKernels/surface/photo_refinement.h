@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "ck_surface.h"
-#include "texture/pinhole.h"
-#include "texture/vec.h"
+#include "geometry/pinhole.h"
+#include "geometry/vec.h"
 
 namespace ck::surface {
 

@@ -8,7 +8,7 @@
 
 #include "ck_texture.h"
 #include "core/parallel.h"
-#include "texture/ray_scene.h"
+#include "geometry/ray_scene.h"
 
 namespace ck::texture {
 

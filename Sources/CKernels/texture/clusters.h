@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "texture/vec.h"
+#include "geometry/vec.h"
 
 namespace ck::texture {
 

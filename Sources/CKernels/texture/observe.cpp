@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/parallel.h"
-#include "texture/pinhole.h"
-#include "texture/ray_scene.h"
+#include "geometry/pinhole.h"
+#include "geometry/ray_scene.h"
 
 namespace ck::texture {
 namespace {

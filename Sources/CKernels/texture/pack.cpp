@@ -8,7 +8,7 @@
 #include "ck_texture.h"
 #include "core/guard.h"
 #include "texture/sheet.h"
-#include "texture/vec.h"
+#include "geometry/vec.h"
 
 namespace ck::texture {
 namespace {

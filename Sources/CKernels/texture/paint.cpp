@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "texture/atlas.h"
-#include "texture/pinhole.h"
+#include "geometry/pinhole.h"
 
 namespace ck::texture {
 namespace {

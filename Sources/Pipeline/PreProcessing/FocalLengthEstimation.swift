@@ -1,3 +1,4 @@
+import ImageFiles
 import SceneModel
 
 /// The focal length in pixels from a photo's metadata.

@@ -1,3 +1,4 @@
+import ImageFiles
 import Kernels
 import SceneModel
 

@@ -1,3 +1,4 @@
+import ImageFiles
 import ImageIO
 import Kernels
 import Pipeline

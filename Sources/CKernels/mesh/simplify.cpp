@@ -1,0 +1,347 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "ck_texture.h"
+#include "core/guard.h"
+#include "mesh/collapse_mesh.h"
+#include "mesh/collapse_queue.h"
+#include "mesh/quadric.h"
+#include "mesh/surface_fit.h"
+
+namespace ck::texture {
+namespace {
+
+using Face = CollapseMesh::Face;
+
+/// A vertex is drawn to the middle of its edge by this share of its planes' weight, and is never
+/// farther from there than this many lengths of the edge: nearly parallel planes meet far away.
+constexpr double kPull = 1e-4, kReach = 2;
+
+std::vector<Point> load_points(const InputMesh& input) {
+  std::vector<Point> points(input.position_count);
+  for (size_t i = 0; i < points.size(); ++i) {
+    points[i] = input.point(i);
+    require(
+        std::isfinite(points[i][0]) && std::isfinite(points[i][1]) && std::isfinite(points[i][2]),
+        "a mesh has a vertex that is not finite");
+  }
+  return points;
+}
+
+/// The triangles without those that name a vertex twice or have the vertices of an earlier one.
+std::vector<Face> load_faces(const InputMesh& input) {
+  std::vector<std::pair<Face, size_t>> sorted;
+  sorted.reserve(input.triangle_count);
+  for (size_t t = 0; t < input.triangle_count; ++t) {
+    const uint32_t* corners = input.triangles + 3 * t;
+    Face f = {corners[0], corners[1], corners[2]};
+    for (const uint32_t v : f) {
+      require(v < input.position_count, "a triangle names a vertex that isn't there");
+    }
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
+    std::sort(f.begin(), f.end());
+    sorted.push_back({f, t});
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<bool> is_kept(input.triangle_count, false);
+  for (size_t i = 0; i < sorted.size(); ++i) {
+    is_kept[sorted[i].second] = i == 0 || sorted[i].first != sorted[i - 1].first;
+  }
+  std::vector<Face> faces;
+  faces.reserve(sorted.size());
+  for (size_t t = 0; t < is_kept.size(); ++t) {
+    const uint32_t* corners = input.triangles + 3 * t;
+    if (is_kept[t]) faces.push_back({corners[0], corners[1], corners[2]});
+  }
+  return faces;
+}
+
+class Simplifier {
+ public:
+  explicit Simplifier(const InputMesh& input)
+      : input_(input),
+        mesh_(load_points(input), load_faces(input)),
+        vertices_(input.position_count),
+        versions_(input.position_count, 0),
+        homes_(input.position_count),
+        alive_(mesh_.face_count()) {
+    std::iota(homes_.begin(), homes_.end(), 0u);
+    find_borders();
+    add_quadrics();
+  }
+
+  /// Collapses the cheapest edges first; no triangle may turn by more than the angle of `cosine`.
+  void run(size_t maximum, double cosine, const ck_control* control) {
+    if (alive_ <= maximum) return;
+    minimum_cosine_ = cosine;
+    fill_queue();
+    const size_t start = alive_;
+    size_t count = 0;
+    Collapse c;
+    while (alive_ > maximum && queue_.pop(&c)) {
+      if (++count % 8192 == 0) {
+        step(control, static_cast<double>(start - alive_) / static_cast<double>(start - maximum));
+      }
+      if (versions_[c.a] + versions_[c.b] == c.version) collapse(c);
+    }
+  }
+
+  /// Drops the smallest components until no more than `maximum` triangles and `maximum_pieces`
+  /// components are left.
+  void drop_components(size_t maximum, size_t maximum_pieces) {
+    std::vector<uint32_t> parents(mesh_.vertex_count());
+    std::iota(parents.begin(), parents.end(), 0u);
+    for_alive([&](uint32_t i) {
+      const Face& f = mesh_.face(i);
+      for (size_t k = 1; k < 3; ++k) {
+        const uint32_t a = root(&parents, f[0]), b = root(&parents, f[k]);
+        parents[std::max(a, b)] = std::min(a, b);
+      }
+    });
+    std::vector<double> areas(parents.size(), 0);
+    std::vector<size_t> counts(parents.size(), 0);
+    for_alive([&](uint32_t i) {
+      const Point n = mesh_.normal(mesh_.face(i));
+      const uint32_t piece = root(&parents, mesh_.face(i)[0]);
+      areas[piece] += std::sqrt(dot(n, n));
+      ++counts[piece];
+    });
+    std::vector<uint32_t> order;
+    for (uint32_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] > 0) order.push_back(i);
+    }
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+      return areas[a] != areas[b] ? areas[a] < areas[b] : a < b;
+    });
+    std::vector<bool> is_dropped(parents.size(), false);
+    for (size_t k = 0; k + 1 < order.size(); ++k) {
+      if (alive_ <= maximum && order.size() - k <= maximum_pieces) break;
+      is_dropped[order[k]] = true;
+      alive_ -= counts[order[k]];
+    }
+    for_alive([&](uint32_t i) {
+      if (is_dropped[root(&parents, mesh_.face(i)[0])]) mesh_.remove(i);
+    });
+  }
+
+  /// Makes up for what the collapses took off the surface.
+  void fit(const ck_control* control) {
+    if (!has_collapsed_) return;
+    for (uint32_t v = 0; v < homes_.size(); ++v) root(&homes_, v);
+    SurfaceFit(input_, homes_, &mesh_).run(control);
+  }
+
+  void copy(float* positions, size_t* position_count, size_t stride, uint32_t* triangles,
+            size_t* triangle_count) const {
+    std::vector<uint32_t> ids(mesh_.vertex_count());
+    uint32_t vertex_count = 0;
+    for (uint32_t v = 0; v < ids.size(); ++v) {
+      if (!mesh_.is_used(v)) continue;
+      ids[v] = vertex_count++;
+      auto* p = reinterpret_cast<float*>(reinterpret_cast<char*>(positions) + stride * ids[v]);
+      for (size_t k = 0; k < 3; ++k) p[k] = static_cast<float>(mesh_.point(v)[k]);
+    }
+    size_t count = 0;
+    for_alive([&](uint32_t i) {
+      for (size_t k = 0; k < 3; ++k) triangles[3 * count + k] = ids[mesh_.face(i)[k]];
+      ++count;
+    });
+    *position_count = vertex_count;
+    *triangle_count = count;
+  }
+
+ private:
+  struct Vertex {
+    Quadric quadric;
+    double error = 0;  ///< of the quadric at the vertex
+    bool is_border = false;
+  };
+
+  /// Where an edge's ends go when they become one.
+  struct Target {
+    Quadric quadric;
+    Point position;
+    double error;
+  };
+
+  static uint32_t root(std::vector<uint32_t>* parents, uint32_t i) {
+    std::vector<uint32_t>& p = *parents;
+    uint32_t top = i;
+    while (p[top] != top) top = p[top];
+    while (p[i] != top) i = std::exchange(p[i], top);
+    return top;
+  }
+
+  template <typename Body>
+  void for_alive(Body&& body) const {
+    for (uint32_t i = 0; i < mesh_.face_count(); ++i) {
+      if (mesh_.is_alive(i)) body(i);
+    }
+  }
+
+  void find_borders() {
+    for (uint32_t v = 0; v < vertices_.size(); ++v) vertices_[v].is_border = mesh_.is_border(v);
+  }
+
+  bool is_border(uint32_t a, uint32_t b) const {
+    return vertices_[a].is_border && vertices_[b].is_border && mesh_.shared_faces(a, b) == 1;
+  }
+
+  void add_quadrics() {
+    for_alive([&](uint32_t i) {
+      const Face& f = mesh_.face(i);
+      const Point n = mesh_.normal(f);
+      const double doubled = std::sqrt(dot(n, n));
+      if (!(doubled > 0)) return;
+      Quadric q;
+      q.add_plane(n * (1 / doubled), mesh_.point(f[0]), doubled / 6);
+      for (size_t k = 0; k < 3; ++k) {
+        vertices_[f[k]].quadric += q;
+        if (is_border(f[k], f[(k + 1) % 3])) add_border(f[k], f[(k + 1) % 3], n * (1 / doubled));
+      }
+    });
+  }
+
+  /// An upright plane along an edge that only one triangle has holds the outline in its place.
+  void add_border(uint32_t a, uint32_t b, const Point& n) {
+    const Point side = cross(mesh_.point(b) - mesh_.point(a), n);
+    const double length2 = dot(side, side);
+    if (!(length2 > 0)) return;
+    Quadric q;
+    q.add_plane(side * (1 / std::sqrt(length2)), mesh_.point(a), length2);
+    vertices_[a].quadric += q;
+    vertices_[b].quadric += q;
+  }
+
+  Target target_at(uint32_t a, uint32_t b, const Point& p) const {
+    Quadric q = vertices_[a].quadric;
+    q += vertices_[b].quadric;
+    return {q, p, std::max(0.0, q(p))};
+  }
+
+  /// The place of least error.
+  Target target(uint32_t a, uint32_t b) const {
+    const Point along = mesh_.point(b) - mesh_.point(a), middle = mesh_.point(a) + along * 0.5;
+    Target t = target_at(a, b, middle);
+    const Point p = t.quadric.minimizer(middle, kPull), away = p - middle;
+    if (dot(away, away) > kReach * kReach * dot(along, along)) return t;
+    t.position = p;
+    t.error = std::max(0.0, t.quadric(p));
+    return t;
+  }
+
+  /// The best of both ends and the middle where no triangle turns too far; false when there is
+  /// none.
+  bool find_fallback(uint32_t a, uint32_t b, Target* best) const {
+    bool is_found = false;
+    for (const double share : {0.5, 0.0, 1.0}) {
+      const Target t = target_at(a, b, mesh_.point(a) + (mesh_.point(b) - mesh_.point(a)) * share);
+      if ((is_found && t.error >= best->error) || !keeps_shape(a, b, t.position)) continue;
+      *best = t;
+      is_found = true;
+    }
+    return is_found;
+  }
+
+  void push(uint32_t a, uint32_t b, const Target& t, bool is_fallback) {
+    // What the collapse adds to the error counts, not what the surface around has lost before.
+    const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
+    const Point along = mesh_.point(a) - mesh_.point(b);
+    // Among edges without error the shortest go first.
+    const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
+    queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
+  }
+
+  void push(uint32_t first, uint32_t second) {
+    const uint32_t a = std::min(first, second), b = std::max(first, second);
+    push(a, b, target(a, b), false);
+  }
+
+  void fill_queue() {
+    queue_ = {};
+    for_alive([&](uint32_t i) {
+      const Face& f = mesh_.face(i);
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t a = f[k], b = f[(k + 1) % 3];
+        if (a < b || is_border(a, b)) push(a, b);
+      }
+    });
+  }
+
+  void collapse(const Collapse& c) {
+    const uint32_t a = c.a, b = c.b;
+    if (!mesh_.can_join(a, b)) return;
+    Target t;
+    if (c.is_fallback) {
+      if (!find_fallback(a, b, &t)) return;
+    } else {
+      t = target(a, b);
+      if (!keeps_shape(a, b, t.position)) {
+        // Another place may cost far more: it waits for its turn.
+        if (find_fallback(a, b, &t)) push(a, b, t, true);
+        return;
+      }
+    }
+    alive_ -= mesh_.join(a, b);
+    mesh_.move(a, t.position);
+    vertices_[a] = {t.quadric, t.error, vertices_[a].is_border || vertices_[b].is_border};
+    ++versions_[a];
+    ++versions_[b];
+    homes_[b] = a;
+    has_collapsed_ = true;
+    mesh_.for_neighbors(a, [&](uint32_t v) { push(a, v); });
+  }
+
+  bool keeps_shape(uint32_t a, uint32_t b, const Point& p) const {
+    return keeps_sides(a, b, p) && keeps_sides(b, a, p);
+  }
+
+  /// Whether the triangles that stay at `v` keep their side when it moves to `p`.
+  bool keeps_sides(uint32_t v, uint32_t other, const Point& p) const {
+    return mesh_.all_faces(v, [&](uint32_t i) {
+      if (mesh_.has(i, other)) return true;
+      const Point before = mesh_.normal(mesh_.face(i));
+      const Point after = mesh_.normal(mesh_.face(i), v, p);
+      const double before2 = dot(before, before), after2 = dot(after, after);
+      if (!(after2 > 0)) return false;
+      return !(before2 > 0) || dot(before, after) >= minimum_cosine_ * std::sqrt(before2 * after2);
+    });
+  }
+
+  InputMesh input_;
+  CollapseMesh mesh_;
+  std::vector<Vertex> vertices_;
+  std::vector<uint32_t> versions_;  ///< how often each vertex has changed
+  std::vector<uint32_t> homes_;     ///< which vertex each one went into
+  CollapseQueue queue_;
+  size_t alive_ = 0;
+  double minimum_cosine_ = 0;
+  bool has_collapsed_ = false;
+};
+
+}  // namespace
+}  // namespace ck::texture
+
+ck_status ck_simplify(float* positions, size_t* position_count, size_t position_stride,
+                      uint32_t* triangles, size_t* triangle_count, size_t maximum_count,
+                      const ck_control* control) {
+  return ck::guarded([&] {
+    ck::require(positions && position_count && triangles && triangle_count,
+                "an argument is missing");
+    ck::step(control, 0);
+    ck::texture::Simplifier simplifier(
+        {positions, *position_count, position_stride, triangles, *triangle_count});
+    // No closed piece has fewer than four triangles: many crumbs would take the budget.
+    simplifier.drop_components(*triangle_count, std::max<size_t>(1, maximum_count / 16));
+    // What is refused in one pass may be allowed after its surroundings have changed. A limit on
+    // the triangles' shape does harm: it stops what would mend the slivers of the input.
+    for (const double cosine : {0.2, 0.2, 0.0}) simplifier.run(maximum_count, cosine, control);
+    simplifier.drop_components(maximum_count, maximum_count);
+    simplifier.fit(control);
+    simplifier.copy(positions, position_count, position_stride, triangles, triangle_count);
+  });
+}

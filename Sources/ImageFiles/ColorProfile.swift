@@ -1,0 +1,100 @@
+import CKernels
+import Kernels
+import SceneModel
+
+/// The colours that the numbers of an image file stand for, where they aren't those of sRGB.
+///
+/// Phones write Display P3, cameras Adobe RGB if told so. Shown as if they were sRGB, such photos look
+/// pale, and so would a texture made of them.
+package enum ColorProfile: Hashable, Sendable {
+  /// As an ICC profile (ISO 15076-1) in the file tells.
+  case icc([UInt8])
+  /// Adobe RGB (1998), which cameras note without a profile (DCF 2.0, section 5.3).
+  case adobeRGB
+
+  /// Profiles of cameras have less than 4 kB, those of scanners up to some hundred.
+  private static let maximumSize = 4 << 20
+
+  /// The profile of an image file's content; nil where it has none, as for sRGB.
+  package init?(_ bytes: [UInt8]) {
+    let reader = ByteReader(bytes)
+    if let profile = Self.profile(reader), profile.count <= Self.maximumSize {
+      self = .icc(profile)
+    } else if Self.isAdobeRGB(reader) {
+      self = .adobeRGB
+    } else {
+      return nil
+    }
+  }
+
+  /// Converts an RGB image to sRGB; a profile that is damaged changes nothing.
+  package func convert(_ image: inout RasterImage) throws {
+    guard image.channels == 3, !image.pixels.isEmpty else { return }
+    let count = image.width * image.height
+    try image.pixels.withUnsafeMutableBufferPointer { pixels in
+      guard let base = pixels.baseAddress else { return }
+      try withKernel(KernelControl()) { _ in
+        switch self {
+        case .icc(let profile):
+          ck_image_convert_to_srgb(base, count, ck_colors_icc, profile, profile.count)
+        case .adobeRGB: ck_image_convert_to_srgb(base, count, ck_colors_adobe_rgb, nil, 0)
+        }
+      }
+    }
+  }
+
+  private static func profile(_ reader: ByteReader) -> [UInt8]? {
+    if reader.hasPrefix([0xFF, 0xD8]) { return jpeg(reader) }
+    if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) { return png(reader) }
+    if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+      return FileChunks(webP: reader).first { $0.name == "ICCP" }.map {
+        Array(reader.bytes[$0.data])
+      }
+    }
+    if HEIFFile.Kind(reader) != nil { return HEIFFile.colorProfile(reader.bytes) }
+    guard let tiff = TIFFStructure(reader) else { return nil }
+    return tiff.entries(ofDirectoryAt: tiff.firstDirectory).first { $0.tag == 34675 }
+      .flatMap { tiff.bytes($0) }
+  }
+
+  /// Parts in segments of at most 64 kB, each with its number and how many there are.
+  private static func jpeg(_ reader: ByteReader) -> [UInt8]? {
+    let name = Array("ICC_PROFILE\0".utf8)
+    var parts: [Int: Range<Int>] = [:]
+    for segment in JPEGSegments(reader)
+    where segment.marker == 0xE2 && segment.payload.count > name.count + 2
+      && reader.bytes[segment.payload].starts(with: name)
+    {
+      let start = segment.payload.lowerBound + name.count
+      parts[Int(reader.bytes[start])] = start + 2..<segment.payload.upperBound
+    }
+    guard !parts.isEmpty else { return nil }
+    return parts.sorted { $0.key < $1.key }.flatMap { reader.bytes[$0.value] }
+  }
+
+  /// A name that ends in zero, a byte for the method, and the profile, deflated.
+  private static func png(_ reader: ByteReader) -> [UInt8]? {
+    guard let chunk = FileChunks(png: reader).first(where: { $0.name == "iCCP" }),
+      let end = reader.bytes[chunk.data].prefix(80).firstIndex(of: 0),
+      end + 2 < chunk.data.upperBound
+    else { return nil }
+    let deflated = Array(reader.bytes[end + 2..<chunk.data.upperBound])
+    var inflated: OpaquePointer?
+    try? withKernel(KernelControl()) { _ in
+      ck_inflate(deflated, deflated.count, maximumSize, &inflated)
+    }
+    let profile = [UInt8](taking: inflated)
+    return profile.isEmpty ? nil : profile
+  }
+
+  /// EXIF has a number for sRGB only; what isn't said to be sRGB and of the kind R03 is Adobe RGB.
+  private static func isAdobeRGB(_ reader: ByteReader) -> Bool {
+    guard let tiff = TIFFStructure(exifOf: reader),
+      let exif = tiff.integer(of: 34665, in: tiff.firstDirectory),
+      tiff.integer(of: 40961, in: exif) != 1,
+      let interoperability = tiff.integer(of: 40965, in: exif),
+      let kind = tiff.entries(ofDirectoryAt: interoperability).first(where: { $0.tag == 1 })
+    else { return false }
+    return tiff.text(kind) == "R03"
+  }
+}

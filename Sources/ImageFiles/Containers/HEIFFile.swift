@@ -1,0 +1,84 @@
+import CKernels
+import Kernels
+import SceneModel
+
+/// What HEIF files (ISO/IEC 23008-12) hold beside pixels, read by libheif.
+package enum HEIFFile {
+  /// What a file's brands say that it holds.
+  package enum Kind: Hashable, Sendable {
+    /// One photo, or several of which one is shown.
+    case image(ImageHeader.Format)
+    /// A burst or a short film, without an image to show for it.
+    case sequence
+
+    /// Nil for other files, videos among them.
+    package init?(_ reader: ByteReader) {
+      guard reader.hasText("ftyp", at: 4), let size = reader.uint32(0, .big), size >= 16 else {
+        return nil
+      }
+      // The major brand, its version, and the brands that the file goes by as well.
+      let places = [8] + Array(stride(from: 16, to: min(size, 256), by: 4))
+      let brands = Set(places.compactMap { reader.text(at: $0, count: 4) })
+      if brands.contains("avif") {
+        self = .image(.avif)
+      } else if !brands.isDisjoint(with: ["heic", "heix", "heim", "heis", "mif1"]) {
+        self = .image(.heic)
+      } else if !brands.isDisjoint(with: ["hevc", "hevx", "hevm", "hevs", "msf1", "avis"]) {
+        self = .sequence
+      } else {
+        return nil
+      }
+    }
+  }
+
+  /// Size in pixels of the image that is shown, upright, and whether it has an alpha channel.
+  static func inspect(
+    _ bytes: [UInt8], _ format: ImageHeader.Format
+  ) throws(ImageError) -> (width: Int, height: Int, hasAlpha: Bool) {
+    var info = ck_heif_info()
+    do {
+      try withKernel(KernelControl()) { _ in ck_heif_inspect(bytes, bytes.count, &info) }
+    } catch KernelError.invalidArgument {
+      throw unsupported(format)
+    } catch {
+      throw .damaged("its \(format.rawValue) header is damaged or cut off")
+    }
+    return (Int(info.width), Int(info.height), info.has_alpha)
+  }
+
+  /// What is said of a file that libheif has no decoder for.
+  static func unsupported(_ format: ImageHeader.Format) -> ImageError {
+    .unsupportedFormat("a kind of \(format.rawValue) image that libheif can't read")
+  }
+
+  /// The EXIF data of a file, from its TIFF header on; nil where it has none.
+  package static func exif(_ bytes: [UInt8]) -> [UInt8]? { block(ck_heif_exif, of: bytes) }
+
+  /// The ICC profile of a file; nil where it has none.
+  static func colorProfile(_ bytes: [UInt8]) -> [UInt8]? {
+    block(ck_heif_color_profile, of: bytes)
+  }
+
+  private static func block(_ which: ck_heif_block, of bytes: [UInt8]) -> [UInt8]? {
+    var block: OpaquePointer?
+    try? withKernel(KernelControl()) { _ in ck_heif_read(bytes, bytes.count, which, &block) }
+    let content = [UInt8](taking: block)
+    return content.isEmpty ? nil : content
+  }
+}
+
+extension [UInt8] {
+  /// Copies bytes that a kernel made, and frees them; empty for null.
+  init(taking bytes: OpaquePointer?) {
+    guard let bytes else {
+      self = []
+      return
+    }
+    defer { ck_bytes_free(bytes) }
+    let size = ck_bytes_count(bytes)
+    self.init(unsafeUninitializedCapacity: size) { buffer, count in
+      if let base = buffer.baseAddress, size > 0 { ck_bytes_copy(bytes, base) }
+      count = size
+    }
+  }
+}

@@ -1,0 +1,221 @@
+import CKernels
+import Foundation
+import Kernels
+import SceneModel
+
+/// Why a file gives no image; each is the end of a sentence that starts with the file's name.
+package enum ImageError: LocalizedError, Hashable, Sendable {
+  /// What the file is instead: "a HEIC image".
+  case unsupportedFormat(String)
+  /// What the file is instead: "a text file".
+  case notAnImage(String)
+  case tooLarge(width: Int, height: Int)
+  case damaged(String)
+  case unreadable(String)
+
+  package var errorDescription: String? {
+    switch self {
+    case .unsupportedFormat(let name): "it is \(name); convert it to JPEG"
+    case .notAnImage(let name): "it is \(name), not a photo"
+    case .tooLarge(let width, let height):
+      "it has \(width) × \(height) pixels, more than can be processed; make it smaller"
+    case .damaged(let detail): "\(detail); copy it from the camera again or leave it out"
+    case .unreadable(let detail): "it can't be read: \(detail)"
+    }
+  }
+}
+
+/// Reads and writes image files.
+///
+/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, told apart by content. Images come as 8-bit sRGB:
+/// 16 bits are reduced, gray, palette and CMYK converted, colours of a profile too, and an alpha
+/// channel, which `decodeAlpha` reads, is dropped, which keeps the colours under transparent pixels.
+/// No EXIF orientation is applied, see `RasterImage.turned`; only the decoders of TIFF and HEIF files
+/// turn them upright by what these say themselves.
+package enum ImageCodec {
+  /// Sizes that are refused before anything is decoded.
+  package struct Limits: Hashable, Codable, Sendable {
+    /// Pixels a side.
+    package var maximumSide = 16384
+    package var maximumPixels = 300_000_000
+    /// Bytes a file.
+    package var maximumFileSize = 1 << 30
+
+    package init() {}
+  }
+
+  /// The content of a regular file.
+  package static func contents(
+    of url: URL, limits: Limits = Limits()
+  ) throws(ImageError) -> [UInt8] {
+    let data: Data
+    do {
+      let values = try url.resolvingSymlinksInPath().resourceValues(
+        forKeys: [.isRegularFileKey, .fileSizeKey])
+      guard values.isRegularFile == true else { throw ImageError.unreadable("it is not a file") }
+      guard values.fileSize ?? 0 <= limits.maximumFileSize else {
+        throw ImageError.unreadable("the file is larger than 1 GB")
+      }
+      data = try Data(contentsOf: url)
+    } catch let error as ImageError {
+      throw error
+    } catch {
+      throw .unreadable("check that it exists and its permissions")
+    }
+    return [UInt8](data)
+  }
+
+  /// What `decode` can divide both sides by, ascending.
+  package static let reductions = [1, 2, 4, 8]
+
+  /// Decodes the content of an image file, pixels as stored.
+  ///
+  /// `reduction` is one of `reductions`: a JPEG comes with its sides divided by it and rounded up,
+  /// without the finest of its frequencies, which takes less time; other formats come whole.
+  package static func decode(
+    _ bytes: [UInt8], reducedBy reduction: Int = 1, limits: Limits = Limits()
+  ) throws(ImageError) -> RasterImage {
+    var image = try decode(bytes, channels: 3, limits) {
+      ck_image_decode(bytes, bytes.count, $0, Int32(clamping: reduction), $1, $2)
+    }
+    do {
+      try ColorProfile(bytes)?.convert(&image)
+    } catch {
+      throw .damaged("its colours can't be converted (\(message(of: error)))")
+    }
+    return image
+  }
+
+  /// Decodes the alpha channel of an image file's content: gray, pixels as stored, 0 where they are
+  /// transparent. Nil where the file has none.
+  package static func decodeAlpha(
+    _ bytes: [UInt8], limits: Limits = Limits()
+  ) throws(ImageError) -> RasterImage? {
+    guard ImageHeader.promisesAlpha(bytes) else { return nil }
+    let alpha = try decode(bytes, channels: 1, limits) {
+      ck_image_decode_alpha(bytes, bytes.count, $0, $1, $2)
+    }
+    return alpha.pixels.isEmpty ? nil : alpha
+  }
+
+  /// Decodes a TIFF file of one floating-point number a pixel, row by row from the top.
+  package static func decodeNumbers(
+    _ bytes: [UInt8], limits: Limits = Limits()
+  ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
+    let decoded = try decode(bytes, channels: 4, limits) {
+      ck_image_decode_numbers(bytes, bytes.count, $1, $2)
+    }
+    guard !decoded.pixels.isEmpty else {
+      throw .unsupportedFormat("an image of colours where one of numbers is meant")
+    }
+    let values = decoded.pixels.withUnsafeBytes { Array($0.bindMemory(to: Float.self)) }
+    return (decoded.width, decoded.height, values)
+  }
+
+  private static func decode(
+    _ bytes: [UInt8], channels: Int, _ limits: Limits,
+    _ body: (ck_codec, UnsafePointer<ck_decode_limits>, UnsafeMutablePointer<OpaquePointer?>)
+      -> ck_status
+  ) throws(ImageError) -> RasterImage {
+    let header = try ImageHeader(bytes)
+    guard header.width <= limits.maximumSide, header.height <= limits.maximumSide,
+      header.width * header.height <= limits.maximumPixels
+    else { throw .tooLarge(width: header.width, height: header.height) }
+    let codec =
+      switch header.format {
+      case .jpeg: ck_codec_jpeg
+      case .png: ck_codec_png
+      case .heic, .avif: ck_codec_heif
+      case .tiff, .bmp, .webP: ck_codec_other
+      }
+    let rawLimits = ck_decode_limits(
+      maximum_side: Int32(clamping: limits.maximumSide),
+      maximum_pixels: Int64(limits.maximumPixels))
+    var image: OpaquePointer?
+    do {
+      try withKernel(KernelControl()) { _ in
+        withUnsafePointer(to: rawLimits) { body(codec, $0, &image) }
+      }
+    } catch KernelError.invalidArgument where codec == ck_codec_heif {
+      throw HEIFFile.unsupported(header.format)
+    } catch {
+      throw .damaged("its \(header.format.rawValue) data is damaged (\(message(of: error)))")
+    }
+    guard let image else { throw .damaged("it can't be decoded") }
+    defer { ck_image_free(image) }
+    let (width, height) = (Int(ck_image_width(image)), Int(ck_image_height(image)))
+    let byteCount = width * height * channels
+    let pixels = [UInt8](unsafeUninitializedCapacity: byteCount) { buffer, count in
+      if let base = buffer.baseAddress, byteCount > 0 { ck_image_copy(image, base) }
+      count = byteCount
+    }
+    return RasterImage(width: width, height: height, channels: channels, pixels: pixels)
+  }
+
+  /// Encodes gray, RGB or RGBA as PNG; the same image gives the same bytes.
+  package static func encodePNG(_ image: RasterImage) throws -> [UInt8] {
+    try encode(image, ck_codec_png, quality: 0)
+  }
+
+  /// Encodes gray or RGB as JPEG; the same image gives the same bytes. `quality` runs from 0 to 1.
+  package static func encodeJPEG(_ image: RasterImage, quality: Float) throws -> [UInt8] {
+    try encode(image, ck_codec_jpeg, quality: percent(quality))
+  }
+
+  /// What a HEIC file holds beside pixels.
+  package struct HEICContent: Hashable, Sendable {
+    /// 0…1.
+    package var quality: Float = 0.9
+    /// As in EXIF, 1…8: how the pixels are to be turned.
+    package var orientation = 1
+    /// EXIF data from its TIFF header on.
+    package var exif: [UInt8] = []
+    /// An ICC profile; colours are sRGB's without one.
+    package var colorProfile: [UInt8] = []
+
+    package init() {}
+  }
+
+  /// Encodes RGB or RGBA as HEIC.
+  package static func encodeHEIC(
+    _ image: RasterImage, _ content: HEICContent = HEICContent()
+  ) throws -> [UInt8] {
+    var encoded: OpaquePointer?
+    try content.exif.withUnsafeBufferPointer { exif in
+      try content.colorProfile.withUnsafeBufferPointer { profile in
+        var options = ck_heif_options(
+          quality: percent(content.quality), orientation: Int32(clamping: content.orientation),
+          exif: exif.isEmpty ? nil : exif.baseAddress, exif_count: exif.count,
+          color_profile: profile.isEmpty ? nil : profile.baseAddress,
+          color_profile_count: profile.count)
+        try withKernel(KernelControl()) { _ in
+          ck_heif_encode(
+            image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), &options,
+            &encoded)
+        }
+      }
+    }
+    return [UInt8](taking: encoded)
+  }
+
+  /// Of a quality from 0 to 1.
+  private static func percent(_ quality: Float) -> Int32 {
+    Int32((min(max(quality.isFinite ? quality : 1, 0), 1) * 100).rounded())
+  }
+
+  private static func encode(
+    _ image: RasterImage, _ codec: ck_codec, quality: Int32
+  ) throws -> [UInt8] {
+    var encoded: OpaquePointer?
+    try withKernel(KernelControl()) { _ in
+      ck_image_encode(
+        image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), codec,
+        quality, &encoded)
+    }
+    return [UInt8](taking: encoded)
+  }
+
+  private static func message(of error: any Error) -> String {
+    (error as? KernelError)?.description ?? "unknown reason"
+  }
+}

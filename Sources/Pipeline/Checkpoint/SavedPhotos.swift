@@ -1,0 +1,71 @@
+import Foundation
+import ImageFiles
+import Kernels
+import SceneModel
+
+/// Reads the photos of an earlier run again: those that have a pose, as they were.
+struct SavedPhotos: Sendable {
+  /// Photo ids are those of the run's reconstruction. Throws `SavedRunError.changedPhotos` where a
+  /// file's content is another one.
+  func run(_ saved: SavedRun, _ context: StageContext) throws -> IngestedPhotos {
+    var options = PhotoIngestion.Options()
+    // All were accepted once, among others that they were compared with.
+    (options.blur.minimumShareOfMedian, options.blur.hopeless) = (0, 0)
+    (options.duplicates.maximumBlockDifference, options.maximumPhotos) = (-1, .max)
+    options.inspection.usesMasks = false
+    let names = saved.record.photos.map(\.name)
+    var result = try PhotoIngestion(options)
+      .run(files: names.map { saved.photoFolder.appendingPathComponent($0) }, context)
+    let hashes = Dictionary(
+      zip(result.photos.map(\.name), result.contentHashes.map(SurfaceRecord.text)),
+      uniquingKeysWith: { first, _ in first })
+    let changed = saved.record.photos.filter { hashes[$0.name] != $0.contentHash }.map(\.name)
+    guard changed.isEmpty, result.photos.map(\.name) == names else {
+      throw SavedRunError.changedPhotos(folder: saved.photoFolder.path, names: changed)
+    }
+    result.processingPixels = saved.record.processingPixels
+    try addMasks(saved, to: &result.photos)
+    return result
+  }
+
+  /// Gives the photos the masks that the run used.
+  private func addMasks(_ saved: SavedRun, to photos: inout [Photo]) throws {
+    var changed: [String] = []
+    for (index, entry) in saved.record.photos.enumerated() {
+      guard var mask = entry.mask else { continue }
+      if let file = mask.file {
+        let moved = saved.moved(file)
+        let bytes = try? ImageCodec.contents(of: moved)
+        if bytes.map(PhotoInspection.hash) != mask.contentHash {
+          changed.append(moved.lastPathComponent)
+        }
+        mask.file = moved
+      }
+      photos[index].mask = mask
+    }
+    guard changed.isEmpty else {
+      throw SavedRunError.changedPhotos(folder: saved.photoFolder.path, names: changed)
+    }
+  }
+}
+
+extension SavedRun {
+  /// Where a file of the run is now; one inside the folder of photos has moved with it.
+  fileprivate func moved(_ file: URL) -> URL {
+    let (path, folder) = (file.standardizedFileURL.path, record.photoFolder + "/")
+    guard path.hasPrefix(folder) else { return file }
+    return photoFolder.appendingPathComponent(String(path.dropFirst(folder.count)))
+  }
+
+  /// The reconstruction of the photos that were read again.
+  func reconstruction(of photos: IngestedPhotos) -> Reconstruction {
+    var result = reconstruction
+    result.worldFrame = record.worldFrame
+    for index in result.photos.indices {
+      let camera = result.photos[index].camera
+      result.photos[index] = photos.photos[index]
+      result.photos[index].camera = camera
+    }
+    return result
+  }
+}

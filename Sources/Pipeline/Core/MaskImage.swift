@@ -1,0 +1,43 @@
+import ImageFiles
+import Kernels
+import SceneModel
+
+/// Decodes masks: gray images, as stored, with 255 where the object is and 0 beside it.
+enum MaskImage {
+  /// The mask in a file of its own: what is black, or transparent, is not of the object.
+  ///
+  /// JPEG blurs the edge between black and white and leaves traces in what was black; what is darker
+  /// than half counts as black there.
+  static func decode(_ bytes: [UInt8]) throws(ImageError) -> RasterImage {
+    let colors = try ImageCodec.decode(bytes)
+    let least: UInt8 = try ImageHeader(bytes).format == .jpeg ? 128 : 1
+    var mask = RasterImage(width: colors.width, height: colors.height, channels: 1)
+    for index in mask.pixels.indices {
+      let brightest = max(
+        colors.pixels[3 * index], colors.pixels[3 * index + 1], colors.pixels[3 * index + 2])
+      if brightest >= least { mask.pixels[index] = 255 }
+    }
+    if let alpha = try ImageCodec.decodeAlpha(bytes), alpha.pixels.count == mask.pixels.count {
+      for index in mask.pixels.indices where alpha.pixels[index] == 0 { mask.pixels[index] = 0 }
+    }
+    return mask
+  }
+
+  /// The mask that a photo's alpha channel is: what is less than half opaque is not of the object,
+  /// since programs that cut objects out leave traces around them. Nil without such a channel.
+  static func alpha(_ bytes: [UInt8]) throws(ImageError) -> RasterImage? {
+    guard var mask = try ImageCodec.decodeAlpha(bytes) else { return nil }
+    for index in mask.pixels.indices { mask.pixels[index] = mask.pixels[index] < 128 ? 0 : 255 }
+    return mask
+  }
+}
+
+extension RasterImage {
+  /// Whether a pixel of a mask, by a place in it, is of the object; one beside the mask is not.
+  func isMarked(at place: SIMD2<Double>) -> Bool {
+    guard place.x >= 0, place.y >= 0, place.x < Double(width), place.y < Double(height) else {
+      return false
+    }
+    return pixels[Int(place.y) * width + Int(place.x)] >= 128
+  }
+}

@@ -1,0 +1,72 @@
+import Foundation
+import Formats
+import ImageFiles
+import Kernels
+import SceneModel
+
+/// Writes a textured model: a USDZ, GLB or PLY file, or a folder with OBJ, MTL, USDA and the
+/// textures.
+package struct ModelExport: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// How colours, occlusion and roughness are stored. Normals and displacement are always PNG:
+    /// the blocks of JPEG would show as dents in the light. So is an image of several maps, whose
+    /// channels JPEG would mix.
+    package var textureFormat = TextureFormat.png
+    /// Goes into the files' metadata.
+    package var creator = "photogrammetry-cli"
+
+    package init(textureFormat: TextureFormat = .png) { self.textureFormat = textureFormat }
+  }
+
+  package var options: Options
+
+  package init(options: Options = Options()) { self.options = options }
+
+  /// Writes the file or folder that `ModelFormat` reads from the URL; it appears complete or not at
+  /// all. Throws an error with file and remedy when it can't be written.
+  package func run(_ model: TexturedMesh, to url: URL, _ context: StageContext) throws {
+    // Encoding takes a while: what can't be written is better known before.
+    try AtomicFile.checkParent(of: url)
+    UnfinishedFiles.remove(from: url.deletingLastPathComponent(), of: url.lastPathComponent)
+    let encoding = context.part(from: 0, to: 0.9)
+    switch ModelFormat(of: url) {
+    case .usdz:
+      try USDZPackage.write(try content(model, encoding), to: url)
+    case .glb:
+      let materials = try materials(of: model, encoding)
+      try GLBFile.write(model, materials: materials, creator: options.creator, to: url)
+    case .ply:
+      try PLY.write(
+        try VertexColoring().run(model, encoding), halves: model.atlases.map(\.halves), to: url)
+    case .folder:
+      try OBJFolder.write(try content(model, encoding), to: url)
+    }
+  }
+
+  private func content(_ model: TexturedMesh, _ context: StageContext) throws -> ModelContent {
+    let jobs = model.atlases.flatMap { atlas in
+      atlas.maps.sorted { $0.key < $1.key }.map { (map: $0.key, image: $0.value) }
+    }
+    let images = try context.control.parallelMap(jobs.count) { index in
+      let image = try encode(jobs[index].map, jobs[index].image)
+      return EncodedTexture(
+        map: jobs[index].map, fileExtension: image.fileExtension, bytes: image.bytes)
+    }
+    try context.control.step(1)
+    var rest = images[...]
+    let textures = model.atlases.map { atlas in
+      defer { rest = rest.dropFirst(atlas.maps.count) }
+      return Array(rest.prefix(atlas.maps.count))
+    }
+    return ModelContent(mesh: model, textures: textures, creator: options.creator)
+  }
+
+  func encode(_ map: TextureMap, _ image: RasterImage) throws -> EncodedImage {
+    switch options.textureFormat {
+    case .jpeg(let quality) where map != .normal && map != .displacement:
+      .init(fileExtension: "jpg", bytes: try ImageCodec.encodeJPEG(image, quality: quality))
+    default:
+      .init(fileExtension: "png", bytes: try ImageCodec.encodePNG(image))
+    }
+  }
+}
