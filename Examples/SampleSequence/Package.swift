@@ -1,7 +1,7 @@
 // swift-tools-version: 6.2
 import PackageDescription
 
-// On a Mac the system has these modules.
+// On macOS the system provides these modules.
 #if os(Linux)
   let modules = ["RealityKit", "CoreVideo"]
 #else

@@ -1,7 +1,8 @@
-/// An image as the content of a file.
+/// The content of an image file.
 package struct EncodedImage: Equatable, Sendable {
   /// `png` or `jpg`.
   package var fileExtension: String
+  /// The content of the file.
   package var bytes: [UInt8]
 
   package init(fileExtension: String, bytes: [UInt8]) {

@@ -2,20 +2,20 @@ import CKernels
 import Kernels
 import SceneModel
 
-/// The colours that the numbers of an image file stand for, where they aren't those of sRGB.
+/// The color space of an image file if it isn't sRGB.
 ///
-/// Phones write Display P3, cameras Adobe RGB if told so. Shown as if they were sRGB, such photos look
-/// pale, and so would a texture made of them.
+/// Phones write Display P3, cameras Adobe RGB if set to it. Interpreted as sRGB, such photos look
+/// pale, and so would a texture made from them.
 package enum ColorProfile: Hashable, Sendable {
-  /// As an ICC profile (ISO 15076-1) in the file tells.
+  /// Given by an ICC profile (ISO 15076-1) in the file.
   case icc([UInt8])
-  /// Adobe RGB (1998), which cameras note without a profile (DCF 2.0, section 5.3).
+  /// Adobe RGB (1998), which cameras indicate without a profile (DCF 2.0, section 5.3).
   case adobeRGB
 
-  /// Profiles of cameras have less than 4 kB, those of scanners up to some hundred.
+  /// Camera profiles are below 4 kB, scanner profiles up to a few hundred kB.
   private static let maximumSize = 4 << 20
 
-  /// The profile of an image file's content; nil where it has none, as for sRGB.
+  /// The profile in an image file's content; nil without one, which means sRGB.
   package init?(_ bytes: [UInt8]) {
     let reader = ByteReader(bytes)
     if let profile = Self.profile(reader), profile.count <= Self.maximumSize {
@@ -27,7 +27,7 @@ package enum ColorProfile: Hashable, Sendable {
     }
   }
 
-  /// Converts an RGB image to sRGB; a profile that is damaged changes nothing.
+  /// Converts an RGB image to sRGB in place; a damaged profile leaves it unchanged.
   package func convert(_ image: inout RasterImage) throws {
     guard image.channels == 3, !image.pixels.isEmpty else { return }
     let count = image.width * image.height
@@ -43,6 +43,7 @@ package enum ColorProfile: Hashable, Sendable {
     }
   }
 
+  /// The ICC profile of a JPEG, PNG, WebP, HEIF or TIFF file.
   private static func profile(_ reader: ByteReader) -> [UInt8]? {
     if reader.hasPrefix([0xFF, 0xD8]) { return jpeg(reader) }
     if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) { return png(reader) }
@@ -57,7 +58,8 @@ package enum ColorProfile: Hashable, Sendable {
       .flatMap { tiff.bytes($0) }
   }
 
-  /// Parts in segments of at most 64 kB, each with its number and how many there are.
+  /// Concatenates the profile's parts: segments of at most 64 kB, each with its number and the
+  /// total.
   private static func jpeg(_ reader: ByteReader) -> [UInt8]? {
     let name = Array("ICC_PROFILE\0".utf8)
     var parts: [Int: Range<Int>] = [:]
@@ -72,7 +74,7 @@ package enum ColorProfile: Hashable, Sendable {
     return parts.sorted { $0.key < $1.key }.flatMap { reader.bytes[$0.value] }
   }
 
-  /// A name that ends in zero, a byte for the method, and the profile, deflated.
+  /// The chunk holds a name that ends in zero, a byte for the method, and the deflated profile.
   private static func png(_ reader: ByteReader) -> [UInt8]? {
     guard let chunk = FileChunks(png: reader).first(where: { $0.name == "iCCP" }),
       let end = reader.bytes[chunk.data].prefix(80).firstIndex(of: 0),
@@ -87,7 +89,7 @@ package enum ColorProfile: Hashable, Sendable {
     return profile.isEmpty ? nil : profile
   }
 
-  /// EXIF has a number for sRGB only; what isn't said to be sRGB and of the kind R03 is Adobe RGB.
+  /// EXIF has a value for sRGB only: without it, the interoperability index R03 means Adobe RGB.
   private static func isAdobeRGB(_ reader: ByteReader) -> Bool {
     guard let tiff = TIFFStructure(exifOf: reader),
       let exif = tiff.integer(of: 34665, in: tiff.firstDirectory),

@@ -3,11 +3,12 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Why a file gives no image; each is the end of a sentence that starts with the file's name.
+/// Why a file can't be read as an image; each message ends a sentence that starts with the file's
+/// name.
 package enum ImageError: LocalizedError, Hashable, Sendable {
-  /// What the file is instead: "a HEIC image".
+  /// The actual format: "a HEIC image".
   case unsupportedFormat(String)
-  /// What the file is instead: "a text file".
+  /// The actual type: "a text file".
   case notAnImage(String)
   case tooLarge(width: Int, height: Int)
   case damaged(String)
@@ -27,24 +28,26 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
 
 /// Reads and writes image files.
 ///
-/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, told apart by content. Images come as 8-bit sRGB:
-/// 16 bits are reduced, gray, palette and CMYK converted, colours of a profile too, and an alpha
-/// channel, which `decodeAlpha` reads, is dropped, which keeps the colours under transparent pixels.
-/// No EXIF orientation is applied, see `RasterImage.turned`; only the decoders of TIFF and HEIF files
-/// turn them upright by what these say themselves.
+/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, detected from their content. Images are
+/// returned as 8-bit sRGB: 16 bits are reduced, gray, palette and CMYK converted, colors of an ICC
+/// profile too, and an alpha channel, which `decodeAlpha` reads, is dropped, which keeps the colors
+/// under transparent pixels. EXIF orientation isn't applied, see `RasterImage.turned`; only the
+/// decoders of TIFF and HEIF files rotate images upright, by the orientation that these files store
+/// themselves.
 package enum ImageCodec {
-  /// Sizes that are refused before anything is decoded.
+  /// Sizes above which a file is rejected before decoding.
   package struct Limits: Hashable, Codable, Sendable {
-    /// Pixels a side.
+    /// Pixels per side.
     package var maximumSide = 16384
+    /// Pixels per image.
     package var maximumPixels = 300_000_000
-    /// Bytes a file.
+    /// Bytes per file.
     package var maximumFileSize = 1 << 30
 
     package init() {}
   }
 
-  /// The content of a regular file.
+  /// The content of a regular file. Throws `unreadable`.
   package static func contents(
     of url: URL, limits: Limits = Limits()
   ) throws(ImageError) -> [UInt8] {
@@ -65,13 +68,14 @@ package enum ImageCodec {
     return [UInt8](data)
   }
 
-  /// What `decode` can divide both sides by, ascending.
+  /// The divisors of both sides that `decode` supports, ascending.
   package static let reductions = [1, 2, 4, 8]
 
-  /// Decodes the content of an image file, pixels as stored.
+  /// Decodes the content of an image file, without rotating the pixels.
   ///
-  /// `reduction` is one of `reductions`: a JPEG comes with its sides divided by it and rounded up,
-  /// without the finest of its frequencies, which takes less time; other formats come whole.
+  /// `reduction` is one of `reductions`: a JPEG is decoded with its sides divided by it and rounded
+  /// up, omitting its highest frequencies, which takes less time; other formats are decoded at full
+  /// size.
   package static func decode(
     _ bytes: [UInt8], reducedBy reduction: Int = 1, limits: Limits = Limits()
   ) throws(ImageError) -> RasterImage {
@@ -81,13 +85,13 @@ package enum ImageCodec {
     do {
       try ColorProfile(bytes)?.convert(&image)
     } catch {
-      throw .damaged("its colours can't be converted (\(message(of: error)))")
+      throw .damaged("its colors can't be converted (\(message(of: error)))")
     }
     return image
   }
 
-  /// Decodes the alpha channel of an image file's content: gray, pixels as stored, 0 where they are
-  /// transparent. Nil where the file has none.
+  /// Decodes the alpha channel of an image file's content: gray, not rotated, 0 where the image is
+  /// transparent. Nil without an alpha channel.
   package static func decodeAlpha(
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> RasterImage? {
@@ -98,7 +102,7 @@ package enum ImageCodec {
     return alpha.pixels.isEmpty ? nil : alpha
   }
 
-  /// Decodes a TIFF file of one floating-point number a pixel, row by row from the top.
+  /// Decodes a TIFF file with one floating-point value per pixel, in row order from the top.
   package static func decodeNumbers(
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
@@ -106,12 +110,13 @@ package enum ImageCodec {
       ck_image_decode_numbers(bytes, bytes.count, $1, $2)
     }
     guard !decoded.pixels.isEmpty else {
-      throw .unsupportedFormat("an image of colours where one of numbers is meant")
+      throw .unsupportedFormat("a color image, where one with a number per pixel is expected")
     }
     let values = decoded.pixels.withUnsafeBytes { Array($0.bindMemory(to: Float.self)) }
     return (decoded.width, decoded.height, values)
   }
 
+  /// Checks the header against the limits, then decodes with the codec of its format.
   private static func decode(
     _ bytes: [UInt8], channels: Int, _ limits: Limits,
     _ body: (ck_codec, UnsafePointer<ck_decode_limits>, UnsafeMutablePointer<OpaquePointer?>)
@@ -152,25 +157,25 @@ package enum ImageCodec {
     return RasterImage(width: width, height: height, channels: channels, pixels: pixels)
   }
 
-  /// Encodes gray, RGB or RGBA as PNG; the same image gives the same bytes.
+  /// Encodes gray, RGB or RGBA as PNG; deterministic.
   package static func encodePNG(_ image: RasterImage) throws -> [UInt8] {
     try encode(image, ck_codec_png, quality: 0)
   }
 
-  /// Encodes gray or RGB as JPEG; the same image gives the same bytes. `quality` runs from 0 to 1.
+  /// Encodes gray or RGB as JPEG; deterministic. `quality` is 0…1.
   package static func encodeJPEG(_ image: RasterImage, quality: Float) throws -> [UInt8] {
     try encode(image, ck_codec_jpeg, quality: percent(quality))
   }
 
-  /// What a HEIC file holds beside pixels.
+  /// The contents of a HEIC file besides its pixels.
   package struct HEICContent: Hashable, Sendable {
     /// 0…1.
     package var quality: Float = 0.9
-    /// As in EXIF, 1…8: how the pixels are to be turned.
+    /// As in EXIF, 1…8: how the pixels must be rotated for display.
     package var orientation = 1
-    /// EXIF data from its TIFF header on.
+    /// EXIF data, starting at its TIFF header.
     package var exif: [UInt8] = []
-    /// An ICC profile; colours are sRGB's without one.
+    /// An ICC profile; empty means sRGB.
     package var colorProfile: [UInt8] = []
 
     package init() {}
@@ -198,7 +203,7 @@ package enum ImageCodec {
     return [UInt8](taking: encoded)
   }
 
-  /// Of a quality from 0 to 1.
+  /// Converts a quality of 0…1, not a number meaning 1.
   private static func percent(_ quality: Float) -> Int32 {
     Int32((min(max(quality.isFinite ? quality : 1, 0), 1) * 100).rounded())
   }

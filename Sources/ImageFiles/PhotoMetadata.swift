@@ -1,14 +1,15 @@
 import Kernels
 import SceneModel
 
-/// What a camera wrote into a photo, as far as reconstruction uses it.
+/// The camera metadata of a photo that reconstruction uses.
 ///
-/// Read from the EXIF data of JPEG, PNG, WebP, HEIF and TIFF files (CIPA DC-008). Whatever is missing,
-/// damaged or nonsense is nil.
+/// Read from the EXIF data of JPEG, PNG, WebP, HEIF and TIFF files (CIPA DC-008). Missing, damaged
+/// or implausible values are nil.
 package struct PhotoMetadata: Hashable, Sendable {
-  /// 1…8; turns the decoded pixels upright.
+  /// EXIF orientation 1…8 that rotates the decoded pixels upright.
   package var orientation = 1
-  /// How the pixels of the sensor are turned upright, 1…8, even where the decoder has done so.
+  /// EXIF orientation 1…8 that rotates the pixels of the sensor upright, even if the decoder has
+  /// already applied it.
   package var sensorOrientation = 1
   package var make: String?
   package var model: String?
@@ -16,29 +17,29 @@ package struct PhotoMetadata: Hashable, Sendable {
   /// Serial numbers of body and lens.
   package var bodySerialNumber: String?
   package var lensSerialNumber: String?
-  /// Millimetres.
+  /// Focal length in millimeters.
   package var focalLength: Double?
-  /// Millimetres on 35 mm film, rounded by the camera.
+  /// 35 mm equivalent focal length in millimeters, rounded by the camera.
   package var focalLengthIn35mmFilm: Double?
-  /// Pixels a millimetre on the sensor, of the photo as the camera wrote it.
+  /// Pixels per millimeter on the sensor, for the photo as the camera wrote it.
   package var focalPlaneResolution: Double?
-  /// Size of the photo as the camera wrote it; programs that resize photos often leave it.
+  /// Size in pixels of the photo as the camera wrote it; programs that resize photos often keep it.
   package var originalWidth: Int?
   package var originalHeight: Int?
   package var position: GeographicPosition?
-  /// As written: "2024:05:17 12:34:56".
+  /// As stored: "2024:05:17 12:34:56".
   package var captureTime: String?
 
   package init() {}
 
-  /// Reads the metadata of a file's content.
+  /// Reads the metadata from the content of a file.
   package init(_ bytes: [UInt8]) {
     let reader = ByteReader(bytes)
     guard let tiff = TIFFStructure(exifOf: reader) else { return }
     let image = Fields(tiff, tiff.firstDirectory)
     let exif = Fields(tiff, image.integer(34665) ?? 0)
     sensorOrientation = image.integer(274).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
-    // The decoders of TIFF and HEIF files turn them themselves.
+    // The decoders of TIFF and HEIF files apply the orientation themselves.
     if TIFFStructure(reader) == nil, HEIFFile.Kind(reader) == nil {
       orientation = sensorOrientation
     }
@@ -56,7 +57,7 @@ package struct PhotoMetadata: Hashable, Sendable {
     position = Self.position(Fields(tiff, image.integer(34853) ?? 0))
   }
 
-  /// Units 2 and none: inch; 3: centimetre; 4: millimetre; 5: micrometre.
+  /// Resolution units 2 and none: inch; 3: centimeter; 4: millimeter; 5: micrometer.
   private static func focalPlaneResolution(_ exif: Fields) -> Double? {
     let millimetres = [2: 25.4, 3: 10, 4: 1, 5: 0.001][exif.integer(41488) ?? 2]
     guard let millimetres, let value = exif.number(41486, in: 1e-3...1e9) else { return nil }
@@ -75,7 +76,7 @@ package struct PhotoMetadata: Hashable, Sendable {
   }
 }
 
-/// The fields of one directory by tag.
+/// The fields of one directory, by tag.
 private struct Fields {
   private let tiff: TIFFStructure
   private let entries: [TIFFStructure.Entry]
@@ -91,12 +92,12 @@ private struct Fields {
 
   func text(_ tag: Int) -> String? { entry(tag).flatMap { tiff.text($0) } }
 
-  /// A number inside the range that makes sense for it.
+  /// A number; nil outside its plausible range.
   func number(_ tag: Int, in range: ClosedRange<Double>) -> Double? {
     entry(tag).flatMap { tiff.number($0) }.flatMap { range.contains($0) ? $0 : nil }
   }
 
-  /// An angle given as degrees, minutes and seconds; what is missing at the end counts as zero.
+  /// An angle stored as degrees, minutes and seconds; missing trailing parts count as zero.
   func degrees(_ tag: Int) -> Double? {
     guard let entry = entry(tag), let degrees = tiff.number(entry) else { return nil }
     let value =

@@ -1,5 +1,5 @@
-// A program that imports RealityKit on a Mac sees these modules as well. There Foundation itself has
-// what is in FoundationNetworking here.
+// On macOS, a program that imports RealityKit sees these modules as well. There Foundation itself
+// has what FoundationNetworking has here.
 @_exported import BitmapGraphics
 @_exported import CoreMotion
 @_exported import CoreVideo

@@ -1,16 +1,16 @@
 import Foundation
 
-/// A value that one thread at a time can use.
+/// A value protected by a lock.
 ///
-/// As `Synchronization.Mutex`, with a lock of the system's instead: the thread sanitizer doesn't know
-/// that one on Linux, and takes what it guards for data races.
+/// Like `Synchronization.Mutex`, but based on a system lock: on Linux the thread sanitizer doesn't
+/// know `Mutex` and reports false data races on what it protects.
 package final class Locked<Value>: @unchecked Sendable {
   private let lock = NSLock()
   private var value: Value
 
   package init(_ value: sending Value) { self.value = value }
 
-  /// Calls `body` with the value while no other thread has it; must not be called from `body`.
+  /// Calls `body` with exclusive access to the value. Not reentrant.
   package func withLock<Result, Failure: Error>(
     _ body: (inout Value) throws(Failure) -> Result
   ) throws(Failure) -> Result {

@@ -5,7 +5,7 @@ import Testing
 @testable import os
 import SceneModel
 
-/// Keeps what is written.
+/// Collects the log lines.
 private final class Record: Sendable {
   private let state = Locked<[String]>([])
 

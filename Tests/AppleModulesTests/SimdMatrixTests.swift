@@ -16,7 +16,7 @@ import simd
   @Test func determinantsAreExact() {
     #expect(a.determinant == 22)
     #expect(simd_determinant(float4x4(diagonal: [2, 3, 4, 5])) == 120)
-    // Exchanging two columns changes the sign.
+    // Swapping two columns changes the sign.
     let swapped = float4x4(b[1], b[0], b[2], b[3])
     #expect(abs(swapped.determinant + b.determinant) < 1e-4)
     #expect(float4x4(b[0], b[0], b[2], b[3]).determinant == 0)

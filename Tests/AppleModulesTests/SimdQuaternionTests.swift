@@ -51,7 +51,7 @@ import simd
     let identity = simd_quatf(ix: 0, iy: 0, iz: 0, r: 1)
     for t in stride(from: Float(0), through: 1, by: 0.125) {
       #expect(abs(simd_slerp(identity, q, t).angle - 0.7 * t) < 1e-5)
-      // -q is the same rotation, and the shorter way leads there.
+      // -q is the same rotation; the shorter arc leads there.
       #expect(abs(abs(simd_slerp(identity, -q, t).angle) - 0.7 * t) < 1e-5)
     }
     #expect(simd_slerp(q, q, 0.5) == q.normalized)

@@ -2,9 +2,9 @@ import ArgumentParser
 import Foundation
 import RealityFoundation
 
-/// Cancels sessions at random moments and tells how soon they end; then lets each come to its end and
-/// compares its model with that of a session that was left alone. Fails where they differ, or where a
-/// session ends otherwise than it has to.
+/// Cancels sessions at random times and reports how quickly they end. Then completes each run and
+/// compares its model with that of an uninterrupted session. Fails if they differ or if a session
+/// ends in an unexpected way.
 @main
 struct CancelBenchmark: AsyncParsableCommand {
   static let configuration = CommandConfiguration(commandName: "cancel-benchmark")
@@ -12,10 +12,10 @@ struct CancelBenchmark: AsyncParsableCommand {
   @Argument(help: "The folder with the photos.")
   var photos: String
 
-  @Option(help: "How often to cancel.")
+  @Option(help: "The number of cancellations.")
   var cancels = 100
 
-  @Option(help: "What the random moments begin from.")
+  @Option(help: "The seed of the random times.")
   var seed: UInt64 = 1
 
   @Option(help: "preview, reduced, medium, full or raw.")
@@ -49,7 +49,7 @@ struct CancelBenchmark: AsyncParsableCommand {
   }
 }
 
-/// Steele, Lea and Flood's generator (OOPSLA 2014).
+/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 struct SplitMix64: RandomNumberGenerator {
   var state: UInt64
 

@@ -1,7 +1,7 @@
 import Foundation
 import RealityFoundation
 
-/// Sessions on one folder of photos that are cancelled, and what came of it.
+/// Sessions on one folder of photos that are canceled at random times, with their measurements.
 struct CancelTrial {
   private struct Cancel {
     var stage: String
@@ -17,7 +17,7 @@ struct CancelTrial {
   private var cancels: [Cancel] = []
   private var models = 0
 
-  /// Works in a folder, which must be there.
+  /// Works in a folder, which must exist.
   init(
     photos: URL, detail: PhotogrammetrySession.Request.Detail, folder: URL, generator: SplitMix64
   ) {
@@ -29,7 +29,7 @@ struct CancelTrial {
   private var model: URL { folder.appendingPathComponent("model.usdz") }
   private var checkpoint: URL { folder.appendingPathComponent("checkpoint") }
 
-  /// Makes the model that all others have to be equal to.
+  /// Makes the reference model without a cancellation.
   mutating func makeUndisturbed() async throws {
     let start = ContinuousClock.now
     guard try await run(session(), cancellingAfter: nil) == .complete else {
@@ -38,15 +38,16 @@ struct CancelTrial {
     undisturbedSeconds = seconds(since: start)
     undisturbed = try Data(contentsOf: model)
     try clear()
-    print("An undisturbed session takes \(format(undisturbedSeconds)) s.")
+    print("An uninterrupted session takes \(format(undisturbedSeconds)) s.")
   }
 
-  /// Makes a model with so many cancels at most on the way, every other time with the same session.
+  /// Makes a model with at most `limit` cancellations on the way; every second attempt reuses the
+  /// session.
   mutating func makeDisturbed(atMost limit: Int) async throws {
     var session = try session()
     for attempt in 0...limit {
       if attempt.isMultiple(of: 2) { session = try self.session() }
-      // What goes on is shorter: most moments lie early.
+      // A resumed run is shorter, so most times are early.
       let pause = Double.random(in: 0..<0.6 * undisturbedSeconds, using: &generator)
       switch try await run(session, cancellingAfter: attempt < limit ? pause : nil) {
       case .cancelled: continue
@@ -65,10 +66,10 @@ struct CancelTrial {
       $0.key < $1.key
     }) {
       let slowest = cancels.map(\.seconds).max() ?? 0
-      print("\(stage): \(cancels.count) cancels, the slowest took \(format(slowest)) s")
+      print("\(stage): \(cancels.count) cancellations, the slowest took \(format(slowest)) s")
     }
     let slow = cancels.filter { $0.seconds > 1 }.count
-    print("\(count) cancels, \(slow) of them took more than 1 s; \(models) models, all the same.")
+    print("\(count) cancellations, \(slow) took more than 1 s; \(models) models, all identical.")
   }
 
   private func session() throws -> PhotogrammetrySession {
@@ -76,7 +77,7 @@ struct CancelTrial {
       input: photos, configuration: .init(checkpointDirectory: checkpoint))
   }
 
-  /// Processes until the session ends by itself or is cancelled.
+  /// Processes until the session ends by itself or is canceled.
   private mutating func run(
     _ session: PhotogrammetrySession, cancellingAfter pause: Double?
   ) async throws -> SessionWatch.Ending {
@@ -109,7 +110,7 @@ enum TrialError: LocalizedError {
   var errorDescription: String? {
     switch self {
     case .failed: "A session ended in neither processingComplete nor processingCancelled."
-    case .differs: "A model differs from that of the undisturbed session."
+    case .differs: "A model differs from that of the uninterrupted session."
     }
   }
 }

@@ -1,16 +1,16 @@
 import RealityFoundation
 import Synchronization
 
-/// Listens to a session from `process` on until it ends.
+/// Observes a session from `process` until it ends.
 final class SessionWatch: Sendable {
   enum Ending: Sendable { case complete, cancelled, failed }
 
   private let current = Mutex("ingestion")
 
-  /// The stage that was told of last.
+  /// The most recently reported stage.
   var stage: String { current.withLock { $0 } }
 
-  /// Waits for the last output of the session's task.
+  /// Waits for the last output of the run.
   func ending(of outputs: PhotogrammetrySession.Outputs) async throws -> Ending {
     var hasFailed = false
     for try await output in outputs {

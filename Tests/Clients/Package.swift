@@ -2,12 +2,12 @@
 import Foundation
 import PackageDescription
 
-// Programs as they are written for the Mac, each a target of its own, and the examples. All of them
-// are built in the language mode that CLIENT_LANGUAGE_MODE names, 5 or 6.
+// Programs as they are written for macOS, each a target of its own, and the examples. All of them
+// are built in the language mode of CLIENT_LANGUAGE_MODE, 5 or 6.
 let environment = ProcessInfo.processInfo.environment
 let languageModes: [SwiftLanguageMode] = environment["CLIENT_LANGUAGE_MODE"] == "5" ? [.v5] : [.v6]
 
-/// ArgumentParser from where the engine's package has it.
+/// ArgumentParser from the same source as in the engine's package.
 let argumentParser: Package.Dependency = {
   let cache =
     environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")

@@ -154,6 +154,6 @@ import Testing
       + #""R": [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "t": [0, 0, 0]}]"#
     try write(mirrored, as: "mirror/cameras.json")
     try expectFailure(
-      ["photos", "mirror", "work"], code: 2, mentioning: ["R of p.jpg is no rotation"])
+      ["photos", "mirror", "work"], code: 2, mentioning: ["R of p.jpg is not a rotation"])
   }
 }

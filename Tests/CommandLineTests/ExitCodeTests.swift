@@ -157,7 +157,7 @@ import Testing
     let run = try CommandProcess.run(["inspect", "photos"], in: folder)
     #expect(run.exitCode == 0)
     #expect(run.output.contains("mask 100 %"))
-    #expect(run.output.contains("p1_mask.png is not used as a mask: nothing in it is marked"))
+    #expect(run.output.contains("p1_mask.png is not used as a mask: no pixel is marked"))
     #expect(run.output.contains("1 of 3 photos have a mask."))
     let missing = try CommandProcess.run(["inspect", "photos", "--masks", "none"], in: folder)
     #expect(missing.exitCode == 2)

@@ -15,7 +15,7 @@ import Testing
     }
   }
 
-  /// The points lie in a plane, where a reflection would fit as well.
+  /// The points are coplanar, so that a reflection would fit equally well.
   @Test(arguments: [3, 4, 50]) func exactPairsGiveTheExactTransform(_ count: Int) throws {
     let points = Self.points(count)
     let found = try #require(
@@ -45,7 +45,7 @@ import Testing
     #expect(alignment.robust(from: line, to: line) == nil)
   }
 
-  /// Cameras on a circle that look at its middle.
+  /// Cameras on a circle, facing its center.
   static func ring(_ count: Int) -> [NamedCamera] {
     (0..<count).map { index in
       let angle = 2 * Double.pi * Double(index) / Double(count)

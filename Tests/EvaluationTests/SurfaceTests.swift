@@ -165,7 +165,8 @@ import Testing
     #expect(scores.thresholds[0].recall < 0.1)
   }
 
-  /// A thousand points on the square and one above it: as they are, one in a thousand is wrong.
+  /// A thousand points on the square and one above it: without downsampling, one in a thousand is
+  /// wrong.
   @Test func averagingCountsPlacesInsteadOfPoints() throws {
     let square = Self.square(side: 1)
     var cloud = PointCloud(positions: SurfaceSampling().run(square, count: 1000))
@@ -187,7 +188,7 @@ import Testing
     #expect(VoxelAveraging(side: 1e-30).run([[0, 0, 0], [1, 1, 1]]).count == 2)
   }
 
-  /// A wall of height 1 on the plane z = 0, of which the lower half is left out on both sides.
+  /// A wall of height 1 on the plane z = 0; the lower half is excluded on both sides.
   @Test func whatIsBelowTheFloorDoesNotCount() throws {
     func wall(_ heights: ClosedRange<Float>, y: Float) -> Mesh {
       var mesh = Self.square(side: 1)

@@ -4,9 +4,9 @@ import Kernels
 import SceneModel
 import TestSupport
 
-/// Files that must be refused, or used in spite of how they are stored.
+/// Files that must be rejected, or accepted despite the way they are stored.
 struct BadPhotos {
-  /// Two photos: one is the good one, the other is damaged in all ways.
+  /// Two photos: one is kept intact, the other is damaged in various ways.
   var scene: RenderedScene
 
   func write(to folder: URL, _ control: KernelControl) throws {
@@ -40,7 +40,7 @@ struct BadPhotos {
       "black.jpg")
   }
 
-  /// Overwrites a stretch in the middle of the pixel data.
+  /// Overwrites a range in the middle of the pixel data.
   private func corrupt(_ jpeg: [UInt8]) -> [UInt8] {
     var bytes = jpeg
     var random = SeededGenerator(seed: 5)

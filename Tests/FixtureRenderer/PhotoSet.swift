@@ -5,19 +5,19 @@ import Kernels
 import SceneModel
 import TestSupport
 
-/// Photos of a rendered scene with its cameras and surface as files.
+/// Writes photos of a rendered scene together with its cameras and surface.
 struct PhotoSet {
   var scene: RenderedScene
-  /// Writes the camera and its focal length into the photos.
+  /// Writes camera model and focal length into the photos.
   var hasMetadata = true
   var quality: Float
-  /// Writes cameras and surface in a frame with z up instead of y.
+  /// Writes cameras and surface in a z-up frame instead of a y-up one.
   var isZUp = false
-  /// The scene from other places, to compare a model with: photos that are not in `images`.
+  /// The scene from other poses, for comparison with a model: photos that are not in `images`.
   var held: RenderedScene?
 
-  /// Writes `images/*.jpg`, `gt/cameras.json` and `gt/mesh.ply`, and the photos that are held out to
-  /// `holdout` with masks of the object.
+  /// Writes `images/*.jpg`, `gt/cameras.json` and `gt/mesh.ply`, and the held-out photos with masks
+  /// of the object to `holdout`.
   func write(to folder: URL, _ control: KernelControl) throws {
     for index in scene.poses.indices {
       var bytes = try ImageCodec.encodeJPEG(scene.photo(index, control), quality: quality)
@@ -46,7 +46,7 @@ struct PhotoSet {
 
   private static func heldName(_ index: Int) -> String { "held_\(index).png" }
 
-  /// As of a full-frame sensor, 36 mm wide.
+  /// As for a full-frame sensor, 36 mm wide.
   private var exif: ExifFields {
     let camera = scene.camera
     let tenths = UInt32((camera.focalLength.x / Double(camera.width) * 360).rounded())
@@ -59,7 +59,7 @@ struct PhotoSet {
   }
 
   /// A list of name, K, R and t: `x_camera = R x_world + t`, x right, y down, z forward, pixel
-  /// origin at the corner of the top-left pixel.
+  /// origin at the top-left corner of the top-left pixel.
   private var camerasJSON: String {
     var entries = scene.poses.enumerated().map {
       entry(RenderedScene.name($0), $1, of: scene.camera)

@@ -2,16 +2,16 @@ import Foundation
 import Kernels
 import TestSupport
 
-// Writes the photo sets in Fixtures/ anew: `swift run -c release render-fixtures Fixtures`.
-// The same program gives the same bytes. Instead, for benchmarks:
+// Regenerates the photo sets in Fixtures/: `swift run -c release render-fixtures Fixtures`.
+// The output is deterministic. Other sets, for benchmarks:
 //
-//   render-fixtures <folder> faint             a set of low texture, to compare sensitivities on
-//   render-fixtures <folder> dense [name …]    sets to judge the dense stage on, by name or all
-//   render-fixtures <folder> texture [name …]  sets to judge the texture on, with photos held out
-//   render-fixtures <folder> ring [count]      a set of many photos, 160 if not said
+//   render-fixtures <folder> faint             a low-texture set, to compare sensitivities
+//   render-fixtures <folder> dense [name …]    sets to evaluate the dense stage, by name or all
+//   render-fixtures <folder> texture [name …]  sets to evaluate the texture, with held-out photos
+//   render-fixtures <folder> ring [count]      a large set of photos, 160 by default
 //
-// The sets for the dense stage have their surface and cameras in a frame with z up; the table, at
-// z = 0, is not part of the surface.
+// The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
+// is not part of the surface.
 
 let folder = URL(
   fileURLWithPath: CommandLine.arguments.dropFirst().first ?? "Fixtures", isDirectory: true)

@@ -35,7 +35,7 @@ import Testing
     }
   }
 
-  /// The temporary name must not be longer than file systems allow where the name itself is not.
+  /// The temporary name must not exceed the file system's limit if the name itself doesn't.
   @Test(arguments: ["n", "é", "模"])
   func theLongestNamesAreWritten(_ letter: String) throws {
     try Sample.withFolder { folder in

@@ -5,7 +5,7 @@ import Testing
 @testable import Formats
 
 @Suite struct COLMAPTextTests {
-  /// Three photos of which the middle one has no pose, two cameras, two points.
+  /// Three photos, the middle one without a pose, two cameras, two points.
   static let reconstruction: Reconstruction = {
     let cameras = [
       Camera(

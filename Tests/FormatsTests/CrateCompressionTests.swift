@@ -33,7 +33,7 @@ import Testing
     #expect(try Self.decode(bytes, count: integers.count) == integers)
   }
 
-  /// LZ4's block format read by the letter of its description.
+  /// Decompresses LZ4's block format, implemented directly from its specification.
   static func decompress(_ block: [UInt8]) throws -> [UInt8] {
     var output: [UInt8] = []
     var position = 0
@@ -66,7 +66,7 @@ import Testing
     return output
   }
 
-  /// The integer coding read by its description.
+  /// Decodes the integer coding, implemented from its specification.
   static func decode(_ bytes: [UInt8], count: Int) throws -> [Int32] {
     var reader = ByteReader(bytes)
     let common = Int32(bitPattern: UInt32(try reader.unsigned(4)))

@@ -4,14 +4,14 @@ import Testing
 
 @testable import Formats
 
-/// Reads a GLB file as the specification describes it, for tests.
+/// Parses a GLB file according to the specification, for tests.
 struct GLBReader {
   typealias Object = [String: Any]
 
   let root: Object
   let binary: [UInt8]
 
-  /// Checks header, chunks, buffer views and accessors on the way.
+  /// Also checks header, chunks, buffer views and accessors.
   init(_ bytes: [UInt8]) throws {
     var reader = ByteReader(bytes)
     #expect(try reader.unsigned(4) == 0x4654_6C67)
@@ -44,7 +44,7 @@ struct GLBReader {
     return Array(binary[start..<(start + (try #require(view["byteLength"] as? Int)))])
   }
 
-  /// Buffer views follow each other, each at a multiple of four and less than four bytes apart.
+  /// Buffer views are consecutive, aligned to four bytes and less than four bytes apart.
   private func checkViews() throws {
     var end = 0
     for view in list("bufferViews") {
@@ -62,7 +62,7 @@ struct GLBReader {
 // MARK: - Geometry
 
 extension GLBReader {
-  /// A corner of a triangle with all that it is given.
+  /// A triangle corner with all its attributes.
   struct Corner: Equatable {
     var position: SIMD3<Float>
     var normal: SIMD3<Float>?
@@ -106,7 +106,7 @@ extension GLBReader {
     return try floats(index, type: "VEC3", width: 3).map { SIMD3($0) }
   }
 
-  /// Corners in the order of the indices; texture coordinates as they are stored.
+  /// Corners in index order; texture coordinates as stored.
   func corners(of primitive: Object) throws -> [Corner] {
     let attributes = try #require(primitive["attributes"] as? Object)
     let positions = try positions(of: primitive)
@@ -125,7 +125,7 @@ extension GLBReader {
 // MARK: - Material
 
 extension GLBReader {
-  /// The image that a texture reference of material `index` leads to, with its media type.
+  /// The image and media type of a texture reference of material `index`.
   func image(_ material: Int, _ path: String...) throws -> (mediaType: String, bytes: [UInt8])? {
     var object: Object? = list("materials")[material]
     for name in path { object = object?[name] as? Object }

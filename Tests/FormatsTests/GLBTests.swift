@@ -9,7 +9,7 @@ import Testing
     EncodedImage(fileExtension: fileExtension, bytes: Array(text.utf8))
   }
 
-  /// A square of two triangles that share an edge, at one of whose ends their texture coordinates
+  /// A square of two triangles that share an edge; at one of its ends their texture coordinates
   /// differ.
   private var square: TexturedMesh {
     let mesh = Mesh(
@@ -22,7 +22,7 @@ import Testing
       atlases: [TextureAtlas(triangles: 0..<2, maps: [:])])
   }
 
-  /// What the corners of `range` must be in a file.
+  /// The expected corners of `range` in a file.
   private func corners(_ mesh: TexturedMesh, _ range: Range<Int>) -> [GLBReader.Corner] {
     range.flatMap { face in
       let (t, st) = (mesh.mesh.triangles[face], mesh.textureTriangles[face])
@@ -39,14 +39,14 @@ import Testing
   @Test func verticesAreSplitOnlyWhereTextureCoordinatesDiffer() throws {
     let file = try GLBReader(
       try GLBFile.encode(
-        square, materials: [GLTFMaterial(baseColor: image("colour"))], creator: "tests"))
+        square, materials: [GLTFMaterial(baseColor: image("color"))], creator: "tests"))
     let primitive = try #require(file.primitives.first)
     #expect(try file.positions(of: primitive).count == 5)
     #expect(try file.corners(of: primitive) == corners(square, 0..<2))
     let accessor = try #require(
       file.list("accessors").first { $0["min"] != nil } as GLBReader.Object?)
     let (low, high) = (accessor["min"] as? [Double], accessor["max"] as? [Double])
-    // The first vertex is used by no triangle and may not count.
+    // No triangle uses the first vertex, so it must not count.
     #expect(low?.map { Float($0) } == [0, 0, -3])
     #expect(high?.map { Float($0) } == [1, 1, 0.1])
   }
@@ -77,7 +77,7 @@ import Testing
     let sphere = Sample.sphere(rings: 3, atlasCount: 2)
     let materials = [
       GLTFMaterial(
-        baseColor: image("colour", "jpg"), normal: image("normals"),
+        baseColor: image("color", "jpg"), normal: image("normals"),
         surface: .occlusion(image("occlusion"))),
       GLTFMaterial(surface: .occlusionAndRoughness(image("packed"))),
     ]
@@ -87,7 +87,7 @@ import Testing
     #expect(file.list("images").count == 4)
     let color = try file.image(0, "pbrMetallicRoughness", "baseColorTexture")
     #expect(color?.mediaType == "image/jpeg")
-    #expect(color?.bytes == Array("colour".utf8))
+    #expect(color?.bytes == Array("color".utf8))
     #expect(try file.image(0, "normalTexture")?.bytes == Array("normals".utf8))
     #expect(try file.image(0, "occlusionTexture")?.bytes == Array("occlusion".utf8))
     #expect(try file.image(0, "pbrMetallicRoughness", "metallicRoughnessTexture") == nil)
@@ -115,11 +115,11 @@ import Testing
     (mesh.textureCoordinates, mesh.textureTriangles) = ([], [])
     let file = try GLBReader(
       try GLBFile.encode(
-        mesh, materials: [GLTFMaterial(baseColor: image("colour"))], creator: "tests"))
+        mesh, materials: [GLTFMaterial(baseColor: image("color"))], creator: "tests"))
     let primitive = try #require(file.primitives.first)
     #expect(primitive["attributes"] as? [String: Int] == ["POSITION": 0])
     #expect(try file.positions(of: primitive).count == 4)
-    // An image can't be used without texture coordinates.
+    // An image is unusable without texture coordinates.
     #expect(file.root["images"] == nil && file.root["textures"] == nil)
   }
 
@@ -142,7 +142,7 @@ import Testing
 
   @Test func sameModelSameBytes() throws {
     let sphere = Sample.sphere(rings: 10, atlasCount: 2)
-    let materials = [GLTFMaterial(baseColor: image("colour"), normal: image("normals"))]
+    let materials = [GLTFMaterial(baseColor: image("color"), normal: image("normals"))]
     let bytes = try (0..<2).map { _ in
       try GLBFile.encode(sphere, materials: materials, creator: "tests")
     }

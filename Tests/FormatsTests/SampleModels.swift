@@ -3,7 +3,7 @@ import SceneModel
 
 @testable import Formats
 
-/// Makes models and folders for the tests of this module.
+/// Creates models and folders for the tests of this module.
 enum Sample {
   /// A sphere of radius 1 around (0, 1, 0) with `rings` × 2 `rings` cells, in `atlasCount` atlases.
   static func sphere(rings: Int, atlasCount: Int = 1) -> TexturedMesh {
@@ -39,7 +39,7 @@ enum Sample {
       atlases: atlases)
   }
 
-  /// The sphere with stand-ins for its images.
+  /// The sphere with placeholder images.
   static func model(rings: Int, atlasCount: Int = 1) -> ModelContent {
     let textures = (0..<atlasCount).map { atlas in
       [TextureMap.ambientOcclusion, .normal, .diffuseColor].map {
@@ -51,7 +51,7 @@ enum Sample {
       mesh: sphere(rings: rings, atlasCount: atlasCount), textures: textures, creator: "tests")
   }
 
-  /// Calls `body` with a new folder that is gone afterwards.
+  /// Calls `body` with a new folder that is removed afterwards.
   static func withFolder<Result>(_ body: (URL) throws -> Result) throws -> Result {
     let folder = FileManager.default.temporaryDirectory
       .appendingPathComponent("formats-\(UUID().uuidString)", isDirectory: true)

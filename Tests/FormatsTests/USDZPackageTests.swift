@@ -81,7 +81,7 @@ import Testing
     var checksum: UInt32
   }
 
-  /// What the directory at the end says, checked against the local headers.
+  /// The entries of the central directory, checked against the local headers.
   static func entries(of bytes: [UInt8]) throws -> [Entry] {
     var end = ByteReader(bytes, from: bytes.count - 22)
     #expect(try end.unsigned(4) == 0x0605_4B50)

@@ -8,14 +8,14 @@ import TestSupport
 
 /// Matches and maps one synthetic scene and prints the cost and the errors as one line of JSON.
 ///
-/// One run is one process, so that its peak memory is its own; `scripts/benchmark-growth` runs the
-/// sizes and makes the table.
+/// Each measurement is a separate process, so that the peak memory is that of one run;
+/// `scripts/benchmark-growth` runs all sizes and prints the table.
 @main
 struct GrowthBenchmark: ParsableCommand {
   enum Mapping: String, CaseIterable, ExpressibleByArgument {
     case automatic, incremental, global, none
 
-    /// nil: match only.
+    /// Nil: matching only.
     var method: MappingMethod? { MappingMethod(rawValue: rawValue) }
   }
 
@@ -25,11 +25,11 @@ struct GrowthBenchmark: ParsableCommand {
   @Option(help: "streets or orbits.") var layout = GrowthScene.Layout.streets
   @Option(help: "automatic, incremental, global, or none to match only.")
   var mapping = Mapping.automatic
-  @Option(help: "Features of a photo at most.") var features = 2500
+  @Option(help: "Maximum number of features per photo.") var features = 2500
   @Option(help: "Threads.") var threads = 2
   @Option(help: "Seed of the scene.") var seed: UInt64 = 1
-  @Flag(help: "Put the photos in random order.") var shuffled = false
-  @Flag(help: "Say that the photos are in the order of capture.") var sequential = false
+  @Flag(help: "Shuffle the photos.") var shuffled = false
+  @Flag(help: "Declare the photos to be in the order of capture.") var sequential = false
 
   func run() throws {
     let control = KernelControl(threadCount: threads)

@@ -3,7 +3,7 @@ import Pipeline
 import SceneModel
 import TestSupport
 
-/// Time between two moments.
+/// Time between two measurements.
 struct Cost: Codable {
   var seconds = 0.0
   var cpuSeconds = 0.0
@@ -14,15 +14,15 @@ struct Cost: Codable {
   }
 }
 
-/// What one run found and what it cost.
+/// The results and the cost of one run.
 struct Result: Codable {
   var layout: String
   var photos: Int
-  /// Mean over the photos.
+  /// Mean number of features per photo.
   var features: Int
   var pairs: Int
   var verifiedPairs: Int
-  /// Verified pairs that share hardly a point.
+  /// Verified pairs with fewer than ten common points.
   var wrongPairs: Int
   var matching: Cost?
   var mapping: Cost?
@@ -30,7 +30,7 @@ struct Result: Codable {
   var registered: Int?
   var points: Int?
   var meanTrackLength: Double?
-  /// The median error of the camera centres divided by their RMS distance from their mean.
+  /// The median error of the camera centers divided by their RMS distance from their mean.
   var relativeCenterError: Double?
   var areaUnderCurve: [PoseErrors.AreaUnderCurve]?
   var counts: [String: Double]

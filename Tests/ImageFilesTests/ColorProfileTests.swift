@@ -7,14 +7,14 @@ import Testing
 @testable import Kernels
 
 @Suite struct ColorProfileTests {
-  /// Inside sRGB's gamut when they are taken as Display P3.
+  /// Inside sRGB's gamut when interpreted as Display P3.
   private static let colors: [SIMD3<Double>] = [
     [128, 128, 128], [180, 120, 90], [90, 140, 110], [70, 80, 130], [200, 190, 140],
     [255, 255, 255],
     [20, 24, 22],
   ]
 
-  /// Patches of eight by eight pixels side by side.
+  /// Adjacent patches of 8 × 8 pixels.
   private static let patches: RasterImage = {
     var image = RasterImage(width: 8 * colors.count, height: 8, channels: 3)
     for y in 0..<8 {
@@ -37,7 +37,7 @@ import Testing
     }
   }
 
-  /// By the primaries of both spaces and the curve that they share.
+  /// By the primaries of both spaces and their common transfer curve.
   private func fromDisplayP3(_ color: SIMD3<Double>) -> SIMD3<Double> {
     let matrix: [SIMD3<Double>] = [
       [1.22494, -0.22494, 0], [-0.04206, 1.04206, 0], [-0.01964, -0.07864, 1.09827],
@@ -49,7 +49,7 @@ import Testing
     return 255 * map(linear) { $0 <= 0.0031308 ? 12.92 * $0 : 1.055 * pow($0, 1 / 2.4) - 0.055 }
   }
 
-  /// Adobe RGB (1998) to sRGB: both have the same red and blue, white and blue.
+  /// Adobe RGB (1998) to sRGB: both have the same red and blue primaries and white point.
   private func fromAdobeRGB(_ color: SIMD3<Double>) -> SIMD3<Double> {
     let matrix: [SIMD3<Double>] = [
       [1.39836, -0.39836, 0], [0, 1, 0], [0, -0.04293, 1.04293],
@@ -97,7 +97,7 @@ import Testing
     expectConverted(image, within: 1.01, fromAdobeRGB)
     let ordinary = jpeg(try ImageCodec.encodeJPEG(Self.patches, quality: 1), withKind: "R98")
     #expect(ColorProfile(ordinary) == nil)
-    // A program has converted it, and left the kind as it was.
+    // As if a program had converted it without changing the interoperability index.
     let converted = jpeg(
       try ImageCodec.encodeJPEG(Self.patches, quality: 1), withKind: "R03", colorSpace: 1)
     #expect(ColorProfile(converted) == nil)
@@ -120,7 +120,7 @@ import Testing
         let place = Int.random(in: 0..<profile.count, using: &random)
         profile[place] = UInt8.random(in: 0...255, using: &random)
       }
-      // Some are only different profiles: they may change colours, but not the image's size.
+      // Some are merely different profiles: they may change colors, but not the image's size.
       let image = try ImageCodec.decode(png(plain, with: profile))
       #expect(image.pixels.count == Self.patches.pixels.count)
     }
@@ -128,7 +128,7 @@ import Testing
 
   // MARK: Writing
 
-  /// A PNG file with a profile after its header; checksums of such chunks aren't looked at.
+  /// A PNG file with a profile after its header; checksums of such chunks aren't verified.
   private func png(_ png: [UInt8], with profile: [UInt8]) -> [UInt8] {
     let size = profile.count
     let stored: [UInt8] = [
@@ -155,7 +155,7 @@ import Testing
     return Array(jpeg.prefix(2)) + segments + jpeg.dropFirst(2)
   }
 
-  /// A JPEG file whose EXIF data has a directory for interoperability, with its kind.
+  /// A JPEG file whose EXIF data has an interoperability directory with its index.
   private func jpeg(
     _ jpeg: [UInt8], withKind kind: String, colorSpace: Int = 65535
   ) -> [UInt8] {

@@ -7,7 +7,7 @@ import Testing
 @testable import Kernels
 
 @Suite struct HEIFTests {
-  /// Smooth, so that little is lost: red grows to the right, green downwards.
+  /// Smooth, so that compression loses little: red increases to the right, green downward.
   private func slopes(width: Int = 96, height: Int = 64, channels: Int = 3) -> RasterImage {
     var image = RasterImage(width: width, height: height, channels: channels, filledWith: 90)
     for y in 0..<height {

@@ -6,7 +6,7 @@ import Testing
 @testable import Kernels
 
 @Suite struct ImageCodecTests {
-  /// Red grows to the right, green downwards, blue is a checkerboard.
+  /// Red increases to the right, green downward; blue is a checkerboard.
   private func pattern(width: Int = 48, height: Int = 32) -> RasterImage {
     var image = RasterImage(width: width, height: height, channels: 3)
     for y in 0..<height {
@@ -34,7 +34,7 @@ import Testing
       var image = RasterImage(width: width, height: height, channels: 3)
       for y in 0..<height {
         for x in 0..<(3 * width) {
-          // Rows that suit different filters: flat, rising, slanted, noise.
+          // Rows that favor different filters: constant, rising, slanted, noise.
           image.pixels[3 * width * y + x] =
             switch y % 4 {
             case 0: 200
@@ -70,7 +70,7 @@ import Testing
         == RasterImage(width: 5, height: 4, channels: 3, filledWith: 90))
   }
 
-  /// An uncompressed TIFF file of one strip, colours and alpha.
+  /// An uncompressed TIFF file with one strip, color and alpha.
   private func tiff(_ image: RasterImage, orientation: UInt16 = 1) -> [UInt8] {
     func little(_ value: UInt32, _ count: Int = 4) -> [UInt8] {
       (0..<count).map { UInt8(truncatingIfNeeded: value >> (8 * $0)) }
@@ -102,7 +102,7 @@ import Testing
     let png = try ImageCodec.encodePNG(image)
     #expect(try ImageCodec.decodeAlpha(png) == alpha)
     #expect(try ImageCodec.decodeAlpha(tiff(image)) == alpha)
-    // Its colours are turned too.
+    // Its color channels are rotated too.
     let upsideDown = tiff(image, orientation: 3)
     #expect(try ImageCodec.decodeAlpha(upsideDown) == alpha.turned(byOrientation: 3))
     #expect(try ImageCodec.decode(upsideDown).width == 6)
@@ -166,13 +166,13 @@ import Testing
     #expect(throws: ImageError.self) { try ImageCodec.decode(tiff) }
   }
 
-  /// Where the stored top-left pixel of an orientation ends up: the definition in the EXIF standard.
+  /// Where the stored top-left pixel ends up for each orientation, as defined in the EXIF standard.
   @Test(
     arguments: zip(
       1...8,
       [(0, 0), (2, 0), (2, 1), (0, 1), (0, 0), (1, 0), (1, 2), (0, 2)]))
   func orientationsTurnUpright(orientation: Int, corner: (x: Int, y: Int)) throws {
-    // 3 × 2: the top-left pixel is 1, its right neighbour 2, the one below 4.
+    // 3 × 2: the top-left pixel is 1, its right neighbor 2, the one below 4.
     let stored = RasterImage(width: 3, height: 2, channels: 1, pixels: [1, 2, 3, 4, 5, 6])
     let upright = try stored.turned(byOrientation: orientation)
     #expect(upright.width == (orientation < 5 ? 3 : 2))
@@ -197,7 +197,7 @@ import Testing
       distortion: [-0.2, 0.05, 0.001, -0.002])
     let pinhole = Camera(
       width: 300, height: 220, focalLength: [270, 270], principalPoint: [150, 108])
-    // A smooth image, so that interpolation adds next to nothing.
+    // A smooth image, so that the interpolation error is negligible.
     func value(_ p: SIMD2<Double>) -> Double { 40 + 0.5 * p.x + 0.2 * p.y }
     var image = RasterImage(width: 320, height: 240, channels: 1)
     for index in image.pixels.indices {

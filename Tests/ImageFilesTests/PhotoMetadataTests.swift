@@ -72,7 +72,7 @@ import Testing
     let png = try ImageCodec.encodePNG(RasterImage(width: 4, height: 4, channels: 3))
     let tiff = ExifWriter.tiff(fields)
     let length = (0..<4).reversed().map { UInt8(truncatingIfNeeded: tiff.count >> (8 * $0)) }
-    // After the signature and the header chunk; the reader doesn't check sums.
+    // After the signature and the header chunk; the reader doesn't verify checksums.
     let chunk = length + Array("eXIf".utf8) + tiff + [0, 0, 0, 0]
     let read = PhotoMetadata(Array(png.prefix(33)) + chunk + Array(png.dropFirst(33)))
     #expect(read.focalLengthIn35mmFilm == 28)
@@ -100,13 +100,13 @@ import Testing
     }
     let equivalent = pixels { $0.focalLengthIn35mmFilm = 27 }
     #expect(equivalent == (1200, .exif))
-    // A full-frame camera, whose true focal length is the better figure.
+    // A full-frame camera, whose actual focal length is more accurate.
     let fullFrame = pixels {
       $0.focalLengthIn35mmFilm = 41
       $0.focalLength = 41.4
     }
     #expect(abs(fullFrame.0 - 1840) < 1e-9)
-    // 4000 pixels were 8 mm; the photo was resized to 1600 since.
+    // 4000 pixels were 8 mm; the photo was later resized to 1600.
     let sensor = pixels {
       $0.focalLength = 10
       $0.focalPlaneResolution = 500

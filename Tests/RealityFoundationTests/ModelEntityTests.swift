@@ -6,8 +6,8 @@ import Testing
 @testable import RealityFoundation
 
 @Suite struct ModelEntityTests {
-  /// Two squares at x = 0…1 and 2…3, each with a texture of its own; the corners of the first have two
-  /// places in it.
+  /// Two unit squares at x = 0…1 and 2…3, each with a texture of its own; a texture seam separates
+  /// the triangles of the first.
   private let textured: TexturedMesh = {
     var mesh = Mesh()
     for x in [Float(0), 2] {
@@ -39,7 +39,7 @@ import Testing
     #expect(instance.model == shape.id && instance.transform == matrix_identity_float4x4)
     #expect(shape.parts.map(\.materialIndex) == [0, 1] && shape.parts["g1"]?.materialIndex == 1)
     let first = try #require(shape.parts.first)
-    // Two of the corners are divided where the texture is.
+    // Two corners are duplicated along the texture seam.
     #expect(first.positions.count == 6 && first.triangleIndices?.elements == [0, 1, 2, 3, 4, 5])
     #expect(first.textureCoordinates?.elements == textured.textureCoordinates)
     #expect(first.normals?.allSatisfy { $0 == [0, 0, 1] } == true)

@@ -13,7 +13,8 @@ import Testing
 
   @Test func lookAlongMinusZ() {
     let pose = PhotogrammetrySession.Pose(cameraFromWorld: cameraFromWorld, camera: camera)
-    // A point right of, below and before the camera: x right, y up, z towards the viewer.
+    // A point to the right of, below and in front of the camera. In RealityKit's camera frame x
+    // points right, y up and z toward the viewer.
     let inCamera = SIMD3(0.5, 0.25, 2.0)
     let world = cameraFromWorld.inverse * inCamera
     let mirrored = SIMD4<Float>(0.5, -0.25, -2, 1)

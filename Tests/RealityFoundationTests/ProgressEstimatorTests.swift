@@ -10,7 +10,8 @@ import Testing
     .textureMapping: 30, .optimization: 5,
   ]
 
-  /// Runs all stages at their true durations and yields the true and the estimated remaining time.
+  /// Simulates all stages with their true durations; returns the estimated remaining time after
+  /// each step.
   private func simulate(
     _ truth: (PipelineStage) -> Double
   ) -> [(time: Double, total: Double, estimate: Double?)] {

@@ -1,9 +1,9 @@
 import RealityKit
 import Testing
 
-// Imports nothing but RealityKit: what compiles here compiles in a program for the Mac.
+// Imports only RealityKit: what compiles here compiles in a program for macOS.
 
-/// Names every case of an output, as a program that handles them all does.
+/// Handles every case of an output, as a client program does.
 private func summary(of output: PhotogrammetrySession.Output) -> String {
   switch output {
   case .inputComplete: "inputComplete"

@@ -44,7 +44,7 @@ import Testing
     #expect(poses.posesBySample.count == 20 && cloud.points.count > 1000)
     #expect(poses.urlsBySample[0]?.lastPathComponent == "view_00.jpg")
     #expect(cloud.points.allSatisfy { $0.color.w == 255 })
-    // All cameras look at the middle of the points from outside.
+    // All cameras look from outside at the center of the points.
     let box = cloud.points.reduce(into: BoundingBox.empty) { $0.formUnion($1.position) }
     for pose in poses.posesBySample.values {
       let view = pose.rotation.act([0, 0, -1])
@@ -54,7 +54,7 @@ import Testing
     try await entitiesAreCroppedAndMoved(session)
   }
 
-  /// The upper half of the model, twice as large, and the whole.
+  /// Requests the upper half of the model, scaled by two, and the whole model.
   private func entitiesAreCroppedAndMoved(_ session: Session) async throws {
     let whole = Session.Request.modelEntity(detail: .preview)
     guard case .modelEntity(let entity) = results(in: try await run(session, [whole]))[whole] else {
@@ -86,7 +86,7 @@ import Testing
     #expect((errors(in: outputs).first as? ProcessingError)?.code == .emptyCrop)
   }
 
-  /// A second call makes a model of what the first found out.
+  /// A second call makes a model from the results of the first.
   private func modelFollows(_ session: Session, _ box: BoundingBox) async throws {
     try await withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("model.usdz")

@@ -8,7 +8,7 @@ import Testing
 @testable import RealityFoundation
 
 @Suite struct SampleTests {
-  /// An RGB image whose pixels tell where they are.
+  /// An RGB image with distinct pixels.
   static let image = RasterImage(
     width: 37, height: 20, channels: 3,
     pixels: (0..<37 * 20 * 3).map { UInt8(truncatingIfNeeded: $0 &* 7) })
@@ -20,17 +20,17 @@ import Testing
   @Test func gravityIsTurnedIntoTheUprightPhoto() throws {
     var sample = try sample(0)
     #expect(sample.gravityInCamera == nil)
-    // Held upright, with the right side of the photo stored as its first row.
+    // Held upright; the right side of the photo is stored as its first row.
     sample.gravity = CMAcceleration(x: 0, y: -1, z: 0)
     sample.metadata["Orientation"] = 6
     #expect(sample.gravityInCamera == [0, 1, 0])
     sample.metadata["Orientation"] = UInt32(8)
     #expect(sample.gravityInCamera == [0, -1, 0])
-    // On its left side, as the camera sees.
+    // Lying on its left side, as seen by the camera.
     sample.metadata["Orientation"] = nil
     sample.gravity = CMAcceleration(x: -1, y: 0, z: 0)
     #expect(sample.gravityInCamera == [0, 1, 0])
-    // Flat on a table, the screen up: the camera looks down.
+    // Flat on a table with the screen up: the camera looks down.
     sample.gravity = CMAcceleration(x: 0, y: 0, z: -1)
     for orientation in 1...8 {
       sample.metadata["Orientation"] = orientation
@@ -48,7 +48,7 @@ import Testing
     let map = try #require(buffer)
     var image = RasterImage(width: 5, height: 3, channels: 1)
     for index in 0..<15 {
-      // Powers of two, so that nothing is rounded.
+      // Powers of two avoid rounding.
       image.pixels[index] = UInt8(index)
       let bits = Float16(sign: .plus, exponent: -index / 2, significand: index % 2 == 0 ? 1 : 1.5)
       map.storage.write(

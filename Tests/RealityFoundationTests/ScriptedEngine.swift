@@ -5,24 +5,24 @@ import SceneModel
 @testable import Pipeline
 @testable import RealityFoundation
 
-/// An engine that does what a test tells it, in no time.
+/// An engine that follows a test's script and does no work.
 final class ScriptedEngine: SessionEngine {
-  /// What the engine does and what was asked of it.
+  /// The behavior of the engine.
   struct Script: Sendable {
     var photos = 12
     var refused: [RefusedPhoto] = []
     var ingestError: PipelineError?
     var alignmentError: PipelineError?
     var entityError: PipelineError?
-    /// A model needs fewer pixels of a view than this.
+    /// A model needs fewer pixels per view than this to fit into memory.
     var pixelsInMemory = Int.max
     var isDownsampled = false
     var registered: Int?
-    /// Works on the alignment until it is cancelled.
+    /// Repeats the alignment until it is canceled.
     var worksForever = false
   }
 
-  /// What engines were made and asked for, from any thread.
+  /// A thread-safe record of the engines made and the calls they received.
   final class Journal: Sendable {
     private let entries = Locked<[String]>([])
 
@@ -131,7 +131,7 @@ final class ScriptedEngine: SessionEngine {
 }
 
 extension PhotogrammetrySession {
-  /// A session on a folder with an engine of the test's.
+  /// A session on a folder with a scripted engine.
   convenience init(
     folder: URL, _ script: ScriptedEngine.Script = .init(),
     journal: ScriptedEngine.Journal = .init(), configuration: Configuration = .init()

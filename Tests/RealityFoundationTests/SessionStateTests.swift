@@ -11,7 +11,7 @@ import Testing
   static let model = Session.Request.modelFile(
     url: URL(fileURLWithPath: "/tmp/model.usdz"), detail: .preview)
 
-  /// A state that has begun with the requests, and their plan.
+  /// A state that has begun to process the requests, with their plan.
   private func begun(
     _ requests: [Session.Request] = [.poses, model]
   ) throws -> (SessionState, RunPlan) {
@@ -118,10 +118,10 @@ import Testing
       let told = try #require(fractions[request])
       #expect(told == told.sorted() && told.count >= 3 && told.allSatisfy { 0...1 ~= $0 })
     }
-    // The model has far to go when the poses are nearly there.
+    // The model has far to go when the poses are almost complete.
     #expect(try #require(fractions[.poses]?.last) > 0.9)
     #expect(try #require(fractions[Self.model]?.last) < 0.6)
-    // A later stage is of no interest to the poses.
+    // A later stage does not affect the poses.
     state.began(plan.entries[1])
     let later = state.progressed(.meshGeneration, fraction: 0.5, at: 20)
     #expect(later.allSatisfy { request(of: $0) == Self.model } && !later.isEmpty)

@@ -5,7 +5,7 @@ import Testing
 @testable import Pipeline
 @testable import RealityFoundation
 
-/// The behaviour of a session, on an engine that does what the test tells it.
+/// The behavior of a session with a scripted engine.
 @Suite(.timeLimit(.minutes(10))) struct SessionTests {
   typealias Session = PhotogrammetrySession
   typealias Output = Session.Output
@@ -142,7 +142,7 @@ import Testing
       let names = try await untilTheEnd(session.outputs).map(name(of:))
       #expect(names.last == "processingCancelled" && !names.contains("requestComplete"))
       #expect(!session.isProcessing)
-      // The session can go on, with an engine that has not been told to stop.
+      // The session can continue with a new engine whose cancellation flag is not set.
       try session.process(requests: [.poses])
       for try await output in session.outputs where name(of: output) == "requestProgress" { break }
       session.cancel()
@@ -171,7 +171,7 @@ import Testing
       weak let reference = session
       let outputs = try #require(session?.outputs)
       try session?.process(requests: [.poses])
-      // Nobody refers to the session any more, and yet the work is done.
+      // The work is completed although nothing refers to the session any more.
       session = nil
       var names: [String] = []
       for try await output in outputs { names.append(name(of: output)) }

@@ -3,19 +3,19 @@ package struct ExifFields: Sendable {
   package var orientation: Int?
   package var make: String?
   package var model: String?
-  /// Millimetres as numerator and denominator, so that nonsense can be written too.
+  /// Millimeters as numerator and denominator, so that invalid values can also be written.
   package var focalLength: (UInt32, UInt32)?
   package var focalLengthIn35mmFilm: Int?
-  /// Pixels an inch on the sensor, as numerator and denominator.
+  /// Pixels per inch on the sensor, as numerator and denominator.
   package var focalPlaneResolution: (UInt32, UInt32)?
   package var originalSize: (width: Int, height: Int)?
-  /// Degrees north and east, metres.
+  /// Degrees north and east, and meters.
   package var position: (latitude: Double, longitude: Double, altitude: Double)?
 
   package init() {}
 }
 
-/// Writes EXIF data (a TIFF structure) and puts it into JPEG files.
+/// Writes EXIF data (a TIFF structure) and inserts it into JPEG files.
 package enum ExifWriter {
   private struct Field {
     var tag: UInt16
@@ -48,7 +48,8 @@ package enum ExifWriter {
     if let value = fields.focalLengthIn35mmFilm { exif.append(short(41989, value)) }
     let gps = gpsFields(fields)
 
-    // Pointers have a fixed size, so the directories' places follow from the sizes before them.
+    // Pointers have a fixed size, so the offsets of the directories follow from the preceding
+    // sizes.
     let header = bigEndian(UInt16(0x4D4D)) + bigEndian(UInt16(42)) + bigEndian(UInt32(8))
     let imageSize = size(of: image) + 24
     let exifOffset = 8 + imageSize

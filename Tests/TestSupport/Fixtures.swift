@@ -2,7 +2,7 @@ import Foundation
 
 /// The photo sets in the repository's `Fixtures` folder.
 package enum Fixtures {
-  /// A set's folder: `orbit`, `relief` or `bad`.
+  /// The folder of a set: `orbit`, `relief` or `bad`.
   package static func folder(_ set: String) -> URL {
     URL(fileURLWithPath: #filePath)
       .deletingLastPathComponent().deletingLastPathComponent().deletingLastPathComponent()

@@ -1,26 +1,27 @@
-/// Writes ICC profiles (ISO 15076-1) of displays: primaries and the curve of sRGB.
+/// Writes ICC display profiles (ISO 15076-1): primaries and the sRGB transfer curve.
 package enum ICCWriter {
-  /// Primaries as XYZ under D50, in rows of red, green and blue.
+  /// Primaries as XYZ under D50: red, green and blue.
   package struct Primaries: Sendable {
     package var red: SIMD3<Double>
     package var green: SIMD3<Double>
     package var blue: SIMD3<Double>
 
-    /// As in profiles of sRGB (IEC 61966-2-1, adapted by Bradford).
+    /// As in sRGB profiles (IEC 61966-2-1, Bradford-adapted).
     package static let sRGB = Primaries(
       red: [0.43607, 0.22249, 0.01392], green: [0.38515, 0.71687, 0.09708],
       blue: [0.14307, 0.06061, 0.71410])
-    /// As in profiles of Display P3.
+    /// As in Display P3 profiles.
     package static let displayP3 = Primaries(
       red: [0.51512, 0.24120, -0.00105], green: [0.29198, 0.69225, 0.04189],
       blue: [0.15710, 0.06657, 0.78407])
   }
 
+  /// A profile with the given primaries.
   package static func profile(_ primaries: Primaries) -> [UInt8] {
     let name =
       Array("mluc".utf8) + zeros(4) + big(1) + big(12) + Array("enUS".utf8) + big(2)
       + big(28) + [0, 0x41, 0, 0]
-    // Exponent, slope, offset, slope near black and its end.
+    // Exponent, slope, offset, slope of the linear part and its end.
     let curve =
       Array("para".utf8) + zeros(4) + [0, 3, 0, 0]
       + [2.4, 1 / 1.055, 0.055 / 1.055, 1 / 12.92, 0.04045].flatMap { fixed($0) }
@@ -47,7 +48,7 @@ package enum ICCWriter {
     Array("XYZ ".utf8) + zeros(4) + fixed(value.x) + fixed(value.y) + fixed(value.z)
   }
 
-  /// In 1/65536.
+  /// s15Fixed16 number.
   private static func fixed(_ value: Double) -> [UInt8] { big(Int((value * 65536).rounded())) }
 
   private static func big(_ value: Int) -> [UInt8] {

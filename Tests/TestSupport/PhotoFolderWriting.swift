@@ -4,8 +4,8 @@ import Kernels
 import SceneModel
 
 extension TemporaryFolder {
-  /// Writes photos as JPEG under the names of rendered photos, from number `first` on. A focal
-  /// length in pixels goes into their EXIF.
+  /// Writes photos as JPEG files named like rendered photos, starting at number `first`. A focal
+  /// length in pixels is stored in their EXIF data.
   package func write(
     _ photos: [RasterImage], focalLength: Double?, first: Int = 0, prefix: String = ""
   ) throws {

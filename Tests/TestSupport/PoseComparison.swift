@@ -1,19 +1,21 @@
 import Foundation
 import SceneModel
 
-/// How far estimated poses are from true ones after the best similarity between the two worlds.
+/// Errors of estimated poses after alignment with the best similarity.
 ///
-/// The rotation between the worlds is the mean over the cameras, so that cameras on a line do too.
+/// The rotation between the two worlds is the mean over the cameras, so that collinear cameras are
+/// supported, too.
 package struct PoseComparison: Sendable {
-  /// Largest distance between camera centres in units of the true world.
+  /// Maximum distance between camera centers in units of the true world.
   package var maximumCenterError = 0.0
-  /// Largest angle between rotations in radians.
+  /// Maximum angle between rotations in radians.
   package var maximumRotationError = 0.0
-  /// Photos with a pose.
+  /// Number of photos with a pose.
   package var count: Int
   package var trueFromEstimated = SimilarityTransform.identity
 
-  /// Compares the photos that have a pose in `estimated`; the errors are infinite below two.
+  /// Compares the photos that have a pose in `estimated`; the errors are infinite for fewer than
+  /// two.
   package init(estimated: [RigidTransform?], true truth: [RigidTransform]) {
     let pairs = zip(estimated, truth).compactMap { estimate, truth in
       estimate.map { (estimate: $0, truth: truth) }

@@ -2,20 +2,20 @@ import Foundation
 import SceneModel
 
 /// A textured ball of radius 1 that floats above a textured floor, photographed along an arc, with
-/// known depth at each pixel. What lies beyond the floor is a sky without texture.
+/// known depth at each pixel. Beyond the floor is a textureless sky.
 package struct RaycastScene: Sendable {
   package struct Options: Sendable {
     package var viewCount = 5
     package var width = 160
     package var height = 120
-    /// Angle between neighbouring views in degrees.
+    /// Angle between neighboring views in degrees.
     package var stepDegrees = 9.0
     package var hasBall = true
-    /// Height of the floor, y.
+    /// The y coordinate of the floor.
     package var floor = -1.2
-    /// Distance from the middle at which the floor ends.
+    /// Distance from the center to the edge of the floor.
     package var floorExtent = 4.0
-    /// Shows the floor and the ball in one colour.
+    /// Renders the floor and the ball in one color.
     package var isUniform = false
 
     package init() {}
@@ -23,7 +23,7 @@ package struct RaycastScene: Sendable {
 
   package let options: Options
   package let views: [PinholeView]
-  /// Points of the surfaces, each with the photos that see it; at least two.
+  /// Points of the surfaces, each with at least two photos that observe it.
   package let reconstruction: Reconstruction
 
   package init(_ options: Options = Options()) {
@@ -43,7 +43,7 @@ package struct RaycastScene: Sendable {
     reconstruction = Self.reconstruct(camera, poses, options)
   }
 
-  /// The depth (z in the camera's frame) of the pixel at column `x`, row `y`; nil for the sky.
+  /// The depth (z in the camera frame) of the pixel at column `x`, row `y`; nil for the sky.
   package func depth(_ view: Int, _ x: Int, _ y: Int) -> Double? {
     let (ray, pose) = (self.ray(view, x, y), views[view].cameraFromWorld)
     guard let hit = Self.hit(from: pose.center, along: ray, options) else { return nil }
@@ -93,7 +93,7 @@ extension RaycastScene {
     return isInside ? (point, [0, 1, 0]) : nil
   }
 
-  /// The mean of 2 × 2 rays a pixel.
+  /// The mean of 2 × 2 rays per pixel.
   private static func render(
     _ photo: ID<Photo>, _ camera: Camera, _ pose: RigidTransform, _ options: Options
   ) -> PinholeView {
@@ -142,7 +142,8 @@ extension RaycastScene {
     return value
   }
 
-  /// Every 12th pixel of the middle view as a sparse point, seen where nothing hides it.
+  /// Every 12th pixel of the middle view as a sparse point, observed by the photos in which it is
+  /// not occluded.
   private static func reconstruct(
     _ camera: Camera, _ poses: [RigidTransform], _ options: Options
   ) -> Reconstruction {

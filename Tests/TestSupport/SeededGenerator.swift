@@ -1,11 +1,11 @@
 import Foundation
 import SceneModel
 
-/// The random numbers of tests.
+/// The random number generator of tests.
 package typealias SeededGenerator = SplitMix64
 
 extension SplitMix64 {
-  /// A normally distributed number with mean 0 and deviation 1 (Box and Muller).
+  /// A normally distributed number with mean 0 and standard deviation 1 (Box and Muller).
   package mutating func normal() -> Double {
     let radius = (-2 * log(1 - uniform())).squareRoot()
     return radius * cos(2 * .pi * uniform())

@@ -17,7 +17,7 @@ package enum SyntheticMesh {
     return mesh
   }
 
-  /// An axis-aligned cube of side 2 around the origin, each side of `cells`² squares.
+  /// An axis-aligned cube of side 2 around the origin, each face made of `cells`² squares.
   package static func cube(cells: Int) -> Mesh {
     var mesh = Mesh()
     let axes: [(SIMD3<Float>, SIMD3<Float>)] = [
@@ -31,7 +31,7 @@ package enum SyntheticMesh {
     return welded(mesh)
   }
 
-  /// A flat grid of `cells`² squares spanned by u and v; its front is where u × v points.
+  /// A flat grid of `cells`² squares spanned by u and v; its front faces u × v.
   package static func grid(
     cells: Int, origin: SIMD3<Float>, u: SIMD3<Float>, v: SIMD3<Float>
   ) -> Mesh {
@@ -54,7 +54,7 @@ package enum SyntheticMesh {
     return mesh
   }
 
-  /// Adds the triangles of `other`.
+  /// Appends the triangles of `other`.
   package static func append(_ other: Mesh, to mesh: inout Mesh) {
     let first = UInt32(mesh.positions.count)
     mesh.positions += other.positions
@@ -62,12 +62,12 @@ package enum SyntheticMesh {
     mesh.triangles += other.triangles.map { .init($0.a + first, $0.b + first, $0.c + first) }
   }
 
-  /// The mesh with vertices at equal places joined, without normals.
+  /// The mesh with coincident vertices merged, without normals.
   package static func welded(_ mesh: Mesh) -> Mesh {
     var known: [SIMD3<Float>: UInt32] = [:]
     var result = Mesh()
     let ids = mesh.positions.map { position -> UInt32 in
-      // Rounded, so that sums of different order meet.
+      // Rounded, so that sums in different orders coincide.
       let key = (position * 4096).rounded(.toNearestOrAwayFromZero)
       if let id = known[key] { return id }
       let id = UInt32(result.positions.count)
@@ -100,12 +100,12 @@ package enum SyntheticMesh {
   }
 }
 
-/// Photos of a unit sphere around the origin, taken from all around it, with exact cameras.
+/// Photos of a unit sphere at the origin, taken from all sides, with exact cameras.
 package struct SphereScene: Sendable {
   package var reconstruction: Reconstruction
   package var images: [RasterImage]
 
-  /// `color` gives RGB, 0…255, of a point of the sphere; `gains` multiplies photo by photo.
+  /// `color` returns the RGB color, 0…255, of a point of the sphere; `gains` are applied per photo.
   package init(
     viewCount: Int, imageSize: Int = 200, gains: [Float] = [],
     color: (SIMD3<Float>) -> SIMD3<Float>
@@ -128,7 +128,7 @@ package struct SphereScene: Sendable {
     reconstruction = Reconstruction(cameras: [camera], photos: photos, poses: poses, points: [])
   }
 
-  /// Cameras on a spiral from pole to pole at distance 5, looking at the origin.
+  /// Cameras on a spiral from pole to pole at distance 5, facing the origin.
   private static func pose(_ index: Int, of count: Int) -> RigidTransform {
     let height = 1 - 2 * (Double(index) + 0.5) / Double(count)
     let angle = 2.399963 * Double(index)

@@ -1,18 +1,18 @@
 import Foundation
 import SceneModel
 
-/// Points, cameras and what the cameras see of the points, all known exactly: no pixels.
+/// Points, cameras and observations with known ground truth, without pixels.
 ///
-/// The object is a ball of radius 1 about the origin, or a disc of radius 2 in the plane y = 0; the
-/// world's up is +y. Points of the ball are seen where they face the camera.
+/// The object is a ball of radius 1 at the origin, or a disk of radius 2 in the plane y = 0; +y is
+/// up. Points of the ball are visible if they face the camera.
 package struct SyntheticScene: Sendable {
-  /// How the cameras stand.
+  /// The arrangement of the cameras.
   package enum Layout: String, Sendable, CaseIterable {
-    /// A closed circle around the object that looks at its centre.
+    /// A full circle around the object, facing its center.
     case ring
-    /// A part of the circle of 100°.
+    /// An arc of 100° of the circle.
     case arc
-    /// A straight line past the object, all cameras looking the same way.
+    /// A straight line past the object, with parallel optical axes.
     case line
   }
 
@@ -20,17 +20,18 @@ package struct SyntheticScene: Sendable {
     package var layout = Layout.ring
     package var photoCount = 12
     package var pointCount = 800
-    /// Puts the points on a plane instead of the ball.
+    /// Distributes the points on a plane instead of the ball.
     package var isPlanar = false
     /// Standard deviation of the keypoints in pixels.
     package var pixelNoise = 0.0
-    /// Share of wrong matches among the matches of a pair, 0..<1.
+    /// Fraction of wrong matches among the matches of a pair, 0..<1.
     package var outlierRatio = 0.0
-    /// Rotates the relative poses in the view graph by a random angle of this size in radians.
+    /// Rotates the relative poses in the view graph about a random axis by this angle in radians.
     package var relativePoseNoise = 0.0
-    /// Pairs with fewer common points have no entry in the view graph.
+    /// Pairs with fewer common points are not part of the view graph.
     package var minimumMatches = 15
-    /// Photos from this one on see another object and share nothing with those before.
+    /// Index of the first photo of another object; photos from there on share nothing with those
+    /// before.
     package var secondComponentStart: Int?
     package var camera = Camera(
       width: 1600, height: 1200, focalLength: [1400, 1400], principalPoint: [800, 600])
@@ -46,9 +47,9 @@ package struct SyntheticScene: Sendable {
   /// The true `cameraFromWorld`.
   package let poses: [RigidTransform]
   package let points: [SIMD3<Double>]
-  /// Keypoints with the noise that the options ask for, in random order.
+  /// Keypoints with noise, in random order.
   package let features: [FeatureSet]
-  /// The point behind every feature.
+  /// The point of every feature.
   package let pointOfFeature: [[Int32]]
   package let viewGraph: ViewGraph
 
@@ -82,7 +83,7 @@ package struct SyntheticScene: Sendable {
     viewGraph = Self.makeViewGraph(features, pointOfFeature, points, poses, options, &random)
   }
 
-  /// The reconstruction that a perfect alignment would give, in the scene's own world.
+  /// The result of a perfect alignment, in the world frame of the scene.
   package var reconstruction: Reconstruction {
     var tracks = [[Observation]](repeating: [], count: points.count)
     for photo in photos.indices {
@@ -119,7 +120,7 @@ extension SyntheticScene {
     return lookingAt([0, 0, 0], from: [distance * sin(angle), height, distance * cos(angle)])
   }
 
-  /// `cameraFromWorld` of an upright camera at `center` whose axis meets `target`.
+  /// `cameraFromWorld` of an upright camera at `center` whose optical axis passes through `target`.
   package static func lookingAt(
     _ target: SIMD3<Double>, from center: SIMD3<Double>
   ) -> RigidTransform {

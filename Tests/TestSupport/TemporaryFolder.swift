@@ -1,6 +1,7 @@
 import Foundation
 
-/// A folder of its own that goes away with the value; hold the value while the folder is in use.
+/// A unique folder that is deleted when the value is released; hold the value while the folder is
+/// in use.
 package final class TemporaryFolder {
   package let url: URL
 
@@ -12,7 +13,7 @@ package final class TemporaryFolder {
 
   deinit { try? FileManager.default.removeItem(at: url) }
 
-  /// Writes a file and returns where it is.
+  /// Writes a file and returns its URL.
   @discardableResult
   package func write(_ bytes: [UInt8], as name: String) throws -> URL {
     let file = url.appendingPathComponent(name)

@@ -1,9 +1,9 @@
 import SceneModel
 
-/// Makes images with detail at all scales and temporary folders of photos from them.
+/// Creates images with detail at all scales.
 package enum TexturePattern {
-  /// A pseudo-random image that is smooth at the pixel and contrasty in the large: the sum of four
-  /// octaves of value noise. `shift` moves the picture in pixels.
+  /// A pseudorandom image, smooth at pixel scale and high in contrast at large scale: the sum of
+  /// four octaves of value noise. `shift` moves the pattern in pixels.
   package static func image(
     width: Int, height: Int, seed: UInt32, shift: SIMD2<Double> = .zero
   ) -> RasterImage {

@@ -1,6 +1,6 @@
 import Kernels
 
-/// The pixels that a context draws into: its own, or those of a buffer that outlives it.
+/// The pixels that a context draws into: memory of its own, or a caller's buffer that outlives it.
 struct Bitmap {
   let width: Int
   let height: Int
@@ -12,10 +12,10 @@ struct Bitmap {
     data: UnsafeMutableRawPointer?, width: Int, height: Int, bytesPerRow: Int, layout: PixelLayout
   ) {
     let rowSize = width * layout.size
-    // 0 leaves the distance of rows to us.
+    // 0 leaves the row stride to the context.
     let distance = bytesPerRow == 0 ? (rowSize + 63) / 64 * 64 : bytesPerRow
     guard distance >= rowSize else { return nil }
-    // The last row of a buffer need not be as long as the distance.
+    // The last row of a buffer may be shorter than the stride.
     storage =
       data.map { PixelStorage(borrowing: $0, byteCount: distance * (height - 1) + rowSize) }
       ?? PixelStorage(byteCount: distance * height)
@@ -25,16 +25,16 @@ struct Bitmap {
     self.layout = layout
   }
 
-  /// The bytes of a row that hold pixels.
+  /// The bytes of a row without its padding.
   func row(_ y: Int) -> ArraySlice<UInt8> { storage.copy(place(0..<width, y))[...] }
 
-  /// Where pixels of a row are.
+  /// The byte range of some pixels of a row.
   private func place(_ columns: Range<Int>, _ y: Int) -> Range<Int> {
     let start = y * bytesPerRow + columns.lowerBound * layout.size
     return start..<start + columns.count * layout.size
   }
 
-  /// Sets the pixels of a rectangle, which is cut off at the rim, to zero.
+  /// Sets the pixels of a rectangle, clipped to the bitmap, to zero.
   func clear(_ columns: Range<Int>, _ rows: Range<Int>) {
     let columns = columns.clamped(to: 0..<width)
     let zeros = [UInt8](repeating: 0, count: columns.count * layout.size)
@@ -43,8 +43,8 @@ struct Bitmap {
     }
   }
 
-  /// Draws one pixel for each of a rectangle, which is cut off at the rim, over what is there; nil
-  /// leaves what is there.
+  /// Composites one pixel value for each pixel of a rectangle, clipped to the bitmap, over the
+  /// existing ones; nil leaves a pixel unchanged.
   func draw(_ columns: Range<Int>, _ rows: Range<Int>, pixel: (Int, Int) -> PixelValue?) {
     let columns = columns.clamped(to: 0..<width)
     guard !columns.isEmpty else { return }
@@ -90,14 +90,14 @@ struct Bitmap {
 }
 
 extension PixelValue {
-  /// The colour, multiplied by its opacity.
+  /// The color with its components multiplied by alpha.
   var premultiplied: PixelValue {
     guard alpha < 255 else { return self }
     func scaled(_ value: UInt8) -> UInt8 { UInt8((Int(value) * Int(alpha) + 127) / 255) }
     return PixelValue(scaled(red), scaled(green), scaled(blue), alpha)
   }
 
-  /// The colour, divided by its opacity.
+  /// The color with its components divided by alpha.
   var unpremultiplied: PixelValue {
     guard alpha > 0, alpha < 255 else { return self }
     func scaled(_ value: UInt8) -> UInt8 {
@@ -106,9 +106,9 @@ extension PixelValue {
     return PixelValue(scaled(red), scaled(green), scaled(blue), alpha)
   }
 
-  /// This colour on another.
+  /// This color composited over another (source-over; Porter and Duff 1984), neither premultiplied.
   func over(_ other: PixelValue) -> PixelValue {
-    // All in units of 1/65025, the product of two bytes.
+    // Weights in units of 1/65025, the product of two bytes.
     let (front, back) = (Int(alpha) * 255, Int(other.alpha) * (255 - Int(alpha)))
     let sum = front + back
     guard sum > 0 else { return PixelValue(0, 0, 0, 0) }

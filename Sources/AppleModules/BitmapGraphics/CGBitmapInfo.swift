@@ -1,24 +1,25 @@
-/// Where the opacity of a pixel is, and whether the colours have been multiplied by it.
+/// Where the alpha component of a pixel is, and whether the color components are premultiplied by
+/// it.
 public enum CGImageAlphaInfo: UInt32, Hashable, Sendable {
-  /// There is none.
+  /// No alpha.
   case none
-  /// After colours that are multiplied by it.
+  /// Alpha after premultiplied color components.
   case premultipliedLast
-  /// Before colours that are multiplied by it.
+  /// Alpha before premultiplied color components.
   case premultipliedFirst
-  /// After the colours.
+  /// Alpha after the color components.
   case last
-  /// Before the colours.
+  /// Alpha before the color components.
   case first
-  /// There is none, but a byte for it after the colours.
+  /// No alpha, but an unused byte after the color components.
   case noneSkipLast
-  /// There is none, but a byte for it before the colours.
+  /// No alpha, but an unused byte before the color components.
   case noneSkipFirst
-  /// There is nothing else.
+  /// Alpha only, no color components.
   case alphaOnly
 }
 
-/// How the components of a pixel lie in memory.
+/// How the components of a pixel are arranged in memory.
 public struct CGBitmapInfo: OptionSet, Hashable, Sendable {
   /// The bits.
   public let rawValue: UInt32
@@ -28,38 +29,38 @@ public struct CGBitmapInfo: OptionSet, Hashable, Sendable {
 
   /// The bits that hold a `CGImageAlphaInfo`.
   public static let alphaInfoMask = CGBitmapInfo(rawValue: 0x1F)
-  /// The components are floating-point numbers; there are no such bitmaps here.
+  /// Floating-point components; not supported here.
   public static let floatComponents = CGBitmapInfo(rawValue: 1 << 8)
-  /// The bits that hold the order of bytes.
+  /// The bits that hold the byte order.
   public static let byteOrderMask = CGBitmapInfo(rawValue: 0x7000)
-  /// Components in the order of their names.
+  /// The default order: components in the order of their names.
   public static let byteOrderDefault: CGBitmapInfo = []
-  /// 16 bits, the lowest byte first; there are no such bitmaps here.
+  /// 16-bit little-endian; not supported here.
   public static let byteOrder16Little = CGBitmapInfo(rawValue: 1 << 12)
-  /// 32 bits, the last component first.
+  /// 32-bit little-endian: the last component first.
   public static let byteOrder32Little = CGBitmapInfo(rawValue: 2 << 12)
-  /// 16 bits, the highest byte first; there are no such bitmaps here.
+  /// 16-bit big-endian; not supported here.
   public static let byteOrder16Big = CGBitmapInfo(rawValue: 3 << 12)
-  /// 32 bits, the first component first.
+  /// 32-bit big-endian: the first component first.
   public static let byteOrder32Big = CGBitmapInfo(rawValue: 4 << 12)
 }
 
-/// Where the components of an 8-bit pixel lie.
+/// Byte offsets of the components in a pixel with 8 bits per component.
 struct PixelLayout: Hashable, Sendable {
-  /// The bytes of a pixel.
+  /// The number of bytes per pixel.
   var size: Int
-  /// The places of red, green and blue, or of gray; empty where there is only opacity.
+  /// The offsets of red, green and blue, or of gray; empty for alpha-only pixels.
   var colours: [Int]
-  /// The place of the opacity; nil where there is none.
+  /// The offset of alpha; nil if there is none.
   var alpha: Int?
-  /// The place of a byte that means nothing.
+  /// The offset of the unused byte; nil if there is none.
   var unused: Int?
-  /// Whether the colours have been multiplied by the opacity.
+  /// Whether the color components are premultiplied by alpha.
   var isPremultiplied = false
-  /// What it was made from.
+  /// The alpha info that the layout was created from.
   var alphaInfo: CGImageAlphaInfo
 
-  /// Nil for what can't be drawn into.
+  /// Fails for layouts that can't be drawn into.
   init?(_ space: CGColorSpaceModel, _ info: CGBitmapInfo) {
     guard let alphaInfo = CGImageAlphaInfo(rawValue: info.rawValue & 0x1F),
       !info.contains(.floatComponents)
@@ -82,7 +83,7 @@ struct PixelLayout: Hashable, Sendable {
     case .premultipliedLast, .last, .noneSkipLast: isFirst = false
     case .none, .alphaOnly: return nil
     }
-    // As a big-endian number: the opacity is the first or the last byte of four.
+    // As a big-endian word: alpha is the first or the last of four bytes.
     let places = isFirst ? [1, 2, 3, 0] : [0, 1, 2, 3]
     let stored = order == .byteOrder32Little ? places.map { 3 - $0 } : places
     (size, colours) = (4, Array(stored[..<3]))

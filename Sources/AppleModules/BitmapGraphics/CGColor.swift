@@ -1,10 +1,10 @@
 import Foundation
 
-/// A colour with opacity.
+/// A color with alpha.
 public final class CGColor: Hashable, Sendable {
-  /// The components and the opacity, from 0 to 1.
+  /// The color components and alpha, each 0…1.
   public let components: [CGFloat]?
-  /// The space of the components.
+  /// The color space of the components.
   public let colorSpace: CGColorSpace?
 
   /// Creates a gray.
@@ -12,12 +12,12 @@ public final class CGColor: Hashable, Sendable {
     self.init([gray, alpha], CGColorSpaceCreateDeviceGray())
   }
 
-  /// Creates a colour.
+  /// Creates a color from RGB components; these are taken as sRGB.
   public convenience init(red: CGFloat, green: CGFloat, blue: CGFloat, alpha: CGFloat) {
     self.init([red, green, blue, alpha], CGColorSpaceCreateDeviceRGB())
   }
 
-  /// Creates a colour of sRGB, which is what all colours are.
+  /// Creates a color in sRGB, the space of all colors here.
   public convenience init(
     srgbRed red: CGFloat, green: CGFloat, blue: CGFloat, alpha: CGFloat
   ) { self.init(red: red, green: green, blue: blue, alpha: alpha) }
@@ -27,14 +27,14 @@ public final class CGColor: Hashable, Sendable {
     colorSpace = space
   }
 
-  /// How much of what is behind it the colour hides, from 0 to 1.
+  /// The alpha component, 0…1: 0 is transparent, 1 is opaque.
   public var alpha: CGFloat { components?.last ?? 0 }
 
-  /// Black.
+  /// Opaque black.
   public static let black = CGColor(gray: 0, alpha: 1)
-  /// White.
+  /// Opaque white.
   public static let white = CGColor(gray: 1, alpha: 1)
-  /// Nothing.
+  /// Transparent black.
   public static let clear = CGColor(gray: 0, alpha: 0)
 
   /// Whether both have the same components.
@@ -43,7 +43,7 @@ public final class CGColor: Hashable, Sendable {
   /// Hashes the components.
   public func hash(into hasher: inout Hasher) { hasher.combine(components) }
 
-  /// The colour in bytes.
+  /// The color as 8-bit components, not premultiplied.
   var bytes: PixelValue {
     let values = (components ?? []).map { UInt8((min(max($0, 0), 1) * 255).rounded()) }
     switch values.count {
@@ -54,7 +54,7 @@ public final class CGColor: Hashable, Sendable {
   }
 }
 
-/// A colour that is not multiplied by its opacity.
+/// A color with 8 bits per component, not premultiplied by alpha.
 struct PixelValue: Hashable, Sendable {
   var red: UInt8
   var green: UInt8
@@ -65,7 +65,7 @@ struct PixelValue: Hashable, Sendable {
     (self.red, self.green, self.blue, self.alpha) = (red, green, blue, alpha)
   }
 
-  /// By the weights of Rec. 601.
+  /// The luma with the weights of Rec. 601.
   var gray: UInt8 {
     if red == green, green == blue { return red }
     let sum = 299 * Int(red) + 587 * Int(green) + 114 * Int(blue)

@@ -1,15 +1,15 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 @_exported import CoreFoundationTypes
 
-/// What the components of pixels mean. Colours are never converted from one space to another: there
-/// are gray pixels and colours, taken as sRGB.
+/// A color space. There is no conversion between spaces: pixels are gray or RGB, and RGB is taken
+/// as sRGB.
 public final class CGColorSpace: Hashable, Sendable {
-  /// The name of the space; nil for those of the device.
+  /// The name of the space; nil for device spaces.
   public let name: CFString?
-  /// The kind of the space.
+  /// The color model of the space.
   public let model: CGColorSpaceModel
 
-  /// Creates a space from its name; fails where the name is not one of those below.
+  /// Creates a space from one of the names below; fails for any other name.
   public convenience init?(name: CFString) {
     let grays = [Self.genericGrayGamma2_2, Self.linearGray, Self.extendedGray]
     let colours = [
@@ -25,43 +25,43 @@ public final class CGColorSpace: Hashable, Sendable {
     self.model = model
   }
 
-  /// The number of components without opacity.
+  /// The number of components without alpha.
   public var numberOfComponents: Int { model == .monochrome ? 1 : 3 }
 
-  /// The space of most photos.
+  /// sRGB, the space of most photos.
   public static let sRGB: CFString = "kCGColorSpaceSRGB"
-  /// sRGB without its curve.
+  /// sRGB with a linear transfer function.
   public static let linearSRGB: CFString = "kCGColorSpaceLinearSRGB"
-  /// sRGB beyond its bounds.
+  /// sRGB with components beyond 0…1.
   public static let extendedSRGB: CFString = "kCGColorSpaceExtendedSRGB"
-  /// The space of newer displays and phones.
+  /// Display P3, the wide-gamut space of newer displays and phones.
   public static let displayP3: CFString = "kCGColorSpaceDisplayP3"
-  /// Colours without a curve.
+  /// Generic RGB with a linear transfer function.
   public static let genericRGBLinear: CFString = "kCGColorSpaceGenericRGBLinear"
-  /// The wide space of cameras.
+  /// Adobe RGB (1998), the wide-gamut space of many cameras.
   public static let adobeRGB1998: CFString = "kCGColorSpaceAdobeRGB1998"
-  /// Gray with a curve.
+  /// Gray with gamma 2.2.
   public static let genericGrayGamma2_2: CFString = "kCGColorSpaceGenericGrayGamma2_2"
-  /// Gray without a curve.
+  /// Gray with a linear transfer function.
   public static let linearGray: CFString = "kCGColorSpaceLinearGray"
-  /// Gray beyond its bounds.
+  /// Gray with components beyond 0…1.
   public static let extendedGray: CFString = "kCGColorSpaceExtendedGray"
 
-  /// Whether both are the same space.
+  /// Whether both have the same name and model.
   public static func == (lhs: CGColorSpace, rhs: CGColorSpace) -> Bool {
     lhs.name == rhs.name && lhs.model == rhs.model
   }
 
-  /// Hashes name and kind.
+  /// Hashes name and model.
   public func hash(into hasher: inout Hasher) {
     hasher.combine(name)
     hasher.combine(model)
   }
 }
 
-/// The kinds of colour spaces.
+/// Color models.
 public enum CGColorSpaceModel: Int32, Hashable, Sendable {
-  /// Not known.
+  /// An unknown model.
   case unknown = -1
   /// Gray.
   case monochrome
@@ -69,8 +69,8 @@ public enum CGColorSpaceModel: Int32, Hashable, Sendable {
   case rgb
 }
 
-/// The colours of the device.
+/// The RGB space of the device, taken as sRGB.
 public func CGColorSpaceCreateDeviceRGB() -> CGColorSpace { CGColorSpace(name: nil, .rgb) }
 
-/// The grays of the device.
+/// The gray space of the device.
 public func CGColorSpaceCreateDeviceGray() -> CGColorSpace { CGColorSpace(name: nil, .monochrome) }

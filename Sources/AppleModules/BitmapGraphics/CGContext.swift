@@ -1,31 +1,33 @@
 import Foundation
 import SceneModel
 
-/// Draws images and shapes into a bitmap of 8 bits a component: gray, opacity, or red, green and blue
-/// with a fourth byte.
+/// Draws images and shapes into a bitmap with 8 bits per component: gray, alpha only, or RGB with a
+/// fourth byte.
 ///
-/// As on a Mac the origin is the bottom left corner and y points up; images come out upright.
+/// As on macOS the origin is the bottom left corner and y points up; images are drawn upright.
 public final class CGContext {
   private struct State {
     var transform = CGAffineTransform.identity
     var fill = CGColor.black.bytes
     var interpolation = CGInterpolationQuality.default
     var opacity: UInt8 = 255
-    /// Where something may be drawn, in the bitmap.
+    /// The clipping rectangle in bitmap coordinates.
     var clip = CGRect.infinite
   }
 
   private let bitmap: Bitmap
   private var state = State()
   private var saved: [State] = []
-  /// The space of the pixels.
+  /// The color space of the pixels.
   public let colorSpace: CGColorSpace?
-  /// How the components lie in memory.
+  /// How the components are arranged in memory.
   public let bitmapInfo: CGBitmapInfo
 
-  /// Creates a context that draws into memory, which must outlive it, or into its own.
+  /// Creates a context that draws into a caller's memory, which must outlive it, or into memory of
+  /// its own if `data` is nil.
   ///
-  /// Fails where the components don't have 8 bits or their order is not one of those above.
+  /// Fails unless there are 8 bits per component in one of the orders of `CGBitmapInfo` that are
+  /// supported here.
   public init?(
     data: UnsafeMutableRawPointer?, width: Int, height: Int, bitsPerComponent: Int,
     bytesPerRow: Int, space: CGColorSpace, bitmapInfo: UInt32
@@ -41,29 +43,29 @@ public final class CGContext {
     self.bitmapInfo = info
   }
 
-  /// The first pixel of the top row.
+  /// The address of the first pixel of the top row.
   public var data: UnsafeMutableRawPointer? { bitmap.storage.baseAddress }
   /// The width in pixels.
   public var width: Int { bitmap.width }
   /// The height in pixels.
   public var height: Int { bitmap.height }
-  /// The bits of a component.
+  /// The number of bits per component.
   public var bitsPerComponent: Int { 8 }
-  /// The bits of a pixel.
+  /// The number of bits per pixel.
   public var bitsPerPixel: Int { 8 * bitmap.layout.size }
-  /// The distance of two rows in bytes.
+  /// The row stride in bytes.
   public var bytesPerRow: Int { bitmap.bytesPerRow }
-  /// Where the opacity is.
+  /// Where the alpha component is.
   public var alphaInfo: CGImageAlphaInfo { bitmap.layout.alphaInfo }
 
-  /// What was drawn so far.
+  /// A copy of the current pixels as an image.
   public func makeImage() -> CGImage? {
     CGImage(bitmap.layout.raster(width: width, height: height, row: bitmap.row))
   }
 
-  /// Draws an image into a rectangle.
+  /// Draws an image into a rectangle of user space. Tiling is not supported and draws nothing.
   public func draw(_ image: CGImage, in rect: CGRect, byTiling: Bool = false) {
-    // The image's frame counts from its top left, as the rows of the bitmap do.
+    // Image coordinates start at the top left, like the rows of the bitmap.
     let toUser = CGAffineTransform(
       a: rect.width, b: 0, c: 0, d: -rect.height, tx: rect.minX, ty: rect.maxY)
     let toBitmap = toUser.concatenating(state.transform).concatenating(flip)
@@ -88,7 +90,7 @@ public final class CGContext {
   /// Fills rectangles.
   public func fill(_ rects: [CGRect]) { for rect in rects { fill(rect) } }
 
-  /// Fills the ellipse that touches a rectangle's sides.
+  /// Fills the ellipse inscribed in a rectangle.
   public func fillEllipse(in rect: CGRect) { paint(rect, rounded: true, state.fill) }
 
   /// Sets the pixels in a rectangle to zero.
@@ -97,65 +99,66 @@ public final class CGContext {
     bitmap.clear(pixels(box.minX, box.maxX, width), pixels(box.minY, box.maxY, height))
   }
 
-  /// Sets what shapes are filled with.
+  /// Sets the fill color.
   public func setFillColor(_ color: CGColor) { state.fill = color.bytes }
 
-  /// Sets what shapes are filled with.
+  /// Sets the fill color to a gray.
   public func setFillColor(gray: CGFloat, alpha: CGFloat) {
     setFillColor(CGColor(gray: gray, alpha: alpha))
   }
 
-  /// Sets what shapes are filled with.
+  /// Sets the fill color from RGB components.
   public func setFillColor(red: CGFloat, green: CGFloat, blue: CGFloat, alpha: CGFloat) {
     setFillColor(CGColor(red: red, green: green, blue: blue, alpha: alpha))
   }
 
-  /// Sets how much all that is drawn hides of what is behind it.
+  /// Sets the alpha, 0…1, by which everything drawn is multiplied.
   public func setAlpha(_ alpha: CGFloat) {
     state.opacity = UInt8((min(max(alpha, 0), 1) * 255).rounded())
   }
 
-  /// Lets everything be drawn in a rectangle only; a turned one counts as the upright one around
-  /// it.
+  /// Restricts drawing to a rectangle; a rotated one is replaced by its axis-aligned bounding
+  /// rectangle.
   public func clip(to rect: CGRect) {
     let box = rect.applying(state.transform.concatenating(flip))
     state.clip = state.clip.isInfinite ? box : state.clip.intersection(box)
   }
 
-  /// Keeps transform, colour, clip and interpolation until `restoreGState`.
+  /// Pushes transform, fill color, alpha, clip and interpolation quality; `restoreGState` pops
+  /// them.
   public func saveGState() { saved.append(state) }
 
-  /// Takes up what the last `saveGState` kept.
+  /// Restores the state of the last `saveGState`.
   public func restoreGState() { state = saved.popLast() ?? state }
 
-  /// From the frame of the program to that of the bitmap, y up.
+  /// The current transformation matrix: from user space to the bitmap's space with y up.
   public var ctm: CGAffineTransform { state.transform }
 
-  /// Lets the program's frame begin elsewhere.
+  /// Translates user space.
   public func translateBy(x tx: CGFloat, y ty: CGFloat) {
     state.transform = state.transform.translatedBy(x: tx, y: ty)
   }
 
-  /// Changes the size of the program's frame.
+  /// Scales user space.
   public func scaleBy(x sx: CGFloat, y sy: CGFloat) {
     state.transform = state.transform.scaledBy(x: sx, y: sy)
   }
 
-  /// Turns the program's frame.
+  /// Rotates user space by an angle in radians.
   public func rotate(by angle: CGFloat) { state.transform = state.transform.rotated(by: angle) }
 
-  /// Transforms the program's frame.
+  /// Applies a transform to user space.
   public func concatenate(_ transform: CGAffineTransform) {
     state.transform = transform.concatenating(state.transform)
   }
 
-  /// How images are brought to another size: `none` takes the nearest pixel, all others average.
+  /// How images are resampled: `none` takes the nearest pixel, all others average.
   public var interpolationQuality: CGInterpolationQuality {
     get { state.interpolation }
     set { state.interpolation = newValue }
   }
 
-  /// Has no effect: pixels are there at once.
+  /// Has no effect: drawing is immediate.
   public func flush() {}
 
   private var clippedColumns: Range<Int> {
@@ -172,7 +175,7 @@ public final class CGContext {
     CGAffineTransform(a: 1, b: 0, c: 0, d: -1, tx: 0, ty: CGFloat(height))
   }
 
-  /// The pixels whose centres are in a shape, which has hard edges.
+  /// Fills the pixels whose centers are inside a shape; edges are not antialiased.
   private func paint(_ rect: CGRect, rounded: Bool, _ color: PixelValue) {
     let toBitmap = state.transform.concatenating(flip)
     let box = rect.applying(toBitmap)
@@ -193,24 +196,24 @@ public final class CGContext {
   }
 }
 
-/// How images are brought to another size.
+/// How images are resampled when they are scaled.
 public enum CGInterpolationQuality: Int32, Hashable, Sendable {
-  /// As the system likes.
+  /// The default quality.
   case `default`
-  /// By the nearest pixel.
+  /// Nearest neighbor.
   case none
-  /// Fast.
+  /// Low quality, fast.
   case low
-  /// Better.
+  /// High quality.
   case high
-  /// In between.
+  /// Medium quality.
   case medium
 }
 
-/// The pixels that an interval touches, of those there are.
+/// The pixels that an interval touches, clamped to `0..<count`.
 func pixels(_ lower: CGFloat, _ upper: CGFloat, _ count: Int) -> Range<Int> {
   guard lower < upper else { return 0..<0 }
-  // A rim that misses a pixel by less than this is on it.
+  // An edge closer than this to a pixel boundary counts as on it.
   let tolerance = 1e-6
   let first = min(max((lower + tolerance).rounded(.down), 0), CGFloat(count))
   let last = min(max((upper - tolerance).rounded(.up), 0), CGFloat(count))

@@ -1,16 +1,17 @@
 import Kernels
 import SceneModel
 
-/// Pixels that don't change: gray, or red, green and blue, with opacity or without; 8 bits each.
+/// An immutable image: gray or RGB, with or without alpha, 8 bits per component.
 public final class CGImage: Sendable {
-  /// 1 channel for gray, 3 for colours, 4 for colours and opacity that they are not multiplied by.
+  /// 1 channel for gray, 3 for RGB, 4 for RGB with alpha that is not premultiplied.
   package let raster: RasterImage
 
+  /// Creates an image from a raster with 1, 3 or 4 channels.
   package init(_ raster: RasterImage) { self.raster = raster }
 
-  /// Creates an image from its pixels, as they lie in memory.
+  /// Creates an image from its pixels in memory.
   ///
-  /// Fails for anything but 8 bits a component, and where there are fewer bytes than pixels need.
+  /// Fails for anything but 8 bits per component, and if the provider holds too few bytes.
   public convenience init?(
     width: Int, height: Int, bitsPerComponent: Int, bitsPerPixel: Int, bytesPerRow: Int,
     space: CGColorSpace, bitmapInfo: CGBitmapInfo, provider: CGDataProvider,
@@ -32,17 +33,17 @@ public final class CGImage: Sendable {
   public var width: Int { raster.width }
   /// The height in pixels.
   public var height: Int { raster.height }
-  /// The bits of a component.
+  /// The number of bits per component.
   public var bitsPerComponent: Int { 8 }
-  /// The bits of a pixel: 8 for gray and 32 for colours.
+  /// The number of bits per pixel: 8 for gray, 32 for RGB.
   public var bitsPerPixel: Int { raster.channels == 1 ? 8 : 32 }
-  /// The distance of two rows in bytes.
+  /// The row stride in bytes.
   public var bytesPerRow: Int { width * bitsPerPixel / 8 }
-  /// The space of the pixels.
+  /// The color space of the pixels.
   public var colorSpace: CGColorSpace? {
     CGColorSpace(name: raster.channels == 1 ? CGColorSpace.genericGrayGamma2_2 : CGColorSpace.sRGB)
   }
-  /// Where the opacity is.
+  /// Where the alpha component is.
   public var alphaInfo: CGImageAlphaInfo {
     switch raster.channels {
     case 1: .none
@@ -50,10 +51,10 @@ public final class CGImage: Sendable {
     default: .noneSkipLast
     }
   }
-  /// How the components lie in memory.
+  /// How the components are arranged in memory.
   public var bitmapInfo: CGBitmapInfo { CGBitmapInfo(rawValue: alphaInfo.rawValue) }
 
-  /// The pixels as they lie in memory.
+  /// The pixels in the memory layout of `bitmapInfo`.
   public var dataProvider: CGDataProvider? {
     guard raster.channels == 3 else { return CGDataProvider(Data(raster.pixels)) }
     var bytes = [UInt8](repeating: 255, count: width * height * 4)
@@ -63,7 +64,8 @@ public final class CGImage: Sendable {
     return CGDataProvider(Data(bytes))
   }
 
-  /// The part of the image in a rectangle, whose y counts from the top; nil where they don't meet.
+  /// The part of the image inside a rectangle, with y down from the top; nil if they don't
+  /// intersect.
   public func cropping(to rect: CGRect) -> CGImage? {
     let part = rect.integral.intersection(CGRect(x: 0, y: 0, width: width, height: height))
     guard !part.isNull, part.width >= 1, part.height >= 1 else { return nil }
@@ -79,11 +81,11 @@ public final class CGImage: Sendable {
         width: columns.count, height: Int(part.height), channels: raster.channels, pixels: pixels))
   }
 
-  /// The same image.
+  /// A copy that shares the pixels.
   public func copy() -> CGImage? { CGImage(raster) }
 }
 
-/// Bytes for an image, or of one.
+/// The bytes that an image is created from, or the bytes of an image.
 public final class CGDataProvider: Sendable {
   let bytes: Data
 
@@ -92,7 +94,7 @@ public final class CGDataProvider: Sendable {
   /// Creates a provider of bytes.
   public convenience init?(data: CFData) { self.init(data) }
 
-  /// Creates a provider of the bytes of a file; nil where there is none.
+  /// Creates a provider of a file's content; nil if it can't be read.
   public convenience init?(url: CFURL) {
     guard let bytes = try? Data(contentsOf: url) else { return nil }
     self.init(bytes)
@@ -102,22 +104,22 @@ public final class CGDataProvider: Sendable {
   public var data: CFData? { bytes }
 }
 
-/// How colours beyond the bounds of a space are shown; has no effect.
+/// How out-of-gamut colors are mapped; has no effect.
 public enum CGColorRenderingIntent: Int32, Hashable, Sendable {
-  /// As the system likes.
+  /// The default intent.
   case defaultIntent
-  /// As they are.
+  /// Keeps colors as they are.
   case absoluteColorimetric
-  /// Relative to white.
+  /// Relative to the white point.
   case relativeColorimetric
-  /// As they seem.
+  /// Preserves the visual relation of colors.
   case perceptual
-  /// As strong as they are.
+  /// Preserves saturation.
   case saturation
 }
 
 extension PixelLayout {
-  /// The rows of a bitmap as an image.
+  /// The rows of a bitmap with this layout as an image.
   func raster(width: Int, height: Int, row: (Int) -> ArraySlice<UInt8>) -> RasterImage {
     let channels = colours.count < 3 ? 1 : alpha == nil ? 3 : 4
     var pixels: [UInt8] = []

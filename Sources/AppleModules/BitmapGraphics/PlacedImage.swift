@@ -2,18 +2,18 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// An image somewhere on a bitmap.
+/// An image placed on a bitmap by a transform, ready for sampling.
 struct PlacedImage {
-  /// The pixels of the bitmap that it may touch.
+  /// The bitmap pixels that the image may touch.
   let columns: Range<Int>
   let rows: Range<Int>
   private let raster: RasterImage
-  /// From the bitmap to the unit square of the image, both from the top left.
+  /// Maps bitmap coordinates to the unit square of the image, both with y down from the top left.
   private let back: CGAffineTransform
-  /// Whether values between pixels are asked for.
+  /// Whether to interpolate between pixels.
   private let isSmooth: Bool
 
-  /// Nil where nothing is to be seen. `transform` takes the unit square to the bitmap.
+  /// Places an image; `transform` maps the unit square to the bitmap. Fails if nothing is visible.
   init?(_ raster: RasterImage, _ transform: CGAffineTransform, _ quality: CGInterpolationQuality) {
     let unit = CGRect(x: 0, y: 0, width: 1, height: 1)
     let box = unit.applying(transform)
@@ -27,7 +27,7 @@ struct PlacedImage {
       (self.raster, isSmooth) = (raster, false)
       return
     }
-    // Where the image gets smaller, all of its pixels are to count.
+    // Where the image is minified, downsample first so that all of its pixels contribute.
     let (width, height) = (
       Self.size(hypot(transform.a, transform.b), raster.width),
       Self.size(hypot(transform.c, transform.d), raster.height)
@@ -40,17 +40,17 @@ struct PlacedImage {
     length < CGFloat(size) ? max(1, Int(length.rounded())) : size
   }
 
-  /// What the image shows at a pixel of the bitmap; nil beside it.
+  /// The color of the image at a bitmap pixel; nil outside the image.
   func pixel(_ x: Int, _ y: Int) -> PixelValue? {
     let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(back)
-    // A pixel belongs to the image where its centre does.
+    // A bitmap pixel belongs to the image if its center is inside.
     guard point.x >= 0, point.x < 1, point.y >= 0, point.y < 1 else { return nil }
     let (u, v) = (point.x * CGFloat(raster.width), point.y * CGFloat(raster.height))
     guard isSmooth else { return value(Int(u), Int(v)) }
     let (left, top) = ((u - 0.5).rounded(.down), (v - 0.5).rounded(.down))
     let (s, t) = (u - 0.5 - left, v - 0.5 - top)
     let (column, row) = (Int(left), Int(top))
-    // Most images are drawn pixel on pixel.
+    // Fast path: most images are drawn with pixels aligned.
     let nearlyZero = 1e-3
     if s < nearlyZero, t < nearlyZero { return value(column, row) }
     if s > 1 - nearlyZero, t > 1 - nearlyZero { return value(column + 1, row + 1) }
@@ -58,7 +58,7 @@ struct PlacedImage {
     return upper.mixed(with: value(column, row + 1).mixed(with: value(column + 1, row + 1), s), t)
   }
 
-  /// A pixel of the image, the rim's beyond it.
+  /// A pixel of the image, clamped to its border.
   private func value(_ x: Int, _ y: Int) -> PixelValue {
     let (x, y) = (min(max(x, 0), raster.width - 1), min(max(y, 0), raster.height - 1))
     let at = (y * raster.width + x) * raster.channels
@@ -72,7 +72,7 @@ struct PlacedImage {
 }
 
 extension PixelValue {
-  /// A colour between this one, where the part is 0, and another, where it is 1.
+  /// The linear interpolation between this color (`part` 0) and another (`part` 1).
   fileprivate func mixed(with other: PixelValue, _ part: CGFloat) -> PixelValue {
     func between(_ a: UInt8, _ b: UInt8) -> UInt8 {
       UInt8(CGFloat(a) + (CGFloat(b) - CGFloat(a)) * part + 0.5)

@@ -1,30 +1,30 @@
 import Foundation
 
-/// An object that tells before it changes: when one of its `Published` properties does.
+/// An object that publishes before any of its `@Published` properties changes.
 public protocol ObservableObject: AnyObject {
   /// The type of the publisher.
   associatedtype ObjectWillChangePublisher: Publisher = ObservableObjectPublisher
   where ObjectWillChangePublisher.Failure == Never
 
-  /// Tells that the object is about to change.
+  /// Publishes before the object changes.
   var objectWillChange: ObjectWillChangePublisher { get }
 }
 
 extension ObservableObject where ObjectWillChangePublisher == ObservableObjectPublisher {
-  /// Tells that the object is about to change.
+  /// Publishes before the object changes.
   public var objectWillChange: ObservableObjectPublisher { ObservableObjectPublisher.of(self) }
 }
 
 extension ObservableObject {
-  /// Tells the change where the object's publisher is of the usual kind.
+  /// Announces a change if the object's publisher is an `ObservableObjectPublisher`.
   func announceChange() { (objectWillChange as? ObservableObjectPublisher)?.send() }
 }
 
-/// Tells that an object is about to change.
+/// Publishes that an object is about to change.
 public final class ObservableObjectPublisher: Publisher, @unchecked Sendable {
-  /// Nothing but the fact is told.
+  /// The event carries no value.
   public typealias Output = Void
-  /// There is no failure.
+  /// The publisher never fails.
   public typealias Failure = Never
 
   private let subject = PassthroughSubject<Void, Never>()
@@ -32,15 +32,15 @@ public final class ObservableObjectPublisher: Publisher, @unchecked Sendable {
   /// Creates a publisher.
   public init() {}
 
-  /// Begins to tell a subscriber.
+  /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Void, S.Failure == Never {
     subject.receive(subscriber: subscriber)
   }
 
-  /// Tells that the object is about to change.
+  /// Publishes that the object is about to change.
   public func send() { subject.send() }
 
-  /// The publisher of an object, which is there for as long as the object.
+  /// The publisher of an object; it lives as long as the object.
   static func of(_ object: AnyObject) -> ObservableObjectPublisher {
     let id = ObjectIdentifier(object)
     return lock.withLock {

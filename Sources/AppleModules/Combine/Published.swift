@@ -1,25 +1,25 @@
 import Foundation
 
-/// A property of a class that tells its new values, and its object that it changes, right before it
-/// does.
+/// Publishes a property of a class. Right before the property changes it sends the new value, and
+/// the enclosing `ObservableObject` announces the change.
 @propertyWrapper
 public struct Published<Value> {
   let storage: Storage
 
-  /// Creates a property with a value.
+  /// Creates a property with an initial value.
   public init(wrappedValue: Value) { storage = Storage(wrappedValue) }
 
-  /// Creates a property with a value.
+  /// Creates a property with an initial value.
   public init(initialValue: Value) { storage = Storage(initialValue) }
 
-  /// Only the properties of classes can be published.
+  /// Unavailable: only properties of classes can be published.
   @available(*, unavailable, message: "@Published is only available on properties of classes")
   public var wrappedValue: Value {
     get { storage.value }
     set { storage.set(newValue) }
   }
 
-  /// The publisher of the values, the one that there is first.
+  /// The publisher of the values, starting with the current one.
   public var projectedValue: Publisher {
     get { Publisher(storage: storage) }
     set { newValue.hand(over: storage) }
@@ -42,26 +42,27 @@ public struct Published<Value> {
   public struct Publisher: Combine.Publisher {
     /// The type of the values.
     public typealias Output = Value
-    /// There is no failure.
+    /// The publisher never fails.
     public typealias Failure = Never
 
     let storage: Storage
 
-    /// Begins to tell a subscriber, with the value that there is.
+    /// Attaches a subscriber; it receives the current value first.
     public func receive<S: Subscriber>(subscriber: S) where S.Input == Value, S.Failure == Never {
       storage.subject.receive(subscriber: subscriber)
     }
 
+    /// Assigns the values of a publisher to the property.
     func follow(_ publisher: some Combine.Publisher<Value, Never>) {
       let storage = storage
       storage.source = publisher.sink { [weak storage] in storage?.set($0) }
     }
 
-    /// Takes the place of another property's publisher.
+    /// Assigns the value of this property to another one.
     func hand(over other: Storage) { if storage !== other { other.set(storage.value) } }
   }
 
-  /// Where the value is.
+  /// Reference storage of the value and its subject.
   final class Storage: @unchecked Sendable {
     private let lock = NSLock()
     private var current: Value

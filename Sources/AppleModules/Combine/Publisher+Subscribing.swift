@@ -1,7 +1,7 @@
 import Foundation
 
 extension Publisher {
-  /// Calls closures with each value and at the end, until the handle goes away.
+  /// Calls closures with each value and on completion, until the returned handle is released.
   public func sink(
     receiveCompletion: @escaping (Subscribers.Completion<Failure>) -> Void,
     receiveValue: @escaping (Output) -> Void
@@ -27,22 +27,22 @@ extension Publisher {
 }
 
 extension Publisher where Failure == Never {
-  /// Calls a closure with each value, until the handle goes away.
+  /// Calls a closure with each value, until the returned handle is released.
   public func sink(receiveValue: @escaping (Output) -> Void) -> AnyCancellable {
     sink(receiveCompletion: { _ in }, receiveValue: receiveValue)
   }
 
-  /// Sets a property to each value, until the handle goes away.
+  /// Assigns each value to a property, until the returned handle is released.
   public func assign<Root: AnyObject>(
     to keyPath: ReferenceWritableKeyPath<Root, Output>, on object: Root
   ) -> AnyCancellable { sink { object[keyPath: keyPath] = $0 } }
 
-  /// Publishes each value as a property's, for as long as that is there.
+  /// Republishes each value through a published property for as long as the property exists.
   public func assign(to published: inout Published<Output>.Publisher) {
     published.follow(self)
   }
 
-  /// The values, to be waited for.
+  /// The values as an asynchronous sequence.
   public var values: AsyncStream<Output> {
     AsyncStream { continuation in
       let handle = sink(
@@ -56,7 +56,7 @@ extension Publisher where Failure == Never {
   }
 }
 
-/// Keeps a subscription until it is cancelled.
+/// Holds a subscription until it is canceled.
 private final class SubscriptionHolder: @unchecked Sendable {
   private let lock = NSLock()
   private var subscription: (any Subscription)?

@@ -1,67 +1,67 @@
 @_exported import Foundation
 
-/// Tells values, one after another, until it completes or fails.
+/// Publishes a sequence of values that ends with completion or failure.
 ///
 /// This module has what classes that publish their state need: subjects, `Published`,
-/// `ObservableObject`, and the operators beside this declaration.
+/// `ObservableObject` and the operators in Publishers.swift.
 public protocol Publisher<Output, Failure> {
   /// The type of the values.
   associatedtype Output
-  /// The type of the failure; `Never` where there is none.
+  /// The type of the failure; `Never` if there is none.
   associatedtype Failure: Error
 
-  /// Begins to tell a subscriber.
+  /// Attaches a subscriber.
   func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure
 }
 
-/// Is told values, as many as it asks for.
+/// Receives values, at most as many as it requested.
 public protocol Subscriber<Input, Failure> {
   /// The type of the values.
   associatedtype Input
   /// The type of the failure.
   associatedtype Failure: Error
 
-  /// Gets the subscription, to ask it for values.
+  /// Receives the subscription through which it requests values.
   func receive(subscription: any Subscription)
-  /// Gets a value, and says how many more it asks for.
+  /// Receives a value; returns how many more values it requests.
   func receive(_ input: Input) -> Subscribers.Demand
-  /// Gets to know that there are no more values.
+  /// Receives the completion; no values follow.
   func receive(completion: Subscribers.Completion<Failure>)
 }
 
-/// Can be stopped.
+/// An activity that can be canceled.
 public protocol Cancellable {
-  /// Stops.
+  /// Cancels the activity.
   func cancel()
 }
 
-/// Joins a publisher and a subscriber.
+/// The connection between a publisher and a subscriber.
 public protocol Subscription: Cancellable {
-  /// Asks for values.
+  /// Requests values.
   func request(_ demand: Subscribers.Demand)
 }
 
-/// What subscribers get and ask for.
+/// What subscribers receive and request.
 public enum Subscribers {
-  /// How values end.
+  /// How a sequence of values ends.
   public enum Completion<Failure: Error> {
-    /// There are no more.
+    /// It ended normally.
     case finished
-    /// Something went wrong.
+    /// It ended with an error.
     case failure(Failure)
   }
 
-  /// How many values are asked for.
+  /// The number of values requested.
   public struct Demand: Hashable, Comparable, Sendable {
-    /// The number; nil where there is no limit.
+    /// The number; nil means unlimited.
     public let max: Int?
 
-    /// All there are.
+    /// No limit.
     public static let unlimited = Demand(max: nil)
-    /// None.
+    /// No values.
     public static let none = Demand(max: 0)
 
-    /// No more than a number.
+    /// At most a given number of values.
     public static func max(_ value: Int) -> Demand { Demand(max: Swift.max(0, value)) }
 
     /// The sum of two demands.
@@ -70,7 +70,7 @@ public enum Subscribers {
       return .max(left + right)
     }
 
-    /// Whether the first asks for fewer.
+    /// Whether the first requests fewer values.
     public static func < (lhs: Demand, rhs: Demand) -> Bool {
       (lhs.max ?? .max) < (rhs.max ?? .max)
     }
@@ -80,20 +80,20 @@ public enum Subscribers {
 extension Subscribers.Completion: Sendable {}
 extension Subscribers.Completion: Equatable where Failure: Equatable {}
 
-/// Stops a subscription when it goes away.
+/// Cancels a subscription when it is released.
 public final class AnyCancellable: Cancellable, Hashable, @unchecked Sendable {
   private let lock = NSLock()
   private var action: (() -> Void)?
 
-  /// Creates a handle that does something when it is cancelled.
+  /// Creates a handle that runs a closure when it is canceled.
   public init(_ cancel: @escaping () -> Void) { action = cancel }
 
-  /// Creates a handle of what can be stopped.
+  /// Creates a handle for a cancellable activity.
   public convenience init(_ canceller: some Cancellable) { self.init { canceller.cancel() } }
 
   deinit { action?() }
 
-  /// Stops, the first time.
+  /// Cancels the activity; later calls have no effect.
   public func cancel() {
     let action = lock.withLock {
       defer { self.action = nil }

@@ -1,23 +1,23 @@
 import Foundation
 
-/// A publisher whose kind doesn't matter.
+/// A type-erased publisher.
 public struct AnyPublisher<Output, Failure: Error>: Publisher {
   private let subscribe: (Relay<Output, Failure>) -> Void
 
-  /// Hides the kind of a publisher.
+  /// Erases the type of a publisher.
   public init(_ publisher: some Publisher<Output, Failure>) {
     subscribe = { publisher.receive(subscriber: $0) }
   }
 
-  /// Begins to tell a subscriber.
+  /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
     subscribe(Relay(subscriber))
   }
 }
 
-/// Tells one value.
+/// Publishes one value and completes.
 public struct Just<Output>: Publisher {
-  /// There is no failure.
+  /// The publisher never fails.
   public typealias Failure = Never
   /// The value.
   public let output: Output
@@ -25,7 +25,7 @@ public struct Just<Output>: Publisher {
   /// Creates a publisher of a value.
   public init(_ output: Output) { self.output = output }
 
-  /// Begins to tell a subscriber.
+  /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Never {
     let subject = CurrentValueSubject<Output, Never>(output)
     subject.receive(subscriber: subscriber)
@@ -33,14 +33,14 @@ public struct Just<Output>: Publisher {
   }
 }
 
-/// Tells one value that is not there yet, or why there is none.
+/// Publishes one value that becomes available later, or a failure.
 public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendable {
-  /// Is called with the value.
+  /// Fulfills the future with a value or an error.
   public typealias Promise = (Swift.Result<Output, Failure>) -> Void
 
   private let subject = CurrentValueSubject<Output?, Failure>(nil)
 
-  /// Creates a publisher, and begins to work for its value at once.
+  /// Creates a future and runs `attemptToFulfill` immediately.
   public init(_ attemptToFulfill: @escaping (@escaping Promise) -> Void) {
     let subject = subject
     attemptToFulfill { result in
@@ -53,13 +53,13 @@ public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendabl
     }
   }
 
-  /// Begins to tell a subscriber.
+  /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
     subject.compactMap { $0 }.receive(subscriber: subscriber)
   }
 }
 
-/// Hands on what it is told.
+/// A subscriber made of closures.
 struct Relay<Input, Failure: Error>: Subscriber {
   let begin: (any Subscription) -> Void
   let take: (Input) -> Subscribers.Demand
@@ -80,12 +80,12 @@ struct Relay<Input, Failure: Error>: Subscriber {
   func receive(completion: Subscribers.Completion<Failure>) { end(completion) }
 }
 
-/// Makes other values of a publisher's, or none of some.
+/// Publishes a transformed value for each upstream value, or none.
 struct Transform<Upstream: Publisher, Output>: Publisher {
   typealias Failure = Upstream.Failure
 
   let upstream: Upstream
-  /// Gives a function for each subscriber, which may have a memory.
+  /// Makes a function for each subscriber; it may capture state.
   let step: () -> (Upstream.Output) -> Output?
 
   func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
@@ -99,32 +99,32 @@ struct Transform<Upstream: Publisher, Output>: Publisher {
 }
 
 extension Publisher {
-  /// Hides the kind of the publisher.
+  /// Erases the type of the publisher.
   public func eraseToAnyPublisher() -> AnyPublisher<Output, Failure> { AnyPublisher(self) }
 
-  /// Makes another value of each.
+  /// Transforms each value.
   public func map<T>(_ transform: @escaping (Output) -> T) -> some Publisher<T, Failure> {
     Transform(upstream: self) { { transform($0) } }
   }
 
-  /// Takes a property of each value.
+  /// Publishes a property of each value.
   public func map<T>(_ keyPath: KeyPath<Output, T>) -> some Publisher<T, Failure> {
     Transform(upstream: self) { { $0[keyPath: keyPath] } }
   }
 
-  /// Makes another value of each, or none.
+  /// Transforms each value and drops nil results.
   public func compactMap<T>(
     _ transform: @escaping (Output) -> T?
   ) -> some Publisher<T, Failure> { Transform(upstream: self) { transform } }
 
-  /// Tells the values that meet a condition.
+  /// Publishes the values that satisfy a predicate.
   public func filter(
     _ isIncluded: @escaping (Output) -> Bool
   ) -> some Publisher<Output, Failure> {
     Transform(upstream: self) { { isIncluded($0) ? $0 : nil } }
   }
 
-  /// Leaves out the first values.
+  /// Drops the first `count` values.
   public func dropFirst(_ count: Int = 1) -> some Publisher<Output, Failure> {
     Transform(upstream: self) {
       var left = count
@@ -136,7 +136,7 @@ extension Publisher {
     }
   }
 
-  /// Makes a value of each and what was made of the one before.
+  /// Accumulates values: each result is computed from the previous one and the next value.
   public func scan<T>(
     _ initialResult: T, _ nextPartialResult: @escaping (T, Output) -> T
   ) -> some Publisher<T, Failure> {
@@ -149,14 +149,14 @@ extension Publisher {
     }
   }
 
-  /// Tells the values on a queue or run loop.
+  /// Delivers values on a queue or run loop.
   public func receive(on scheduler: some Scheduler) -> some Publisher<Output, Failure> {
     Rescheduled(upstream: self, scheduler: scheduler)
   }
 }
 
 extension Publisher where Output: Equatable {
-  /// Leaves out values that equal the one before.
+  /// Drops values that equal their predecessor.
   public func removeDuplicates() -> some Publisher<Output, Failure> {
     Transform(upstream: self) {
       var last: Output?
@@ -168,7 +168,7 @@ extension Publisher where Output: Equatable {
   }
 }
 
-/// Tells a publisher's values elsewhere, in their order.
+/// Delivers a publisher's values on a scheduler, in order.
 private struct Rescheduled<Upstream: Publisher, Context: Scheduler>: Publisher {
   typealias Output = Upstream.Output
   typealias Failure = Upstream.Failure
@@ -182,7 +182,7 @@ private struct Rescheduled<Upstream: Publisher, Context: Scheduler>: Publisher {
         begin: subscriber.receive(subscription:),
         take: { value in
           scheduler.schedule { _ = subscriber.receive(value) }
-          // What the subscriber asks for comes too late to be counted.
+          // The subscriber's demand is known only later, so it is not counted.
           return .max(1)
         },
         end: { completion in scheduler.schedule { subscriber.receive(completion: completion) } }))

@@ -1,14 +1,14 @@
 import Dispatch
 import Foundation
 
-/// Where work can be done.
+/// Where and when work is executed.
 public protocol Scheduler {
-  /// Does work soon.
+  /// Runs a closure at the next opportunity.
   func schedule(_ action: @escaping () -> Void)
 }
 
 extension DispatchQueue: Scheduler {
-  /// Does work on the queue.
+  /// Runs a closure on the queue.
   public func schedule(_ action: @escaping () -> Void) {
     nonisolated(unsafe) let action = action
     async { action() }
@@ -16,7 +16,7 @@ extension DispatchQueue: Scheduler {
 }
 
 extension OperationQueue: Scheduler {
-  /// Does work on the queue.
+  /// Runs a closure on the queue.
   public func schedule(_ action: @escaping () -> Void) {
     nonisolated(unsafe) let action = action
     addOperation { action() }
@@ -24,18 +24,18 @@ extension OperationQueue: Scheduler {
 }
 
 extension RunLoop: Scheduler {
-  /// Does work on the run loop.
+  /// Runs a closure on the run loop.
   public func schedule(_ action: @escaping () -> Void) {
     nonisolated(unsafe) let action = action
     perform { action() }
   }
 }
 
-/// Does work at once.
+/// Runs closures immediately.
 public struct ImmediateScheduler: Scheduler, Sendable {
-  /// The only one.
+  /// The shared scheduler.
   public static let shared = ImmediateScheduler()
 
-  /// Does work at once.
+  /// Runs a closure immediately.
   public func schedule(_ action: @escaping () -> Void) { action() }
 }

@@ -1,68 +1,68 @@
 import Foundation
 
-/// A publisher that is told what to tell.
+/// A publisher that code can send values through.
 public protocol Subject<Output, Failure>: AnyObject, Publisher {
-  /// Tells a value.
+  /// Sends a value to the subscribers.
   func send(_ value: Output)
-  /// Tells that there are no more values.
+  /// Sends the completion; no values follow.
   func send(completion: Subscribers.Completion<Failure>)
 }
 
 extension Subject where Output == Void {
-  /// Tells that something happened.
+  /// Sends an event without a value.
   public func send() { send(()) }
 }
 
-/// Tells values to those that listen when it is told them.
+/// Sends values to its current subscribers and keeps none of them.
 public final class PassthroughSubject<Output, Failure: Error>: Subject, @unchecked Sendable {
   private let core = SubjectCore<Output, Failure>()
 
   /// Creates a subject.
   public init() {}
 
-  /// Begins to tell a subscriber.
+  /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
     core.add(subscriber, first: nil)
   }
 
-  /// Tells a value.
+  /// Sends a value to the subscribers.
   public func send(_ value: Output) { core.send(value) }
 
-  /// Tells that there are no more values.
+  /// Sends the completion; no values follow.
   public func send(completion: Subscribers.Completion<Failure>) { core.send(completion) }
 }
 
-/// Tells its value, and each new one.
+/// A subject that keeps its latest value and sends it to new subscribers first.
 public final class CurrentValueSubject<Output, Failure: Error>: Subject, @unchecked Sendable {
   private let core = SubjectCore<Output, Failure>()
   private let lock = NSLock()
   private var current: Output
 
-  /// Creates a subject with a value.
+  /// Creates a subject with an initial value.
   public init(_ value: Output) { current = value }
 
-  /// The value; setting it tells it.
+  /// The current value; setting it publishes it.
   public var value: Output {
     get { lock.withLock { current } }
     set { send(newValue) }
   }
 
-  /// Begins to tell a subscriber, with the value that there is.
+  /// Attaches a subscriber; it receives the current value first.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
     core.add(subscriber, first: value)
   }
 
-  /// Takes a value and tells it.
+  /// Stores a value and sends it to the subscribers.
   public func send(_ value: Output) {
     lock.withLock { current = value }
     core.send(value)
   }
 
-  /// Tells that there are no more values.
+  /// Sends the completion; no values follow.
   public func send(completion: Subscribers.Completion<Failure>) { core.send(completion) }
 }
 
-/// The subscriptions of a subject.
+/// The subscriptions of a subject, thread-safe.
 private final class SubjectCore<Output, Failure: Error>: @unchecked Sendable {
   private let lock = NSLock()
   private var members: [ObjectIdentifier: Member<Output, Failure>] = [:]
@@ -110,7 +110,7 @@ private final class SubjectCore<Output, Failure: Error>: @unchecked Sendable {
   }
 }
 
-/// One subscriber of a subject, with what it asked for. Values beyond that are not told.
+/// One subscriber of a subject with its remaining demand. Values beyond the demand are dropped.
 private final class Member<Output, Failure: Error>: Subscription, @unchecked Sendable {
   private let lock = NSRecursiveLock()
   private var demand = Subscribers.Demand.none

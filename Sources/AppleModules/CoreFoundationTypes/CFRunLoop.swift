@@ -1,6 +1,6 @@
-// Command lines for the Mac wait in `CFRunLoopRun()` and measure time with Core Foundation, which
-// Foundation exports there. Here these few names are exported: the other types of Core Foundation
-// can't be bridged.
+// Command-line programs for macOS wait in `CFRunLoopRun()` and measure time with Core Foundation,
+// which Foundation re-exports there. Only these names are re-exported here: the other types of Core
+// Foundation can't be bridged on Linux.
 @_exported import typealias CoreFoundation.CFAbsoluteTime
 @_exported import func CoreFoundation.CFAbsoluteTimeGetCurrent
 @_exported import class CoreFoundation.CFRunLoop

@@ -1,18 +1,18 @@
 // swift-format-ignore-file: NoLeadingUnderscores
 import Foundation
 
-// Programs read numbers of dictionaries with `as? CGFloat`. Foundation lets them read every other
-// kind of number like that, but not this one.
+// Programs read numbers in dictionaries with `as? CGFloat`. On Linux Foundation bridges every other
+// numeric type from `NSNumber`, but not this one.
 extension CGFloat: @retroactive _ObjectiveCBridgeable {
-  /// The number as an object.
+  /// The value as an `NSNumber`.
   public func _bridgeToObjectiveC() -> NSNumber { NSNumber(value: Double(self)) }
 
-  /// Reads a number.
+  /// Converts from an `NSNumber`.
   public static func _forceBridgeFromObjectiveC(_ source: NSNumber, result: inout CGFloat?) {
     result = CGFloat(source.doubleValue)
   }
 
-  /// Reads a number, which always works.
+  /// Converts from an `NSNumber`; never fails.
   public static func _conditionallyBridgeFromObjectiveC(
     _ source: NSNumber, result: inout CGFloat?
   ) -> Bool {
@@ -20,7 +20,7 @@ extension CGFloat: @retroactive _ObjectiveCBridgeable {
     return true
   }
 
-  /// Reads a number; nil is 0.
+  /// Converts from an `NSNumber`; nil becomes 0.
   public static func _unconditionallyBridgeFromObjectiveC(_ source: NSNumber?) -> CGFloat {
     CGFloat(source?.doubleValue ?? 0)
   }

@@ -1,23 +1,24 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase, NeverUseImplicitlyUnwrappedOptionals
-// The types of Core Foundation that CoreVideo, CoreGraphics and ImageIO name in their signatures.
-// Foundation hides them here. They are Foundation's own types, so that programs bridge with `as`.
+// The Core Foundation types in the signatures of CoreVideo, CoreGraphics and ImageIO, which
+// Foundation on Linux does not export. They are aliases of Foundation's types, so that programs
+// convert with `as`.
 @_exported import Foundation
 
-/// A text.
+/// A string.
 public typealias CFString = String
-/// Values by name.
+/// A dictionary with string keys.
 public typealias CFDictionary = [String: Any]
-/// Values in their order.
+/// An array.
 public typealias CFArray = [Any]
-/// A truth value.
+/// A Boolean.
 public typealias CFBoolean = Bool
-/// A number of any kind.
+/// A number of any type.
 public typealias CFNumber = NSNumber
-/// A place of a file.
+/// A URL.
 public typealias CFURL = URL
-/// Bytes.
+/// Immutable bytes.
 public typealias CFData = Data
-/// Bytes that may change.
+/// Mutable bytes.
 public typealias CFMutableData = NSMutableData
 
 /// True.
@@ -25,16 +26,16 @@ public let kCFBooleanTrue: CFBoolean! = true
 /// False.
 public let kCFBooleanFalse: CFBoolean! = false
 
-/// Does some work. On a Mac, what it leaves behind for Objective-C is freed afterwards.
+/// Calls a closure. On macOS it also drains an autorelease pool; there is none here.
 public func autoreleasepool<Result>(
   invoking body: () throws -> Result
 ) rethrows -> Result { try body() }
 
-/// Provides memory.
+/// A memory allocator; has no effect here.
 public final class CFAllocator: Sendable {}
 
-/// The default allocator, which has no effect.
+/// The default allocator.
 public let kCFAllocatorDefault: CFAllocator! = nil
 
-/// The same allocator by its full name.
+/// The default allocator by its system name.
 public let kCFAllocatorSystemDefault: CFAllocator! = nil

@@ -1,9 +1,8 @@
 import Foundation
 
-/// Writes how long something takes, in English: Foundation has the type, but not on Linux.
+/// Formats a duration in English. Foundation on Linux lacks this type.
 ///
-/// Calendar units up to weeks have a fixed length here; months and years need a calendar, so they are
-/// counted as 30 and 365 days.
+/// Units have fixed lengths: a month has 30 days and a year 365.
 open class DateComponentsFormatter: Formatter, @unchecked Sendable {
   /// How numbers and units are written.
   public enum UnitsStyle: Int, Hashable, Sendable {
@@ -21,7 +20,7 @@ open class DateComponentsFormatter: Formatter, @unchecked Sendable {
     case brief
   }
 
-  /// What becomes of units that are zero.
+  /// What happens to units that are zero.
   public struct ZeroFormattingBehavior: OptionSet, Sendable {
     /// The bits of the set.
     public let rawValue: UInt
@@ -29,71 +28,71 @@ open class DateComponentsFormatter: Formatter, @unchecked Sendable {
     /// Creates a set from its bits.
     public init(rawValue: UInt) { self.rawValue = rawValue }
 
-    /// In front they are left out where digits have places, and all of them where units have names.
+    /// With `positional`, leading zeros are dropped; with the other styles, all zeros.
     public static let `default` = ZeroFormattingBehavior(rawValue: 1 << 0)
-    /// Those in front are left out.
+    /// Leading zeros are dropped.
     public static let dropLeading = ZeroFormattingBehavior(rawValue: 1 << 1)
-    /// Those in between are left out.
+    /// Zeros in the middle are dropped.
     public static let dropMiddle = ZeroFormattingBehavior(rawValue: 1 << 2)
-    /// Those at the end are left out.
+    /// Trailing zeros are dropped.
     public static let dropTrailing = ZeroFormattingBehavior(rawValue: 1 << 3)
-    /// All are left out.
+    /// All zeros are dropped.
     public static let dropAll: ZeroFormattingBehavior = [.dropLeading, .dropMiddle, .dropTrailing]
-    /// All are written, and with two digits each where digits have places.
+    /// No zeros are dropped; with `positional`, each unit has at least two digits.
     public static let pad = ZeroFormattingBehavior(rawValue: 1 << 16)
   }
 
-  /// The units that may be written; if it is empty, those of the components, or all.
+  /// The units to use. If empty: the units of the components, or all units for an interval.
   open var allowedUnits: NSCalendar.Unit = []
   /// How numbers and units are written.
   open var unitsStyle = UnitsStyle.positional
-  /// What becomes of units that are zero.
+  /// What happens to units that are zero.
   open var zeroFormattingBehavior = ZeroFormattingBehavior.default
-  /// The number of units that are written at most; 0 is no bound.
+  /// The maximum number of units; 0 means no limit.
   open var maximumUnitCount = 0
-  /// Whether the last unit has a fraction.
+  /// Whether the last unit may have a fraction.
   open var allowsFractionalUnits = false
-  /// Whether the largest unit takes what larger ones would hold.
+  /// Whether a largest unit of 1 is merged into the next smaller unit.
   open var collapsesLargestUnit = false
-  /// Whether the text begins with "About".
+  /// Whether the text starts with "About".
   open var includesApproximationPhrase = false
   /// Whether the text ends with "remaining".
   open var includesTimeRemainingPhrase = false
-  /// The calendar that components belong to.
+  /// The calendar of the components; has no effect here.
   open var calendar: Calendar? = .current
-  /// The moment that components count from.
+  /// The date that the components are relative to; has no effect here.
   open var referenceDate: Date?
 
-  /// Creates a formatter that writes digits.
+  /// Creates a formatter with the style `positional`.
   public override init() { super.init() }
 
-  /// Creates a formatter; there are no archives of it.
+  /// Creates a formatter from an archive.
   public required init?(coder: NSCoder) { super.init(coder: coder) }
 
-  /// The text for a number of seconds.
+  /// Formats an interval in seconds; nil if it is not finite.
   open func string(from ti: TimeInterval) -> String? {
     guard ti.isFinite, abs(ti) < 1e15 else { return nil }
     return DurationText(self, seconds: ti, unitsUnlessChosen: DurationUnit.all).text
   }
 
-  /// The text for the time between two moments.
+  /// Formats the interval between two dates.
   open func string(from startDate: Date, to endDate: Date) -> String? {
     string(from: endDate.timeIntervalSince(startDate))
   }
 
-  /// The text for components.
+  /// Formats date components.
   open func string(from components: DateComponents) -> String? {
     let units = DurationUnit.all.filter { $0.value(components) != nil }
     let seconds = units.reduce(0) { $0 + Double($1.value(components) ?? 0) * $1.seconds }
     return DurationText(self, seconds: seconds, unitsUnlessChosen: units).text
   }
 
-  /// The text for a date's components, as formatters have it.
+  /// Formats a `DateComponents` value; nil for any other object.
   open override func string(for obj: Any?) -> String? {
     (obj as? DateComponents).flatMap { string(from: $0) }
   }
 
-  /// The text for components in a style.
+  /// Formats date components in a style.
   open class func localizedString(
     from components: DateComponents, unitsStyle: UnitsStyle
   ) -> String? {

@@ -1,6 +1,6 @@
 import Foundation
 
-/// A number of seconds as a formatter writes it.
+/// A duration in seconds as a `DateComponentsFormatter` writes it.
 struct DurationText {
   private typealias Part = (unit: DurationUnit, count: Double)
 
@@ -37,7 +37,7 @@ struct DurationText {
     }
   }
 
-  /// Fewer units hold the time rounded to the last of them.
+  /// Limits the number of units; the duration is rounded to the last unit that remains.
   private static func bounded(
     _ parts: [Part], to limit: Int, _ seconds: Double, _ formatter: DateComponentsFormatter
   ) -> [Part] {
@@ -47,7 +47,7 @@ struct DurationText {
     let last = parts[first + limit - 1].unit.seconds
     let keepsFraction = formatter.allowsFractionalUnits
     let rounded = keepsFraction ? seconds : (seconds / last).rounded() * last
-    // Rounding may fill the next unit: 59 minutes and 50 seconds are an hour.
+    // Rounding may carry into the next unit: 59 minutes and 50 seconds become an hour.
     let all = split(rounded, into: parts.map(\.unit), keepsFraction: keepsFraction)
     let start = all.firstIndex { $0.count > 0 } ?? first
     let units = all[start..<min(all.count, start + limit)].map(\.unit)
@@ -85,7 +85,7 @@ struct DurationText {
       isDefault && !isPositional || behavior.contains(.dropMiddle),
       isDefault && !isPositional || behavior.contains(.dropTrailing)
     )
-    // Nothing at all is written as none of the shortest unit.
+    // A duration of zero is written as zero of the smallest unit.
     guard let first = parts.firstIndex(where: { $0.count > 0 }),
       let last = parts.lastIndex(where: { $0.count > 0 })
     else { return lead || trail ? parts.suffix(1) : parts }

@@ -1,18 +1,18 @@
 import Foundation
 
-/// A unit of time by its names.
+/// A unit of time: its length in seconds and its English names.
 struct DurationUnit {
   let unit: NSCalendar.Unit
   let seconds: Double
   let letters: String
   let short: String
   let full: String
-  /// Whether the short name takes an s.
+  /// Whether the short name takes a plural s.
   let hasShortPlural: Bool
-  /// Where components have the unit.
+  /// The unit's value in date components.
   let value: (DateComponents) -> Int?
 
-  /// All units, from the longest to the shortest.
+  /// All units, longest first.
   static var all: [DurationUnit] {
     [
       DurationUnit(.year, 31_536_000, "y", "yr", "year", true) { $0.year },

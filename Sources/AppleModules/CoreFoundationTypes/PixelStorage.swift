@@ -1,11 +1,11 @@
-/// Memory for the rows of an image; it stays in place for as long as the object lives.
+/// Memory for the rows of an image, at a fixed address as long as the object lives.
 package final class PixelStorage {
   package let byteCount: Int
   private let bytes: UnsafeMutableRawBufferPointer
-  /// Whether the memory goes away with the object.
+  /// Whether the memory is freed with the object.
   private let isOwner: Bool
 
-  /// Takes memory of its own, zeroed.
+  /// Allocates zeroed memory.
   package init(byteCount: Int) {
     isOwner = true
     self.byteCount = max(0, byteCount)
@@ -13,7 +13,7 @@ package final class PixelStorage {
     bytes.initializeMemory(as: UInt8.self, repeating: 0)
   }
 
-  /// Uses memory that outlives the object, as it is.
+  /// Wraps existing memory, which must outlive the object.
   package init(borrowing baseAddress: UnsafeMutableRawPointer, byteCount: Int) {
     isOwner = false
     self.byteCount = max(0, byteCount)
@@ -25,12 +25,12 @@ package final class PixelStorage {
   /// The first byte; valid for as long as the object lives.
   package var baseAddress: UnsafeMutableRawPointer? { bytes.baseAddress }
 
-  /// A copy of the bytes in the range, clamped to what is there.
+  /// A copy of the bytes in the range, clamped to the available bytes.
   package func copy(_ range: Range<Int>) -> [UInt8] {
     Array(bytes[range.clamped(to: 0..<byteCount)])
   }
 
-  /// Writes bytes from an offset on; what does not fit is left out.
+  /// Writes bytes starting at an offset; bytes that don't fit are dropped.
   package func write(_ source: [UInt8], at offset: Int) {
     guard (0..<byteCount).contains(offset) else { return }
     let count = min(source.count, byteCount - offset)

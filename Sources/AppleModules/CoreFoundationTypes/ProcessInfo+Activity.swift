@@ -1,9 +1,9 @@
 import Foundation
 
-// What programs for the Mac tell the system of long work, and ask it.
+// The activity and thermal API with which programs for macOS announce long work.
 
 extension ProcessInfo {
-  /// What an activity asks the system for.
+  /// What an activity requests from the system.
   public struct ActivityOptions: OptionSet, Sendable {
     /// The bits of the set.
     public let rawValue: UInt64
@@ -11,64 +11,64 @@ extension ProcessInfo {
     /// Creates a set from its bits.
     public init(rawValue: UInt64) { self.rawValue = rawValue }
 
-    /// The display stays on.
+    /// The display does not sleep.
     public static let idleDisplaySleepDisabled = ActivityOptions(rawValue: 1 << 40)
-    /// The machine stays awake.
+    /// The system does not sleep.
     public static let idleSystemSleepDisabled = ActivityOptions(rawValue: 1 << 20)
-    /// The program isn't ended at once.
+    /// The process is not terminated suddenly.
     public static let suddenTerminationDisabled = ActivityOptions(rawValue: 1 << 14)
-    /// The program isn't ended while it has no windows.
+    /// The process is not terminated automatically while it has no windows.
     public static let automaticTerminationDisabled = ActivityOptions(rawValue: 1 << 15)
-    /// The user waits for it.
+    /// Work that the user waits for.
     public static let userInitiated = ActivityOptions(rawValue: 0x00FF_FFFF)
-    /// The user waits for it, while the machine may sleep.
+    /// Work that the user waits for, while the system may sleep.
     public static let userInitiatedAllowingIdleSystemSleep = ActivityOptions(
       rawValue: 0x00FF_FFFF & ~(1 << 20))
-    /// Nobody waits for it.
+    /// Background work.
     public static let background = ActivityOptions(rawValue: 0xFF)
-    /// Timers are to be exact.
+    /// Timers need high precision.
     public static let latencyCritical = ActivityOptions(rawValue: 0xFF_0000_0000)
   }
 
-  /// Names some long work. No service here takes such requests, so the machine sleeps when it would.
+  /// Begins an activity. Has no effect: sleep is not prevented here.
   public func beginActivity(
     options: ActivityOptions = [], reason: String
   ) -> any NSObjectProtocol { NSString(string: reason) }
 
-  /// Ends an activity.
+  /// Ends an activity; has no effect.
   public func endActivity(_ activity: any NSObjectProtocol) {}
 
-  /// Does some work as an activity.
+  /// Calls a closure as an activity.
   public func performActivity(
     options: ActivityOptions = [], reason: String, using block: () -> Void
   ) { block() }
 
-  /// Has no effect: programs aren't ended at once here.
+  /// Has no effect: there is no sudden termination here.
   public func disableSuddenTermination() {}
 
-  /// Has no effect: programs aren't ended at once here.
+  /// Has no effect: there is no sudden termination here.
   public func enableSuddenTermination() {}
 
-  /// There is no such mode.
+  /// Always false: there is no such mode here.
   public var isLowPowerModeEnabled: Bool { false }
 
-  /// How hot the machine is.
+  /// The thermal state of the machine.
   public enum ThermalState: Int, Hashable, Sendable {
-    /// As usual.
+    /// Normal.
     case nominal
-    /// Warm: the machine cools itself more.
+    /// Elevated: cooling is increased.
     case fair
-    /// Hot: the machine slows down.
+    /// High: the machine reduces its speed.
     case serious
-    /// Too hot.
+    /// Critical.
     case critical
   }
 
-  /// Posted when the machine gets hotter or cooler, which nobody does here.
+  /// The name of the notification about a change of the thermal state; never posted here.
   public static let thermalStateDidChangeNotification = NSNotification.Name(
     "NSProcessInfoThermalStateDidChangeNotification")
 
-  /// How hot the machine is, as the kernel measures it; `nominal` where it doesn't.
+  /// The thermal state according to the kernel's trip points; `nominal` if it reports none.
   public var thermalState: ThermalState {
     let root = "/sys/class/thermal"
     let zones = (try? FileManager.default.contentsOfDirectory(atPath: root)) ?? []
@@ -78,7 +78,7 @@ extension ProcessInfo {
   }
 }
 
-/// One place of the machine that is measured, with the temperatures at which something is done.
+/// A thermal zone of the kernel's sysfs with its trip points, in millidegrees Celsius.
 private struct ThermalZone {
   let path: String
 

@@ -1,5 +1,5 @@
 // Points and rectangles are Foundation's; images and contexts are in a module of another name,
-// which RealityKit exports. It doesn't import this one: Swift Testing looks for an overlay wherever
-// it sees the name.
+// BitmapGraphics, which RealityKit exports. RealityKit doesn't import this module: where a module
+// named CoreGraphics is visible, Swift Testing expects its CoreGraphics overlay.
 @_exported import BitmapGraphics
 @_exported import Foundation

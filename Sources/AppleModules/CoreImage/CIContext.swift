@@ -3,22 +3,22 @@ import CoreVideo
 import ImageIO
 import Metal
 
-/// Renders images, with the processor. Options have no effect, and colours are not converted.
+/// Renders images on the CPU. Options have no effect, and colors are not converted.
 public final class CIContext: Sendable {
   /// Creates a context.
   public init(options: [CIContextOption: Any]? = nil) {}
 
-  /// Creates a context that renders with a device: the processor is the only one.
+  /// Creates a context that renders with a device; it renders on the CPU in any case.
   public init(mtlDevice device: any MTLDevice, options: [CIContextOption: Any]? = nil) {}
 
-  /// Renders an image into a buffer of colours or `OneComponent8`, whose bottom left corner is the
-  /// origin; buffers of other kinds stay as they are.
+  /// Renders an image into a buffer in an RGB format or `OneComponent8`, with the origin at the
+  /// bottom left corner; buffers in other formats are not changed.
   public func render(_ image: CIImage, to buffer: CVPixelBuffer) {
     let size = CGSize(width: CVPixelBufferGetWidth(buffer), height: CVPixelBufferGetHeight(buffer))
     render(image, to: buffer, bounds: CGRect(origin: .zero, size: size), colorSpace: nil)
   }
 
-  /// Renders the part of an image that is in a rectangle into a buffer.
+  /// Renders the part of an image inside a rectangle into a buffer.
   public func render(
     _ image: CIImage, to buffer: CVPixelBuffer, bounds: CGRect, colorSpace: CGColorSpace?
   ) {
@@ -31,7 +31,7 @@ public final class CIContext: Sendable {
     context.draw(image, from: bounds.origin)
   }
 
-  /// The pixels of an image in a rectangle; nil where it is empty or too large.
+  /// Renders the part of an image inside a rectangle; nil if that is empty or too large.
   public func createCGImage(_ image: CIImage, from fromRect: CGRect) -> CGImage? {
     let part = fromRect.integral
     guard !part.isNull, part.width >= 1, part.height >= 1, part.width <= 65536, part.height <= 65536
@@ -46,12 +46,12 @@ public final class CIContext: Sendable {
     return context?.makeImage()
   }
 
-  /// An image as a JPEG file; nil where it can't be rendered.
+  /// The image as JPEG data; nil if it can't be rendered.
   public func jpegRepresentation(
     of image: CIImage, colorSpace: CGColorSpace, options: [CIImageRepresentationOption: Any] = [:]
   ) -> Data? { file(of: image, "public.jpeg", quality(options)) }
 
-  /// An image as a PNG file; nil where it can't be rendered.
+  /// The image as PNG data; nil if it can't be rendered.
   public func pngRepresentation(
     of image: CIImage, format: CIFormat, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
@@ -74,7 +74,7 @@ public final class CIContext: Sendable {
     try write(file(of: image, "public.png", [:]), to: url)
   }
 
-  /// The image as a HEIC file, of the quality that the options name.
+  /// The image as HEIC data with the quality in `options`; nil if it can't be rendered.
   public func heifRepresentation(
     of image: CIImage, format: CIFormat, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
@@ -90,7 +90,7 @@ public final class CIContext: Sendable {
       to: url)
   }
 
-  /// The option that files have an equivalent of.
+  /// The compression quality, the only option that the file formats support.
   private func quality(_ options: [CIImageRepresentationOption: Any]) -> CFDictionary {
     let key = kCGImageDestinationLossyCompressionQuality
     let value = options[CIImageRepresentationOption(rawValue: key)]
@@ -113,7 +113,7 @@ public final class CIContext: Sendable {
     return CGImageDestinationFinalize(destination) ? data as Data : nil
   }
 
-  /// How the pixels of a buffer lie in memory; nil for those that nothing can be drawn into.
+  /// The color space and bitmap info of a pixel format; nil for formats that can't be drawn into.
   private func layout(_ format: OSType) -> (CGColorSpace, UInt32)? {
     let colours = CGColorSpaceCreateDeviceRGB()
     let first = CGImageAlphaInfo.premultipliedFirst.rawValue
@@ -129,7 +129,7 @@ public final class CIContext: Sendable {
 }
 
 extension CGContext {
-  /// Draws what can be seen of an image, with a point of it at the bottom left corner.
+  /// Draws the visible part of an image; `origin` is placed at the bottom left corner.
   fileprivate func draw(_ image: CIImage, from origin: CGPoint) {
     clear(CGRect(x: 0, y: 0, width: width, height: height))
     saveGState()
@@ -141,7 +141,7 @@ extension CGContext {
   }
 }
 
-/// What a context is told when it is created; none has an effect.
+/// Options of a context; none has an effect.
 public struct CIContextOption: RawRepresentable, Hashable, Sendable {
   /// The name of the option.
   public let rawValue: String
@@ -149,17 +149,17 @@ public struct CIContextOption: RawRepresentable, Hashable, Sendable {
   /// Creates an option from its name.
   public init(rawValue: String) { self.rawValue = rawValue }
 
-  /// Whether intermediate images are kept.
+  /// Whether intermediate images are cached.
   public static let cacheIntermediates = CIContextOption(rawValue: "cacheIntermediates")
-  /// Whether the processor renders; it always does.
+  /// Whether to render on the CPU, which is always the case.
   public static let useSoftwareRenderer = CIContextOption(rawValue: "useSoftwareRenderer")
-  /// The space that colours are computed in.
+  /// The color space in which colors are computed.
   public static let workingColorSpace = CIContextOption(rawValue: "workingColorSpace")
-  /// The space of what is rendered.
+  /// The color space of the rendered image.
   public static let outputColorSpace = CIContextOption(rawValue: "outputColorSpace")
 }
 
-/// What a context is told when it makes a file.
+/// Options of a context that writes a file.
 public struct CIImageRepresentationOption: RawRepresentable, Hashable, Sendable {
   /// The name of the option.
   public let rawValue: String
@@ -168,10 +168,10 @@ public struct CIImageRepresentationOption: RawRepresentable, Hashable, Sendable 
   public init(rawValue: String) { self.rawValue = rawValue }
 }
 
-/// How pixels are stored.
+/// A pixel format.
 public struct CIFormat: Hashable, Sendable {
-  /// Red, green, blue and opacity, 8 bits each.
+  /// Red, green, blue and alpha, 8 bits each.
   public static let RGBA8 = CIFormat()
-  /// Blue, green, red and opacity, 8 bits each.
+  /// Blue, green, red and alpha, 8 bits each.
   public static let BGRA8 = CIFormat()
 }

@@ -3,24 +3,24 @@
 @_exported import Foundation
 @_exported import ImageIO
 
-/// An image with a place: it may be turned, cut, moved and brought to another size before it is
-/// rendered. There are no filters.
+/// An image in a plane: it may be rotated, cropped, translated and scaled before it is rendered.
+/// There are no filters.
 public final class CIImage: Sendable {
-  /// The pixels.
+  /// The pixels if the image is neither transformed nor cropped; nil otherwise.
   public let cgImage: CGImage?
-  /// The file that the image is from.
+  /// The URL of the file that the image was read from.
   public let url: URL?
-  /// What is known of the image, by the names of ImageIO.
+  /// The metadata with ImageIO's keys.
   public var properties: [String: Any] { source?.values ?? [:] }
 
   let pixels: CGImage
-  /// From the pixels, y up from the bottom left corner, to the image's place.
+  /// Maps the pixels, with y up from the bottom left corner, to the plane.
   let transform: CGAffineTransform
-  /// Where the image can be seen.
+  /// The visible rectangle.
   let bounds: CGRect
   private let source: Properties?
 
-  /// Properties never change once they were read.
+  /// Metadata that is safe to share: immutable after initialization.
   final class Properties: @unchecked Sendable {
     let values: [String: Any]
 
@@ -50,12 +50,12 @@ public final class CIImage: Sendable {
       pixels, transform, pixels.frame.applying(transform), url, Properties(properties))
   }
 
-  /// Reads an image file; nil where it can't be read.
+  /// Reads an image file; nil if it can't be read.
   public convenience init?(contentsOf url: URL, options: [CIImageOption: Any]? = nil) {
     self.init(CGImageSourceCreateWithURL(url, nil), url, options)
   }
 
-  /// Reads the content of an image file; nil where it can't be read.
+  /// Reads an image file in memory; nil if it can't be read.
   public convenience init?(data: Data, options: [CIImageOption: Any]? = nil) {
     self.init(CGImageSourceCreateWithData(data, nil), nil, options)
   }
@@ -65,7 +65,7 @@ public final class CIImage: Sendable {
     self.init(cgImage, .identity, cgImage.frame, nil, nil)
   }
 
-  /// Creates an image from what a buffer holds now: black where its pixels are neither colours nor
+  /// Creates an image from the current content of a buffer; black if its format is neither RGB nor
   /// `OneComponent8`.
   public convenience init(cvPixelBuffer pixelBuffer: CVPixelBuffer) {
     let raster = pixelBuffer.image ?? pixelBuffer.grayImage
@@ -74,38 +74,38 @@ public final class CIImage: Sendable {
     self.init(pixels, .identity, pixels.frame, nil, nil)
   }
 
-  /// Creates an image from what a buffer holds now.
+  /// Creates an image from the current content of a buffer.
   public convenience init(cvImageBuffer imageBuffer: CVImageBuffer) {
     self.init(cvPixelBuffer: imageBuffer)
   }
 
-  /// Where the image is.
+  /// The rectangle of the image in the plane.
   public var extent: CGRect { bounds }
 
-  /// The image, moved, turned and brought to another size.
+  /// The image transformed by an affine map.
   public func transformed(by matrix: CGAffineTransform) -> CIImage {
     CIImage(pixels, transform.concatenating(matrix), bounds.applying(matrix), url, source)
   }
 
-  /// The part of the image in a rectangle.
+  /// The part of the image inside a rectangle.
   public func cropped(to rect: CGRect) -> CIImage {
     CIImage(pixels, transform, bounds.intersection(rect), url, source)
   }
 
-  /// The image, turned upright from an orientation, its corner at the origin.
+  /// The image rotated upright from an orientation, with its corner at the origin.
   public func oriented(_ orientation: CGImagePropertyOrientation) -> CIImage {
     let home = CGAffineTransform(translationX: -bounds.minX, y: -bounds.minY)
     return transformed(by: home.concatenating(orientation.transform(of: bounds.size)))
   }
 
-  /// The image, turned upright from an orientation, its corner at the origin.
+  /// The image rotated upright from an EXIF orientation, with its corner at the origin.
   public func oriented(forExifOrientation orientation: Int32) -> CIImage {
     let value = UInt32(exactly: orientation).flatMap(CGImagePropertyOrientation.init(rawValue:))
     return oriented(value ?? .up)
   }
 }
 
-/// What is to be done when an image is read.
+/// Options for reading an image.
 public struct CIImageOption: RawRepresentable, Hashable, Sendable {
   /// The name of the option.
   public let rawValue: String
@@ -113,17 +113,18 @@ public struct CIImageOption: RawRepresentable, Hashable, Sendable {
   /// Creates an option from its name.
   public init(rawValue: String) { self.rawValue = rawValue }
 
-  /// Whether the image is turned upright; it isn't unless told.
+  /// Whether to rotate the image upright; false by default.
   public static let applyOrientationProperty = CIImageOption(rawValue: "applyOrientationProperty")
 }
 
 extension CGImage {
-  /// The pixels from the bottom left corner.
+  /// The rectangle of the pixels with the bottom left corner at the origin.
   var frame: CGRect { CGRect(x: 0, y: 0, width: width, height: height) }
 }
 
 extension CGImagePropertyOrientation {
-  /// What turns pixels of a size upright, y up and the corner at the origin before and after.
+  /// The transform that rotates pixels of a given size upright, with y up and the bottom left
+  /// corner at the origin before and after.
   func transform(of size: CGSize) -> CGAffineTransform {
     let (w, h) = (size.width, size.height)
     return switch self {

@@ -1,4 +1,4 @@
-/// An acceleration along the device's axes, in units of the standard gravity.
+/// An acceleration along the device's axes, in units of standard gravity (9.81 m/s²).
 public struct CMAcceleration: Hashable, Sendable {
   /// Along the x axis.
   public var x: Double
@@ -7,7 +7,7 @@ public struct CMAcceleration: Hashable, Sendable {
   /// Along the z axis.
   public var z: Double
 
-  /// Creates the acceleration zero.
+  /// Creates a zero acceleration.
   public init() { self.init(x: 0, y: 0, z: 0) }
 
   /// Creates an acceleration from its components.

@@ -21,31 +21,31 @@ public let kCVPixelFormatType_24RGB: OSType = 0x0000_0018
 public let kCVPixelFormatType_OneComponent8: OSType = 0x4C30_3038
 /// One 32-bit floating-point component.
 public let kCVPixelFormatType_OneComponent32Float: OSType = 0x4C30_3066
-/// Depths in metres as 32-bit floating-point numbers.
+/// Depths in meters as 32-bit floating-point numbers.
 public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
-/// Disparities in 1/metre as 32-bit floating-point numbers.
+/// Disparities in 1/meter as 32-bit floating-point numbers.
 public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
 /// One 16-bit floating-point component.
 public let kCVPixelFormatType_OneComponent16Half: OSType = 0x4C30_3068
-/// Alpha, blue, green, red; 8 bits each. There are no buffers of it.
+/// Alpha, blue, green, red; 8 bits each. Buffers of this format can't be created.
 public let kCVPixelFormatType_32ABGR: OSType = 0x4142_4752
-/// Luma and chroma in planes, in the range of video. There are no buffers of it.
+/// Luma and chroma in two planes, video range. Buffers of this format can't be created.
 public let kCVPixelFormatType_420YpCbCr8BiPlanarVideoRange: OSType = 0x3432_3076
-/// Luma and chroma in planes, in the full range. There are no buffers of it.
+/// Luma and chroma in two planes, full range. Buffers of this format can't be created.
 public let kCVPixelFormatType_420YpCbCr8BiPlanarFullRange: OSType = 0x3432_3066
 
-/// Depths in metres as 16-bit floating-point numbers.
+/// Depths in meters as 16-bit floating-point numbers.
 public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
-/// Disparities in 1/metre as 16-bit floating-point numbers.
+/// Disparities in 1/meter as 16-bit floating-point numbers.
 public let kCVPixelFormatType_DisparityFloat16: OSType = 0x6864_6973
 
-/// Attribute: the code of the pixel format. Attributes have no effect.
+/// Attribute: the pixel format code. Pools read it; elsewhere attributes have no effect.
 public let kCVPixelBufferPixelFormatTypeKey: CFString = "PixelFormatType"
 /// Attribute: the width in pixels.
 public let kCVPixelBufferWidthKey: CFString = "Width"
 /// Attribute: the height in pixels.
 public let kCVPixelBufferHeightKey: CFString = "Height"
-/// Attribute: to what multiple of bytes rows are padded.
+/// Attribute: the alignment of rows in bytes.
 public let kCVPixelBufferBytesPerRowAlignmentKey: CFString = "BytesPerRowAlignment"
 /// Attribute: whether Core Graphics can read the pixels.
 public let kCVPixelBufferCGImageCompatibilityKey: CFString = "CGImageCompatibility"
@@ -55,7 +55,7 @@ public let kCVPixelBufferCGBitmapContextCompatibilityKey: CFString = "CGBitmapCo
 public let kCVPixelBufferMetalCompatibilityKey: CFString = "MetalCompatibility"
 /// Attribute: how the pixels are shared between processes.
 public let kCVPixelBufferIOSurfacePropertiesKey: CFString = "IOSurfaceProperties"
-/// Attribute of a pool: how many buffers it keeps.
+/// Pool attribute: the minimum number of buffers to keep.
 public let kCVPixelBufferPoolMinimumBufferCountKey: CFString = "MinimumBufferCount"
-/// Attribute of a pool: for how many seconds it keeps a buffer.
+/// Pool attribute: the maximum age of an unused buffer in seconds.
 public let kCVPixelBufferPoolMaximumBufferAgeKey: CFString = "MaximumBufferAge"

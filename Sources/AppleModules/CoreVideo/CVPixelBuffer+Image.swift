@@ -2,7 +2,7 @@ import Kernels
 import SceneModel
 
 extension CVPixelBuffer {
-  /// The pixels as RGB; nil for formats without three colours.
+  /// The pixels as RGB without alpha; nil for formats without three color components.
   package var image: RasterImage? {
     let (size, offsets): (Int, [Int])
     switch pixelFormat {
@@ -23,7 +23,7 @@ extension CVPixelBuffer {
     return RasterImage(width: width, height: height, channels: 3, pixels: pixels)
   }
 
-  /// The pixels as gray; nil for formats that aren't OneComponent8.
+  /// The pixels as gray; nil for formats other than OneComponent8.
   package var grayImage: RasterImage? {
     guard pixelFormat == kCVPixelFormatType_OneComponent8 else { return nil }
     var pixels: [UInt8] = []
@@ -34,7 +34,7 @@ extension CVPixelBuffer {
     return RasterImage(width: width, height: height, channels: 1, pixels: pixels)
   }
 
-  /// Creates a 32BGRA buffer from an RGB image.
+  /// Creates a 32BGRA buffer from an RGB image; nil unless it has 3 channels.
   package convenience init?(_ image: RasterImage) {
     guard image.channels == 3 else { return nil }
     self.init(width: image.width, height: image.height, pixelFormat: kCVPixelFormatType_32BGRA)

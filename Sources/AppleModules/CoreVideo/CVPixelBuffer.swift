@@ -1,16 +1,21 @@
 import Kernels
 
-/// An image in memory: what CoreVideo calls a pixel buffer, with one plane.
+/// An image in memory with one plane.
 public final class CVPixelBuffer {
+  /// The width in pixels.
   package let width: Int
+  /// The height in pixels.
   package let height: Int
+  /// The pixel format code, `kCVPixelFormatType_…`.
   package let pixelFormat: OSType
+  /// The row stride in bytes, a multiple of 64.
   package let bytesPerRow: Int
+  /// The memory of the pixels, top row first.
   package let storage: PixelStorage
-  /// The bytes of a row that hold pixels.
+  /// The bytes of a row without its padding.
   let rowSize: Int
 
-  /// Fails for sizes below 1, images beyond 16 GiB and pixel formats without a fixed pixel size.
+  /// Fails for sides outside 1…65536 (at most 16 GiB) and for unsupported pixel formats.
   package init?(width: Int, height: Int, pixelFormat: OSType) {
     guard let pixelSize = bytesPerPixel(of: pixelFormat) else { return nil }
     guard (1...65536).contains(width), (1...65536).contains(height) else { return nil }
@@ -18,7 +23,7 @@ public final class CVPixelBuffer {
     self.height = height
     self.pixelFormat = pixelFormat
     rowSize = width * pixelSize
-    // Rows begin at multiples of 64 bytes, as they do in CoreVideo.
+    // Rows are aligned to 64 bytes, as on macOS.
     bytesPerRow = (rowSize + 63) / 64 * 64
     storage = PixelStorage(byteCount: bytesPerRow * height)
   }
@@ -32,14 +37,14 @@ extension CVPixelBuffer: Hashable {
   public func hash(into hasher: inout Hasher) { hasher.combine(ObjectIdentifier(self)) }
 }
 
-/// An image that can be a pixel buffer; here it always is.
+/// An image buffer; always a pixel buffer here.
 public typealias CVImageBuffer = CVPixelBuffer
-/// A buffer of any kind; here it always has pixels.
+/// A buffer of any kind; always a pixel buffer here.
 public typealias CVBuffer = CVPixelBuffer
 
-/// A code of four characters.
+/// A four-character code.
 public typealias OSType = UInt32
-/// How a CoreVideo function ended: 0 for success.
+/// The result code of a CoreVideo function: 0 means success.
 public typealias CVReturn = Int32
 
 private func bytesPerPixel(of format: OSType) -> Int? {

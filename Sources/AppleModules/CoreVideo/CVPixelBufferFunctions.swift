@@ -3,10 +3,10 @@ import Foundation
 import Kernels
 
 // The part of CoreVideo's C interface that fills and reads the pixel buffers of samples. Its
-// signatures and those of CoreGraphics are the only ones outside of Kernels that name unsafe
+// signatures and those of CoreGraphics are the only ones outside of Kernels that contain unsafe
 // pointers.
 
-/// How a buffer is locked.
+/// Options for locking a buffer.
 public struct CVPixelBufferLockFlags: OptionSet, Sendable {
   /// The bits of the flags.
   public let rawValue: UInt64
@@ -14,11 +14,11 @@ public struct CVPixelBufferLockFlags: OptionSet, Sendable {
   /// Creates flags from their bits.
   public init(rawValue: UInt64) { self.rawValue = rawValue }
 
-  /// The pixels will not be changed.
+  /// The caller does not modify the pixels.
   public static let readOnly = CVPixelBufferLockFlags(rawValue: 1)
 }
 
-/// Creates a pixel buffer of zeros. Allocator and attributes have no effect.
+/// Creates a zero-filled pixel buffer. Allocator and attributes have no effect.
 @discardableResult public func CVPixelBufferCreate(
   _ allocator: CFAllocator?, _ width: Int, _ height: Int, _ pixelFormatType: OSType,
   _ pixelBufferAttributes: CFDictionary?, _ pixelBufferOut: inout CVPixelBuffer?
@@ -27,12 +27,13 @@ public struct CVPixelBufferLockFlags: OptionSet, Sendable {
   return pixelBufferOut == nil ? kCVReturnInvalidArgument : kCVReturnSuccess
 }
 
-/// Is told when the bytes that it was created with are not needed any more.
+/// Called when the bytes that a buffer was created with are no longer needed.
 public typealias CVPixelBufferReleaseBytesCallback =
   @convention(c) (UnsafeMutableRawPointer?, UnsafeRawPointer?) -> Void
 
-/// Creates a pixel buffer from rows of pixels, which are copied; so the callback, which gets
-/// `releaseRefCon` and the bytes, is called at once. Allocator and attributes have no effect.
+/// Creates a pixel buffer from rows of pixels. They are copied, so the callback, which gets
+/// `releaseRefCon` and the bytes, is called before the function returns. Allocator and attributes
+/// have no effect.
 @discardableResult public func CVPixelBufferCreateWithBytes(
   _ allocator: CFAllocator?, _ width: Int, _ height: Int, _ pixelFormatType: OSType,
   _ baseAddress: UnsafeMutableRawPointer, _ bytesPerRow: Int,
@@ -55,22 +56,22 @@ public typealias CVPixelBufferReleaseBytesCallback =
   return kCVReturnSuccess
 }
 
-/// Makes the pixels accessible. They always are.
+/// Makes the pixels accessible; has no effect, they always are.
 @discardableResult public func CVPixelBufferLockBaseAddress(
   _ pixelBuffer: CVPixelBuffer, _ lockFlags: CVPixelBufferLockFlags
 ) -> CVReturn { kCVReturnSuccess }
 
-/// Ends the access to the pixels.
+/// Ends the access to the pixels; has no effect.
 @discardableResult public func CVPixelBufferUnlockBaseAddress(
   _ pixelBuffer: CVPixelBuffer, _ unlockFlags: CVPixelBufferLockFlags
 ) -> CVReturn { kCVReturnSuccess }
 
-/// The address of the first row; valid for as long as the buffer lives.
+/// The address of the first row; valid as long as the buffer exists.
 public func CVPixelBufferGetBaseAddress(
   _ pixelBuffer: CVPixelBuffer
 ) -> UnsafeMutableRawPointer? { pixelBuffer.storage.baseAddress }
 
-/// The distance of two rows in bytes.
+/// The row stride in bytes.
 public func CVPixelBufferGetBytesPerRow(_ pixelBuffer: CVPixelBuffer) -> Int {
   pixelBuffer.bytesPerRow
 }
@@ -81,38 +82,38 @@ public func CVPixelBufferGetWidth(_ pixelBuffer: CVPixelBuffer) -> Int { pixelBu
 /// The height in pixels.
 public func CVPixelBufferGetHeight(_ pixelBuffer: CVPixelBuffer) -> Int { pixelBuffer.height }
 
-/// The code of the pixel format.
+/// The pixel format code.
 public func CVPixelBufferGetPixelFormatType(_ pixelBuffer: CVPixelBuffer) -> OSType {
   pixelBuffer.pixelFormat
 }
 
-/// The number of bytes of all rows.
+/// The size of all rows in bytes, with padding.
 public func CVPixelBufferGetDataSize(_ pixelBuffer: CVPixelBuffer) -> Int {
   pixelBuffer.storage.byteCount
 }
 
-/// Whether the components lie in planes of their own; they never do.
+/// Whether the buffer has several planes: always false.
 public func CVPixelBufferIsPlanar(_ pixelBuffer: CVPixelBuffer) -> Bool { false }
 
-/// The number of planes: 0 where the components don't lie in planes of their own.
+/// The number of planes: 0 for a non-planar buffer.
 public func CVPixelBufferGetPlaneCount(_ pixelBuffer: CVPixelBuffer) -> Int { 0 }
 
-/// The address of a plane: nil, since buffers have no planes.
+/// The address of a plane: nil, since buffers are not planar.
 public func CVPixelBufferGetBaseAddressOfPlane(
   _ pixelBuffer: CVPixelBuffer, _ planeIndex: Int
 ) -> UnsafeMutableRawPointer? { nil }
 
-/// The bytes from one row of a plane to the next: 0, since buffers have no planes.
+/// The row stride of a plane in bytes: 0, since buffers are not planar.
 public func CVPixelBufferGetBytesPerRowOfPlane(
   _ pixelBuffer: CVPixelBuffer, _ planeIndex: Int
 ) -> Int { 0 }
 
-/// The width of a plane in pixels: 0, since buffers have no planes.
+/// The width of a plane in pixels: 0, since buffers are not planar.
 public func CVPixelBufferGetWidthOfPlane(_ pixelBuffer: CVPixelBuffer, _ planeIndex: Int) -> Int {
   0
 }
 
-/// The height of a plane in pixels: 0, since buffers have no planes.
+/// The height of a plane in pixels: 0, since buffers are not planar.
 public func CVPixelBufferGetHeightOfPlane(_ pixelBuffer: CVPixelBuffer, _ planeIndex: Int) -> Int {
   0
 }
@@ -122,17 +123,17 @@ public func CVImageBufferGetEncodedSize(_ imageBuffer: CVImageBuffer) -> CGSize 
   CGSize(width: imageBuffer.width, height: imageBuffer.height)
 }
 
-/// The width and height in pixels, as an image is shown.
+/// The width and height at which to display the image, in pixels.
 public func CVImageBufferGetDisplaySize(_ imageBuffer: CVImageBuffer) -> CGSize {
   CVImageBufferGetEncodedSize(imageBuffer)
 }
 
-/// Fills memory with a byte. The Mac's C library takes addresses that may be missing.
+/// Fills memory with a byte. As in the macOS C library, the address may be nil.
 @discardableResult public func memset(
   _ address: UnsafeMutableRawPointer?, _ byte: Int32, _ count: Int
 ) -> UnsafeMutableRawPointer? { address.map { Foundation.memset($0, byte, count) } }
 
-/// Copies memory. The Mac's C library takes addresses that may be missing.
+/// Copies memory. As in the macOS C library, the addresses may be nil.
 @discardableResult public func memcpy(
   _ target: UnsafeMutableRawPointer?, _ source: UnsafeRawPointer?, _ count: Int
 ) -> UnsafeMutableRawPointer? {

@@ -1,7 +1,7 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 
-/// Makes buffers of one size and format. Each is a new one: memory that is given back is soon used
-/// again.
+/// Creates buffers of one size and format. Nothing is pooled: each buffer is new, and the memory of
+/// released ones is soon reused by the system.
 public final class CVPixelBufferPool: Sendable {
   fileprivate let width: Int
   fileprivate let height: Int
@@ -22,8 +22,8 @@ public final class CVPixelBufferPool: Sendable {
   }
 }
 
-/// Creates a pool. The attributes of its buffers have to name the width, the height and the format;
-/// those of the pool have no effect.
+/// Creates a pool. `pixelBufferAttributes` must contain width, height and pixel format;
+/// `poolAttributes` has no effect.
 @discardableResult public func CVPixelBufferPoolCreate(
   _ allocator: CFAllocator?, _ poolAttributes: CFDictionary?,
   _ pixelBufferAttributes: CFDictionary?, _ poolOut: inout CVPixelBufferPool?
@@ -32,7 +32,7 @@ public final class CVPixelBufferPool: Sendable {
   return poolOut == nil ? kCVReturnInvalidArgument : kCVReturnSuccess
 }
 
-/// Makes a buffer.
+/// Creates a buffer.
 @discardableResult public func CVPixelBufferPoolCreatePixelBuffer(
   _ allocator: CFAllocator?, _ pixelBufferPool: CVPixelBufferPool,
   _ pixelBufferOut: inout CVPixelBuffer?

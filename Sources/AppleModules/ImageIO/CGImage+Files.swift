@@ -1,13 +1,13 @@
 import Foundation
 
 extension CGImage {
-  /// Reads a PNG file; nil where it is none.
+  /// Reads a PNG file; nil if the data isn't one.
   public convenience init?(
     pngDataProviderSource source: CGDataProvider, decode: UnsafePointer<CGFloat>?,
     shouldInterpolate: Bool, intent: CGColorRenderingIntent
   ) { self.init(source, "public.png") }
 
-  /// Reads a JPEG file; nil where it is none.
+  /// Reads a JPEG file; nil if the data isn't one.
   public convenience init?(
     jpegDataProviderSource source: CGDataProvider, decode: UnsafePointer<CGFloat>?,
     shouldInterpolate: Bool, intent: CGColorRenderingIntent

@@ -4,7 +4,7 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Writes an image to a file or into memory: JPEG, PNG or HEIC, its pixels only. Metadata is not
+/// Writes the pixels of an image to a file or into memory as JPEG, PNG or HEIC. Metadata is not
 /// written.
 public final class CGImageDestination {
   private let type: CFString
@@ -19,11 +19,13 @@ public final class CGImageDestination {
     self.write = write
   }
 
+  /// Adds the image; only the first one is written.
   func add(_ raster: RasterImage, _ options: CFDictionary?) {
     let quality = options?[kCGImageDestinationLossyCompressionQuality] as? NSNumber
     image = image ?? (raster, quality?.floatValue ?? 0.9)
   }
 
+  /// Encodes and writes the image; returns whether that succeeded.
   func finalize() -> Bool {
     guard let image, let bytes = try? encoded(image.raster, image.quality) else { return false }
     return (try? write(Data(bytes))) != nil
@@ -32,7 +34,7 @@ public final class CGImageDestination {
   private func encoded(_ raster: RasterImage, _ quality: Float) throws -> [UInt8] {
     if type == "public.png" { return try ImageCodec.encodePNG(raster) }
     if type == "public.jpeg" {
-      // JPEG has no opacity.
+      // JPEG has no alpha.
       let image = raster.channels == 4 ? raster.withChannels([0, 1, 2]) : raster
       return try ImageCodec.encodeJPEG(image, quality: quality)
     }
@@ -44,7 +46,7 @@ public final class CGImageDestination {
 }
 
 extension RasterImage {
-  /// The image of these of its channels, in this order.
+  /// The image made of the given channels, in that order.
   fileprivate func withChannels(_ chosen: [Int]) -> RasterImage {
     var result = RasterImage(width: width, height: height, channels: chosen.count)
     for index in 0..<width * height {
@@ -56,18 +58,18 @@ extension RasterImage {
   }
 }
 
-/// Begins to write a file; nil where the type is neither `public.jpeg` nor `public.png` nor
-/// `public.heic`, or there is to be more than one image.
+/// Creates a destination for a file; nil unless the type is `public.jpeg`, `public.png` or
+/// `public.heic` and the number of images is 1.
 public func CGImageDestinationCreateWithURL(
   _ url: CFURL, _ type: CFString, _ count: Int, _ options: CFDictionary?
 ) -> CGImageDestination? { CGImageDestination(type, count) { try $0.write(to: url) } }
 
-/// Begins to write into memory; nil as for files.
+/// Creates a destination in memory; nil unless type and number of images are supported.
 public func CGImageDestinationCreateWithData(
   _ data: CFMutableData, _ type: CFString, _ count: Int, _ options: CFDictionary?
 ) -> CGImageDestination? { CGImageDestination(type, count) { data.append($0) } }
 
-/// Adds the image, with `kCGImageDestinationLossyCompressionQuality`.
+/// Adds the image. `properties` may contain `kCGImageDestinationLossyCompressionQuality`.
 public func CGImageDestinationAddImage(
   _ idst: CGImageDestination, _ image: CGImage, _ properties: CFDictionary?
 ) { idst.add(image.raster, properties) }
@@ -80,5 +82,5 @@ public func CGImageDestinationAddImageFromSource(
   idst.add(image, properties)
 }
 
-/// Writes the image, and says whether that went well.
+/// Writes the image; returns whether that succeeded.
 public func CGImageDestinationFinalize(_ idst: CGImageDestination) -> Bool { idst.finalize() }

@@ -1,162 +1,163 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 import CoreFoundationTypes
 
-// Names of what is known of an image, and of options.
+// Keys of image properties and options.
 
 /// The width in pixels, as stored.
 public let kCGImagePropertyPixelWidth: CFString = "PixelWidth"
 /// The height in pixels, as stored.
 public let kCGImagePropertyPixelHeight: CFString = "PixelHeight"
-/// How the pixels are to be turned: a `CGImagePropertyOrientation`.
+/// The orientation of the stored pixels: the raw value of a `CGImagePropertyOrientation`.
 public let kCGImagePropertyOrientation: CFString = "Orientation"
-/// The bits of a component, once read.
+/// The number of bits per component after decoding.
 public let kCGImagePropertyDepth: CFString = "Depth"
-/// The kind of colours.
+/// The color model.
 public let kCGImagePropertyColorModel: CFString = "ColorModel"
 /// Red, green and blue.
 public let kCGImagePropertyColorModelRGB: CFString = "RGB"
 /// Gray.
 public let kCGImagePropertyColorModelGray: CFString = "Gray"
-/// Whether pixels have an opacity; left out where they don't.
+/// Whether the image has an alpha channel; absent if it has none.
 public let kCGImagePropertyHasAlpha: CFString = "HasAlpha"
-/// The bytes of the file.
+/// The size of the file in bytes.
 public let kCGImagePropertyFileSize: CFString = "FileSize"
-/// What the camera wrote.
+/// The EXIF dictionary.
 public let kCGImagePropertyExifDictionary: CFString = "{Exif}"
-/// What the camera wrote about itself.
+/// The TIFF dictionary: camera and software.
 public let kCGImagePropertyTIFFDictionary: CFString = "{TIFF}"
-/// Where the photo was taken.
+/// The GPS dictionary: position of the camera.
 public let kCGImagePropertyGPSDictionary: CFString = "{GPS}"
 
-/// Who made the camera.
+/// The camera manufacturer.
 public let kCGImagePropertyTIFFMake: CFString = "Make"
-/// The camera.
+/// The camera model.
 public let kCGImagePropertyTIFFModel: CFString = "Model"
-/// When the file was changed.
+/// The date and time of the last change of the file.
 public let kCGImagePropertyTIFFDateTime: CFString = "DateTime"
-/// What wrote the file.
+/// The software that wrote the file.
 public let kCGImagePropertyTIFFSoftware: CFString = "Software"
-/// How the pixels are to be turned.
+/// The orientation of the stored pixels.
 public let kCGImagePropertyTIFFOrientation: CFString = "Orientation"
 
-/// How long the photo was exposed, in seconds.
+/// The exposure time in seconds.
 public let kCGImagePropertyExifExposureTime: CFString = "ExposureTime"
-/// The aperture.
+/// The f-number.
 public let kCGImagePropertyExifFNumber: CFString = "FNumber"
-/// How sensitive the sensor was: an array of one number.
+/// The ISO speed: an array of one number.
 public let kCGImagePropertyExifISOSpeedRatings: CFString = "ISOSpeedRatings"
-/// When the photo was stored.
+/// The date and time at which the photo was digitized.
 public let kCGImagePropertyExifDateTimeDigitized: CFString = "DateTimeDigitized"
 /// The time zone of `kCGImagePropertyExifDateTimeOriginal`.
 public let kCGImagePropertyExifOffsetTimeOriginal: CFString = "OffsetTimeOriginal"
-/// The fraction of a second of `kCGImagePropertyExifDateTimeOriginal`: its digits.
+/// The decimal digits of the fraction of a second of `kCGImagePropertyExifDateTimeOriginal`.
 public let kCGImagePropertyExifSubsecTimeOriginal: CFString = "SubsecTimeOriginal"
-/// Who made the lens.
+/// The lens manufacturer.
 public let kCGImagePropertyExifLensMake: CFString = "LensMake"
-/// The lens.
+/// The lens model.
 public let kCGImagePropertyExifLensModel: CFString = "LensModel"
 /// The serial number of the lens.
 public let kCGImagePropertyExifLensSerialNumber: CFString = "LensSerialNumber"
 /// The serial number of the camera.
 public let kCGImagePropertyExifBodySerialNumber: CFString = "BodySerialNumber"
-/// The focal length in millimetres.
+/// The focal length in millimeters.
 public let kCGImagePropertyExifFocalLength: CFString = "FocalLength"
-/// The focal length on 35 mm film.
+/// The 35 mm equivalent focal length in millimeters.
 public let kCGImagePropertyExifFocalLenIn35mmFilm: CFString = "FocalLenIn35mmFilm"
-/// When the photo was taken.
+/// The date and time at which the photo was taken.
 public let kCGImagePropertyExifDateTimeOriginal: CFString = "DateTimeOriginal"
-/// The width as the camera wrote it.
+/// The width in pixels as the camera recorded it.
 public let kCGImagePropertyExifPixelXDimension: CFString = "PixelXDimension"
-/// The height as the camera wrote it.
+/// The height in pixels as the camera recorded it.
 public let kCGImagePropertyExifPixelYDimension: CFString = "PixelYDimension"
 
-/// Degrees from the equator.
+/// The latitude in degrees, not negative.
 public let kCGImagePropertyGPSLatitude: CFString = "Latitude"
 /// N or S.
 public let kCGImagePropertyGPSLatitudeRef: CFString = "LatitudeRef"
-/// Degrees from Greenwich.
+/// The longitude in degrees, not negative.
 public let kCGImagePropertyGPSLongitude: CFString = "Longitude"
 /// E or W.
 public let kCGImagePropertyGPSLongitudeRef: CFString = "LongitudeRef"
-/// Metres from the sea.
+/// The altitude in meters, not negative.
 public let kCGImagePropertyGPSAltitude: CFString = "Altitude"
-/// 0 above the sea, 1 below.
+/// 0 above sea level, 1 below.
 public let kCGImagePropertyGPSAltitudeRef: CFString = "AltitudeRef"
 
-/// Option: whether pixels are kept; has no effect.
+/// Option: whether decoded pixels are cached; has no effect.
 public let kCGImageSourceShouldCache: CFString = "kCGImageSourceShouldCache"
-/// Option: whether pixels are read at once; has no effect.
+/// Option: whether pixels are decoded immediately; has no effect.
 public let kCGImageSourceShouldCacheImmediately: CFString = "kCGImageSourceShouldCacheImmediately"
-/// Option: the longer side of a thumbnail.
+/// Option: the maximum side of a thumbnail in pixels.
 public let kCGImageSourceThumbnailMaxPixelSize: CFString = "kCGImageSourceThumbnailMaxPixelSize"
-/// Option: whether thumbnails are made from the image; they always are.
+/// Option: whether thumbnails are made from the full image; they always are.
 public let kCGImageSourceCreateThumbnailFromImageAlways: CFString =
   "kCGImageSourceCreateThumbnailFromImageAlways"
-/// Option: whether thumbnails are made where the file has none; they always are.
+/// Option: whether thumbnails are made if the file has none; they always are.
 public let kCGImageSourceCreateThumbnailFromImageIfAbsent: CFString =
   "kCGImageSourceCreateThumbnailFromImageIfAbsent"
-/// Option: whether thumbnails are turned upright.
+/// Option: whether thumbnails are rotated upright.
 public let kCGImageSourceCreateThumbnailWithTransform: CFString =
   "kCGImageSourceCreateThumbnailWithTransform"
-/// Option: the quality of a JPEG, from 0 to 1, best.
+/// Option: the quality of lossy compression from 0 to 1 (best).
 public let kCGImageDestinationLossyCompressionQuality: CFString =
   "kCGImageDestinationLossyCompressionQuality"
-/// Depths that come with an image.
+/// Auxiliary depth map.
 public let kCGImageAuxiliaryDataTypeDepth: CFString = "kCGImageAuxiliaryDataTypeDepth"
-/// Disparities that come with an image.
+/// Auxiliary disparity map.
 public let kCGImageAuxiliaryDataTypeDisparity: CFString = "kCGImageAuxiliaryDataTypeDisparity"
 
-// Properties that programs ask for. Those that numbers tell of are read, the others are never there.
+// Further properties that programs query: those with a numeric value are read, the others are
+// always absent.
 
-/// What Apple's cameras note; never there.
+/// Apple's maker note; always absent.
 public let kCGImagePropertyMakerAppleDictionary: CFString = "{MakerApple}"
-/// Pixels an inch, across; never there.
+/// The horizontal resolution in pixels per inch; always absent.
 public let kCGImagePropertyDPIWidth: CFString = "DPIWidth"
-/// Pixels an inch, down; never there.
+/// The vertical resolution in pixels per inch; always absent.
 public let kCGImagePropertyDPIHeight: CFString = "DPIHeight"
-/// The name of the colour profile; never there.
+/// The name of the color profile; always absent.
 public let kCGImagePropertyProfileName: CFString = "ProfileName"
-/// The aperture as an exponent.
+/// The aperture in APEX units.
 public let kCGImagePropertyExifApertureValue: CFString = "ApertureValue"
-/// The exposure time as an exponent.
+/// The shutter speed in APEX units.
 public let kCGImagePropertyExifShutterSpeedValue: CFString = "ShutterSpeedValue"
-/// The brightness of the scene.
+/// The brightness of the scene in APEX units.
 public let kCGImagePropertyExifBrightnessValue: CFString = "BrightnessValue"
-/// By how much the exposure was changed.
+/// The exposure bias in APEX units.
 public let kCGImagePropertyExifExposureBiasValue: CFString = "ExposureBiasValue"
-/// The widest aperture of the lens.
+/// The maximum aperture of the lens in APEX units.
 public let kCGImagePropertyExifMaxApertureValue: CFString = "MaxApertureValue"
-/// The distance in metres.
+/// The distance of the subject in meters.
 public let kCGImagePropertyExifSubjectDistance: CFString = "SubjectDistance"
-/// How light was measured.
+/// The metering mode.
 public let kCGImagePropertyExifMeteringMode: CFString = "MeteringMode"
-/// The kind of light.
+/// The light source.
 public let kCGImagePropertyExifLightSource: CFString = "LightSource"
-/// Whether there was a flash.
+/// Whether and how the flash fired.
 public let kCGImagePropertyExifFlash: CFString = "Flash"
-/// How colours were balanced.
+/// The white balance mode.
 public let kCGImagePropertyExifWhiteBalance: CFString = "WhiteBalance"
-/// How the exposure was chosen.
+/// The exposure mode.
 public let kCGImagePropertyExifExposureMode: CFString = "ExposureMode"
-/// By which program the exposure was chosen.
+/// The exposure program.
 public let kCGImagePropertyExifExposureProgram: CFString = "ExposureProgram"
-/// The colour space: 1 for sRGB.
+/// The color space: 1 for sRGB.
 public let kCGImagePropertyExifColorSpace: CFString = "ColorSpace"
-/// By how much the image was enlarged.
+/// The digital zoom ratio.
 public let kCGImagePropertyExifDigitalZoomRatio: CFString = "DigitalZoomRatio"
-/// The kind of scene.
+/// The scene type.
 public let kCGImagePropertyExifSceneCaptureType: CFString = "SceneCaptureType"
-/// A remark.
+/// A comment of the user; always absent.
 public let kCGImagePropertyExifUserComment: CFString = "UserComment"
-/// Who made the image.
+/// The author of the image.
 public let kCGImagePropertyTIFFArtist: CFString = "Artist"
-/// Whose image it is.
+/// The copyright holder.
 public let kCGImagePropertyTIFFCopyright: CFString = "Copyright"
-/// The time by satellite.
+/// The GPS time; always absent.
 public let kCGImagePropertyGPSTimeStamp: CFString = "TimeStamp"
-/// The day by satellite.
+/// The GPS date; always absent.
 public let kCGImagePropertyGPSDateStamp: CFString = "DateStamp"
-/// Where the camera looked, in degrees.
+/// The viewing direction in degrees; always absent.
 public let kCGImagePropertyGPSImgDirection: CFString = "ImgDirection"
-/// From which north directions count.
+/// The reference of the direction, true or magnetic north; always absent.
 public let kCGImagePropertyGPSImgDirectionRef: CFString = "ImgDirectionRef"

@@ -1,19 +1,19 @@
-/// How stored pixels are to be turned to stand upright: the EXIF orientation.
+/// The EXIF orientation: how the stored pixels relate to the upright image.
 public enum CGImagePropertyOrientation: UInt32, Hashable, Sendable {
-  /// The first row is the top, the first column the left side.
+  /// Row 0 is the top, column 0 the left side.
   case up = 1
-  /// Mirrored left to right.
+  /// Mirrored horizontally.
   case upMirrored
-  /// Turned by 180°.
+  /// Rotated by 180°.
   case down
-  /// Mirrored top to bottom.
+  /// Mirrored vertically.
   case downMirrored
   /// Mirrored at the main diagonal.
   case leftMirrored
-  /// To be turned by 90° clockwise.
+  /// Upright after a clockwise rotation by 90°.
   case right
-  /// Mirrored at the other diagonal.
+  /// Mirrored at the antidiagonal.
   case rightMirrored
-  /// To be turned by 90° counter-clockwise.
+  /// Upright after a counterclockwise rotation by 90°.
   case left
 }

@@ -4,12 +4,13 @@ import Kernels
 import Pipeline
 
 extension CGImageSource {
-  /// How the pixels are to be turned.
+  /// The EXIF orientation; `up` if the file has none.
   var orientation: CGImagePropertyOrientation {
     CGImagePropertyOrientation(rawValue: UInt32(PhotoMetadata(bytes).orientation)) ?? .up
   }
 
-  /// What is known of the image, numbers as `NSNumber` so that programs may read them as they like.
+  /// The image properties with numbers as `NSNumber`, so that programs can cast them to any numeric
+  /// type.
   var properties: [CFString: Any]? {
     guard let header else { return nil }
     var properties = PhotoMetadata(bytes).imageProperties
@@ -26,7 +27,7 @@ extension CGImageSource {
 }
 
 extension CGImageSource {
-  /// Fields that reconstruction doesn't use but programs show.
+  /// EXIF and TIFF fields that the reconstruction doesn't use but programs display.
   private var further: [(directory: CFString, key: CFString, value: Any?)] {
     guard let tiff = TIFFStructure(exifOf: ByteReader(bytes)) else { return [] }
     let image = tiff.entries(ofDirectoryAt: tiff.firstDirectory)
@@ -79,7 +80,7 @@ extension CGImageSource {
 }
 
 extension PhotoMetadata {
-  /// The metadata by the names of ImageIO: of a photo's file, or of a sample made from it.
+  /// The metadata of a photo with ImageIO's keys; used for files and for samples made from them.
   package var imageProperties: [String: Any] {
     var properties: [String: Any] = [:]
     properties[kCGImagePropertyOrientation] = NSNumber(value: orientation)

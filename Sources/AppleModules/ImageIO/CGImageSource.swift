@@ -5,7 +5,7 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// The content of an image file: JPEG, PNG, TIFF, BMP or WebP, one image each.
+/// The content of an image file: JPEG, PNG, TIFF, BMP, WebP, HEIC or AVIF with one image each.
 public final class CGImageSource: Sendable {
   let bytes: [UInt8]
   let header: ImageHeader?
@@ -15,7 +15,7 @@ public final class CGImageSource: Sendable {
     header = try? ImageHeader(bytes)
   }
 
-  /// The pixels as stored.
+  /// Decodes the pixels as stored; nil if the file is damaged.
   func image() -> RasterImage? {
     guard header != nil, let image = try? ImageCodec.decode(bytes) else { return nil }
     guard let alpha = try? ImageCodec.decodeAlpha(bytes),
@@ -30,7 +30,7 @@ public final class CGImageSource: Sendable {
     return RasterImage(width: image.width, height: image.height, channels: 4, pixels: pixels)
   }
 
-  /// Whether the file says that it has grays only.
+  /// Whether the header declares a grayscale image.
   var isGray: Bool {
     switch header?.format {
     case .png: bytes.count > 25 && bytes[25] & 2 == 0 && bytes[25] & 1 == 0
@@ -45,24 +45,24 @@ public final class CGImageSource: Sendable {
   }
 }
 
-/// Reads an image file; nil where it can't be read. Options have no effect.
+/// Reads an image file; nil if it can't be read. Options have no effect.
 public func CGImageSourceCreateWithURL(_ url: CFURL, _ options: CFDictionary?) -> CGImageSource? {
   (try? ImageCodec.contents(of: url)).map { CGImageSource($0) }
 }
 
-/// Takes the content of an image file. Options have no effect.
+/// Creates a source from the content of an image file. Options have no effect.
 public func CGImageSourceCreateWithData(_ data: CFData, _ options: CFDictionary?) -> CGImageSource?
 {
   CGImageSource([UInt8](data))
 }
 
-/// The number of images: 1, or 0 where the file is of another kind.
+/// The number of images: 1, or 0 if the format is not supported.
 public func CGImageSourceGetCount(_ isrc: CGImageSource) -> Int { isrc.header == nil ? 0 : 1 }
 
-/// The place of the image that stands for all: the only one.
+/// The index of the primary image: always 0.
 public func CGImageSourceGetPrimaryImageIndex(_ isrc: CGImageSource) -> Int { 0 }
 
-/// The uniform type identifier of the file; nil where it is of another kind.
+/// The uniform type identifier of the format; nil if it is not supported.
 public func CGImageSourceGetType(_ isrc: CGImageSource) -> CFString? {
   switch isrc.header?.format {
   case .jpeg: "public.jpeg"
@@ -81,23 +81,24 @@ public func CGImageSourceGetStatus(_ isrc: CGImageSource) -> CGImageSourceStatus
   isrc.header == nil ? .statusUnknownType : .statusComplete
 }
 
-/// What is known of the file besides its image: its size in bytes.
+/// The properties of the file itself: its size in bytes.
 public func CGImageSourceCopyProperties(
   _ isrc: CGImageSource, _ options: CFDictionary?
 ) -> CFDictionary? { [kCGImagePropertyFileSize: NSNumber(value: isrc.bytes.count)] }
 
-/// What is known of an image: its size, and what the camera wrote into it.
+/// The properties of an image: its size and its EXIF, TIFF and GPS metadata.
 public func CGImageSourceCopyPropertiesAtIndex(
   _ isrc: CGImageSource, _ index: Int, _ options: CFDictionary?
 ) -> CFDictionary? { index == 0 ? isrc.properties : nil }
 
-/// The pixels of an image as stored, whatever the orientation.
+/// The pixels as stored, without applying the orientation.
 public func CGImageSourceCreateImageAtIndex(
   _ isrc: CGImageSource, _ index: Int, _ options: CFDictionary?
 ) -> CGImage? { index == 0 ? isrc.image().map { CGImage($0) } : nil }
 
-/// A smaller image, made from the whole: `kCGImageSourceThumbnailMaxPixelSize` is the longer side,
-/// and `kCGImageSourceCreateThumbnailWithTransform` turns it upright. Other options have no effect.
+/// A thumbnail made from the full image. Options: `kCGImageSourceThumbnailMaxPixelSize` is the
+/// longer side in pixels, `kCGImageSourceCreateThumbnailWithTransform` rotates it upright; others
+/// have no effect.
 public func CGImageSourceCreateThumbnailAtIndex(
   _ isrc: CGImageSource, _ index: Int, _ options: CFDictionary?
 ) -> CGImage? {
@@ -112,23 +113,23 @@ public func CGImageSourceCreateThumbnailAtIndex(
   return (try? small?.turned(byOrientation: orientation)).map { CGImage($0) }
 }
 
-/// Depth and the like that comes with an image: there is none in the kinds of files above.
+/// Auxiliary data such as depth: always nil, it is not read here.
 public func CGImageSourceCopyAuxiliaryDataInfoAtIndex(
   _ isrc: CGImageSource, _ index: Int, _ auxiliaryImageDataType: CFString
 ) -> CFDictionary? { nil }
 
-/// How far a file is read.
+/// The reading status of a source.
 public enum CGImageSourceStatus: Int32, Hashable, Sendable {
-  /// It ends too early.
+  /// The file is truncated.
   case statusUnexpectedEOF = -5
-  /// It is damaged.
+  /// The file is damaged.
   case statusInvalidData
-  /// It is of a kind that can't be read.
+  /// The format is not supported.
   case statusUnknownType
-  /// Its header is being read.
+  /// The header is being read.
   case statusReadingHeader
-  /// It is being read.
+  /// The image is incomplete.
   case statusIncomplete
-  /// All of it was read.
+  /// The image is complete.
   case statusComplete
 }

@@ -1,201 +1,201 @@
 import Foundation
 
-/// A device that computes.
+/// A compute device.
 ///
-/// Programs look at these properties before they make models; there are no buffers, textures and
-/// command queues here, since the models are made by the processor.
+/// Programs check these properties before they make models. There are no buffers, textures or
+/// command queues here, since models are made on the CPU.
 public protocol MTLDevice: AnyObject, Sendable {
   /// The name of the device.
   var name: String { get }
-  /// A number of the device's own.
+  /// A unique identifier of the device.
   var registryID: UInt64 { get }
-  /// The kind of the device.
+  /// The architecture of the device.
   var architecture: MTLArchitecture { get }
-  /// Where the device is.
+  /// Where the device is located.
   var location: MTLDeviceLocation { get }
-  /// Its number among those at the same place.
+  /// The index of the device at its location.
   var locationNumber: Int { get }
-  /// Whether the device saves power at the cost of speed.
+  /// Whether the device is a low-power one.
   var isLowPower: Bool { get }
-  /// Whether no display can be connected to the device.
+  /// Whether the device has no display output.
   var isHeadless: Bool { get }
-  /// Whether the device can be taken out.
+  /// Whether the device can be removed.
   var isRemovable: Bool { get }
-  /// Whether device and processor share their memory.
+  /// Whether device and CPU share their memory.
   var hasUnifiedMemory: Bool { get }
-  /// The bytes of memory that the device works well with.
+  /// The recommended maximum size of the working set in bytes.
   var recommendedMaxWorkingSetSize: UInt64 { get }
-  /// The bytes of memory that are in use on the device.
+  /// The allocated device memory in bytes.
   var currentAllocatedSize: Int { get }
-  /// The bytes that a buffer has at most.
+  /// The maximum size of a buffer in bytes.
   var maxBufferLength: Int { get }
-  /// The bytes a second to the memory of the device; 0 where it shares the processor's.
+  /// The maximum transfer rate to device memory in bytes per second; 0 for shared memory.
   var maxTransferRate: UInt64 { get }
-  /// The threads of a group at most, by dimension.
+  /// The maximum number of threads per threadgroup, by dimension.
   var maxThreadsPerThreadgroup: MTLSize { get }
-  /// The bytes that the threads of a group share at most.
+  /// The maximum threadgroup memory in bytes.
   var maxThreadgroupMemoryLength: Int { get }
-  /// Whether rays can be cast.
+  /// Whether ray tracing is supported.
   var supportsRaytracing: Bool { get }
-  /// Whether rays can be cast while drawing.
+  /// Whether ray tracing from render pipelines is supported.
   var supportsRaytracingFromRender: Bool { get }
-  /// Whether functions can be handed to functions.
+  /// Whether function pointers are supported.
   var supportsFunctionPointers: Bool { get }
-  /// Whether a place in a triangle is known where it is drawn.
+  /// Whether shaders can read barycentric coordinates.
   var supportsShaderBarycentricCoordinates: Bool { get }
   /// The former name of `supportsShaderBarycentricCoordinates`.
   var areBarycentricCoordsSupported: Bool { get }
   /// Whether textures of 32-bit floating-point numbers can be filtered.
   var supports32BitFloatFiltering: Bool { get }
-  /// Whether BC-compressed textures can be read.
+  /// Whether BC-compressed textures are supported.
   var supportsBCTextureCompression: Bool { get }
 
-  /// Whether the samples of a pixel have places of their own.
+  /// Whether sample positions are programmable.
   var areProgrammableSamplePositionsSupported: Bool { get }
-  /// Whether the parts of a drawing can wait for each other by pixel.
+  /// Whether raster order groups are supported.
   var areRasterOrderGroupsSupported: Bool { get }
-  /// Whether textures tell which of their sizes is read.
+  /// Whether shaders can query the level of detail of textures.
   var supportsQueryTextureLOD: Bool { get }
-  /// Whether values in a triangle are known at any place.
+  /// Whether pull-model interpolation is supported.
   var supportsPullModelInterpolation: Bool { get }
-  /// Whether 32-bit numbers have several samples a pixel.
+  /// Whether multisampling of 32-bit formats is supported.
   var supports32BitMSAA: Bool { get }
-  /// Whether programs of the device are put together when they run.
+  /// Whether dynamic libraries are supported.
   var supportsDynamicLibraries: Bool { get }
-  /// Whether programs that draw are put together when they run.
+  /// Whether dynamic libraries are supported in render pipelines.
   var supportsRenderDynamicLibraries: Bool { get }
-  /// Whether rays meet what moves.
+  /// Whether ray tracing supports primitive motion blur.
   var supportsPrimitiveMotionBlur: Bool { get }
-  /// Whether depth of 24 bits is known.
+  /// Whether the pixel format depth24Unorm_stencil8 is supported.
   var isDepth24Stencil8PixelFormatSupported: Bool { get }
-  /// How well arguments can be put into buffers.
+  /// The tier of argument buffer support.
   var argumentBuffersSupport: MTLArgumentBuffersTier { get }
-  /// Which textures can be read and written at once.
+  /// The tier of read-write texture support.
   var readWriteTextureSupport: MTLReadWriteTextureTier { get }
-  /// The group of devices that exchange memory; 0 where there is none.
+  /// The peer group of the device; 0 if it has none.
   var peerGroupID: UInt64 { get }
-  /// The number of the device in its group.
+  /// The index of the device in its peer group.
   var peerIndex: UInt32 { get }
-  /// The devices of the group; 0 where there is none.
+  /// The number of devices in the peer group; 0 if there is none.
   var peerCount: UInt32 { get }
-  /// A sentence about the device.
+  /// A description of the device.
   var description: String { get }
 
-  /// Whether the device can do what all of a family can.
+  /// Whether the device supports all features of a GPU family.
   func supportsFamily(_ gpuFamily: MTLGPUFamily) -> Bool
 
-  /// Whether pixels can have so many samples.
+  /// Whether a number of samples per pixel is supported.
   func supportsTextureSampleCount(_ sampleCount: Int) -> Bool
 
-  /// Makes a queue of commands, where the device takes commands. This one doesn't: nil.
+  /// Creates a command queue; nil here, since there are no commands to run.
   func makeCommandQueue() -> (any MTLCommandQueue)?
 }
 
-/// Where the commands of a device wait.
+/// A queue of commands for a device.
 public protocol MTLCommandQueue: AnyObject, Sendable {
-  /// A name of the queue.
+  /// A label of the queue.
   var label: String? { get set }
-  /// The device that takes the commands.
+  /// The device that executes the commands.
   var device: any MTLDevice { get }
 }
 
-/// How well a device can put arguments into buffers.
+/// The tier of argument buffer support.
 public enum MTLArgumentBuffersTier: UInt, Hashable, Sendable {
-  /// Some.
+  /// Basic support.
   case tier1
-  /// All.
+  /// Extended support.
   case tier2
 }
 
-/// Which textures a device reads and writes at once.
+/// The tier of read-write texture support.
 public enum MTLReadWriteTextureTier: UInt, Hashable, Sendable {
-  /// None.
+  /// No support.
   case tierNone
-  /// Those of 32 bits.
+  /// 32-bit formats.
   case tier1
-  /// Most.
+  /// Most formats.
   case tier2
 }
 
-/// The kind of a device.
+/// The architecture of a device.
 public final class MTLArchitecture: Sendable {
-  /// The name of the kind.
+  /// The name of the architecture.
   public let name: String
 
   init(name: String) { self.name = name }
 }
 
-/// Where a device is.
+/// Where a device is located.
 public enum MTLDeviceLocation: UInt, Hashable, Sendable {
-  /// In the machine's case, for good.
+  /// Built into the machine.
   case builtIn
   /// In a slot of the machine.
   case slot
   /// Outside of the machine.
   case external
-  /// It can't be told.
+  /// Unknown.
   case unspecified = 0xFFFF_FFFF_FFFF_FFFF
 }
 
-/// A group of devices that can do the same.
+/// A family of GPUs with common features.
 public enum MTLGPUFamily: Int, Hashable, Sendable {
-  /// Apple's first generation.
+  /// Apple family 1.
   case apple1 = 1001
-  /// Apple's second generation.
+  /// Apple family 2.
   case apple2
-  /// Apple's third generation.
+  /// Apple family 3.
   case apple3
-  /// Apple's fourth generation.
+  /// Apple family 4.
   case apple4
-  /// Apple's fifth generation.
+  /// Apple family 5.
   case apple5
-  /// Apple's sixth generation.
+  /// Apple family 6.
   case apple6
-  /// Apple's seventh generation.
+  /// Apple family 7.
   case apple7
-  /// Apple's eighth generation.
+  /// Apple family 8.
   case apple8
-  /// Apple's ninth generation.
+  /// Apple family 9.
   case apple9
-  /// The first generation on the Mac.
+  /// Mac family 1.
   case mac1 = 2001
-  /// The second generation on the Mac.
+  /// Mac family 2.
   case mac2
-  /// What all devices can do.
+  /// Common family 1.
   case common1 = 3001
-  /// What most devices can do.
+  /// Common family 2.
   case common2
-  /// What newer devices can do.
+  /// Common family 3.
   case common3
-  /// The first generation of the Mac with programs of the iPad.
+  /// Mac Catalyst family 1.
   case macCatalyst1 = 4001
-  /// The second generation of the Mac with programs of the iPad.
+  /// Mac Catalyst family 2.
   case macCatalyst2
-  /// What Metal 3 needs.
+  /// Metal 3.
   case metal3 = 5001
-  /// What Metal 4 needs.
+  /// Metal 4.
   case metal4
 }
 
-/// The extent of a grid.
+/// The size of a grid.
 public struct MTLSize: Sendable {
-  /// The extent along x.
+  /// The size along x.
   public var width: Int
-  /// The extent along y.
+  /// The size along y.
   public var height: Int
-  /// The extent along z.
+  /// The size along z.
   public var depth: Int
 
-  /// Creates an empty extent.
+  /// Creates a size of zeros.
   public init() { self.init(width: 0, height: 0, depth: 0) }
 
-  /// Creates an extent from its sides.
+  /// Creates a size from its dimensions.
   public init(width: Int, height: Int, depth: Int) {
     (self.width, self.height, self.depth) = (width, height, depth)
   }
 }
 
-/// Creates an extent from its sides.
+/// Creates a size from its dimensions.
 public func MTLSizeMake(_ width: Int, _ height: Int, _ depth: Int) -> MTLSize {
   MTLSize(width: width, height: height, depth: depth)
 }

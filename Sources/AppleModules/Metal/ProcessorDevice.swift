@@ -1,16 +1,18 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 import Foundation
 
-/// The device that models are made with, the only one.
+/// The device of this machine: the CPU, which makes the models.
 public func MTLCreateSystemDefaultDevice() -> (any MTLDevice)? { ProcessorDevice.shared }
 
-/// All devices: the one that models are made with.
+/// All devices: the CPU only.
 public func MTLCopyAllDevices() -> [any MTLDevice] { [ProcessorDevice.shared] }
 
-/// The machine's processor as a device.
+/// The CPU posing as a GPU: deliberately reports every capability as supported, although it runs no
+/// Metal commands.
 ///
-/// Its properties answer the question that programs ask: whether models can be made here. Whether
-/// this machine has the memory for it, `PhotogrammetrySession.isSupported` tells.
+/// Programs check these properties to decide whether Object Capture can run. It runs on the CPU
+/// here, so every check must pass. Whether this machine has enough memory is what
+/// `PhotogrammetrySession.isSupported` reports.
 final class ProcessorDevice: MTLDevice, CustomStringConvertible {
   static let shared = ProcessorDevice()
 
@@ -52,8 +54,8 @@ final class ProcessorDevice: MTLDevice, CustomStringConvertible {
 
   var maxThreadsPerThreadgroup: MTLSize { MTLSizeMake(1024, 1024, 1024) }
 
-  /// The machine's memory, and no less than the 4 GB that Object Capture asks of a graphics card:
-  /// this engine gets by with less.
+  /// The memory of the machine, but at least the 4 GB of GPU memory that Object Capture requires on
+  /// macOS: this engine needs less, so the check must not fail.
   var recommendedMaxWorkingSetSize: UInt64 {
     max(ProcessInfo.processInfo.physicalMemory, 4 << 30)
   }

@@ -1,2 +1,2 @@
-// Some programs import their log by this name.
+// Programs may import `Logger` under this module name.
 @_exported import os

@@ -1,6 +1,6 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
-// The one function of this framework that programs without windows call.
+// The one function of QuartzCore that programs without windows call.
 @_exported import CoreFoundationTypes
 
-/// The seconds since the machine was started, the time of its sleep left out.
+/// The seconds since the machine was started, excluding sleep.
 public func CACurrentMediaTime() -> CFTimeInterval { ProcessInfo.processInfo.systemUptime }

@@ -1,15 +1,16 @@
 import Foundation
 
-// No file system here keeps kinds of files, so a kind goes by the suffix of the name, as it does on a
-// Mac for files from elsewhere. Values hold the name if they are asked for the kind.
+// File systems on Linux don't store content types, so the type is derived from the file extension,
+// as macOS does for files without type metadata. The key is an alias of `nameKey`, so that the
+// values contain the name.
 
 extension URLResourceKey {
-  /// The kind of a file: another name of the key for its name.
+  /// The content type of a file; an alias of `nameKey`.
   public static let contentTypeKey = nameKey
 }
 
 extension URLResourceValues {
-  /// The kind of a file by its suffix; `folder` for folders where the values tell that it is one.
+  /// The type derived from the file extension; `folder` if the values mark a directory.
   public var contentType: UTType? {
     if isDirectory == true { return .folder }
     guard let name else { return nil }

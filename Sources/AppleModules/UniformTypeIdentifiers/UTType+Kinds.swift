@@ -1,17 +1,17 @@
 extension UTType {
-  /// Anything that a file system holds.
+  /// Anything in a file system.
   public static let item = UTType(known: "public.item")
-  /// Something to be looked at.
+  /// Content that users view.
   public static let content = UTType(known: "public.content")
-  /// Bytes.
+  /// Any data.
   public static let data = UTType(known: "public.data")
-  /// What holds other files.
+  /// A container of files.
   public static let directory = UTType(known: "public.directory")
   /// A folder.
   public static let folder = UTType(known: "public.folder")
-  /// A folder that looks like a file.
+  /// A folder presented as a file.
   public static let package = UTType(known: "com.apple.package")
-  /// An image of any kind.
+  /// Any image.
   public static let image = UTType(known: "public.image")
   /// JPEG.
   public static let jpeg = UTType(known: "public.jpeg")
@@ -31,21 +31,21 @@ extension UTType {
   public static let webP = UTType(known: "org.webmproject.webp")
   /// OpenEXR.
   public static let exr = UTType(known: "com.ilm.openexr-image")
-  /// What a camera's sensor saw.
+  /// A raw camera image.
   public static let rawImage = UTType(known: "public.camera-raw-image")
   /// DNG.
   public static let dng = UTType(known: "com.adobe.raw-image")
-  /// A model of any kind.
+  /// Any 3-D content.
   public static let threeDContent = UTType(known: "public.3d-content")
-  /// A scene in USD.
+  /// A USD scene.
   public static let usd = UTType(known: "com.pixar.universal-scene-description")
-  /// A scene in USD with its textures.
+  /// A USD scene packaged with its textures.
   public static let usdz = UTType(known: "com.pixar.universal-scene-description-mobile")
-  /// A scene of Reality Composer.
+  /// A Reality Composer scene.
   public static let realityFile = UTType(known: "com.apple.reality")
-  /// Something to be seen or heard.
+  /// Audiovisual content.
   public static let audiovisualContent = UTType(known: "public.audiovisual-content")
-  /// A video with sound or without.
+  /// A video with or without sound.
   public static let movie = UTType(known: "public.movie")
   /// A video without sound.
   public static let video = UTType(known: "public.video")
@@ -53,19 +53,19 @@ extension UTType {
   public static let mpeg4Movie = UTType(known: "public.mpeg-4")
   /// QuickTime.
   public static let quickTimeMovie = UTType(known: "com.apple.quicktime-movie")
-  /// Text of any kind.
+  /// Any text.
   public static let text = UTType(known: "public.text")
   /// Text without markup.
   public static let plainText = UTType(known: "public.plain-text")
   /// JSON.
   public static let json = UTType(known: "public.json")
-  /// Values separated by commas.
+  /// Comma-separated values.
   public static let commaSeparatedText = UTType(known: "public.comma-separated-values-text")
   /// XML.
   public static let xml = UTType(known: "public.xml")
   /// PDF.
   public static let pdf = UTType(known: "com.adobe.pdf")
-  /// Files in a file.
+  /// An archive of files.
   public static let archive = UTType(known: "public.archive")
   /// ZIP.
   public static let zip = UTType(known: "public.zip-archive")

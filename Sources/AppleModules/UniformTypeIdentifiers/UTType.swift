@@ -1,20 +1,20 @@
 import Foundation
 
-/// A kind of data, such as JPEG, which is an image, which is data.
+/// A uniform type of data, such as JPEG, which conforms to image, which conforms to data.
 ///
-/// Kinds of images, models, videos and folders are known here; a suffix or name of any other kind
-/// gives none.
+/// Types of images, models, videos, text and folders are known; other extensions and identifiers
+/// give nil.
 public struct UTType: Hashable, Codable, Sendable {
-  /// The name of the kind, in reverse domain notation.
+  /// The identifier in reverse-DNS notation.
   public let identifier: String
 
-  /// Creates a kind from its name; fails where it isn't known.
+  /// Creates a type from its identifier; nil if it isn't known.
   public init?(_ identifier: String) {
     guard Self.known.contains(where: { $0.identifier == identifier }) else { return nil }
     self.identifier = identifier
   }
 
-  /// Creates a kind from a file's suffix; fails where it isn't known or not of the other kind.
+  /// Creates a type from a file extension; nil if it isn't known or doesn't conform to `supertype`.
   public init?(filenameExtension: String, conformingTo supertype: UTType = .data) {
     let suffix = filenameExtension.lowercased()
     guard let entry = Self.known.first(where: { $0.suffixes.contains(suffix) }) else { return nil }
@@ -22,7 +22,7 @@ public struct UTType: Hashable, Codable, Sendable {
     guard conforms(to: supertype) else { return nil }
   }
 
-  /// Creates a kind from its name on the net; fails where it isn't known or not of the other kind.
+  /// Creates a type from a MIME type; nil if it isn't known or doesn't conform to `supertype`.
   public init?(mimeType: String, conformingTo supertype: UTType = .data) {
     let name = mimeType.lowercased()
     guard let entry = Self.known.first(where: { $0.mimeType == name }) else { return nil }
@@ -34,41 +34,41 @@ public struct UTType: Hashable, Codable, Sendable {
 
   private var entry: UniformType? { Self.known.first { $0.identifier == identifier } }
 
-  /// The suffix that files of the kind should have.
+  /// The preferred file extension.
   public var preferredFilenameExtension: String? { entry?.suffixes.first }
 
-  /// The name of the kind on the net.
+  /// The preferred MIME type.
   public var preferredMIMEType: String? { entry?.mimeType }
 
-  /// The kinds that this is one of, itself left out.
+  /// All types that this type conforms to, except itself.
   public var supertypes: Set<UTType> {
     let parents = entry?.parents.map { UTType(known: $0) } ?? []
     return parents.reduce(into: Set(parents)) { $0.formUnion($1.supertypes) }
   }
 
-  /// Whether this is the other kind, or one of it.
+  /// Whether this type equals the other one or conforms to it.
   public func conforms(to type: UTType) -> Bool { self == type || supertypes.contains(type) }
 
-  /// Whether this is one of the other kind, and another.
+  /// Whether this type conforms to the other one and differs from it.
   public func isSubtype(of type: UTType) -> Bool { supertypes.contains(type) }
 
-  /// Whether the other is one of this kind, and another.
+  /// Whether the other type conforms to this one and differs from it.
   public func isSupertype(of type: UTType) -> Bool { type.supertypes.contains(self) }
 }
 
 extension UTType: CustomStringConvertible {
-  /// The name of the kind.
+  /// The identifier.
   public var description: String { identifier }
 }
 
 extension URL {
-  /// This place with a name at the end, and the suffix of a kind where the name has none.
+  /// Appends a path component, with the type's preferred extension if the name has none.
   public func appendingPathComponent(_ partialName: String, conformingTo type: UTType) -> URL {
     let url = appendingPathComponent(partialName, isDirectory: type.conforms(to: .directory))
     return url.pathExtension.isEmpty ? url.appendingPathExtension(for: type) : url
   }
 
-  /// This place with the suffix of a kind at the end.
+  /// Appends the type's preferred extension.
   public func appendingPathExtension(for type: UTType) -> URL {
     type.preferredFilenameExtension.map { appendingPathExtension($0) } ?? self
   }

@@ -1,14 +1,14 @@
-/// What is known of a kind of data.
+/// The declaration of a uniform type.
 struct UniformType: Sendable {
   var identifier: String
   var parents: [String]
-  /// The preferred one first.
+  /// File extensions without the dot, the preferred one first.
   var suffixes: [String] = []
   var mimeType: String?
 }
 
 extension UTType {
-  /// All kinds that are known.
+  /// All known types.
   static let known: [UniformType] = [
     UniformType(identifier: "public.item", parents: []),
     UniformType(identifier: "public.content", parents: []),

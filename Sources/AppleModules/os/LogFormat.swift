@@ -1,6 +1,6 @@
 import Foundation
 
-/// A format of `os_log`: that of `printf` with options in braces, such as `%{public}@`.
+/// An `os_log` format string: that of `printf` with options in braces, such as `%{public}@`.
 struct LogFormat {
   private var pieces: [(format: String, isHidden: Bool)] = []
   private var tail = ""
@@ -36,7 +36,7 @@ struct LogFormat {
     tail = literal + rest
   }
 
-  /// The format with its values; those that are missing stay as the format has them.
+  /// The formatted text; specifiers without a value are kept as written.
   func text(_ values: [any CVarArg]) -> String {
     var text = ""
     for (index, piece) in pieces.enumerated() {

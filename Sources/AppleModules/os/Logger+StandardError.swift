@@ -1,12 +1,12 @@
 import Logging
 
 extension Logging.Logger {
-  /// A logger that writes where the program says by `LoggingSystem.bootstrap`, and to standard error
-  /// where it says nothing.
+  /// A logger with the handler from `LoggingSystem.bootstrap`, or one for standard error if the
+  /// program has not bootstrapped logging.
   ///
-  /// swift-log itself would write to standard output then, which belongs to what a program prints; on
-  /// a Mac no log goes there. It does not tell whether a program said something, so a plain
-  /// `StreamLogHandler` counts as nothing.
+  /// In that case swift-log itself would write to standard output, which belongs to the program's
+  /// own output; on macOS no log goes there. swift-log does not expose whether it was bootstrapped,
+  /// so a plain `StreamLogHandler` counts as its default.
   package init(quietLabel label: String) {
     self.init(label: label)
     if Self.holdsPlainHandler(Mirror(reflecting: self), depth: 2) {
@@ -14,7 +14,8 @@ extension Logging.Logger {
     }
   }
 
-  /// Looks into a logger, which keeps its handler to itself: some releases of swift-log in a box.
+  /// Searches a logger for a plain handler by reflection; some releases of swift-log box the
+  /// handler.
   private static func holdsPlainHandler(_ value: Mirror, depth: Int) -> Bool {
     value.children.contains { child in
       child.value is StreamLogHandler

@@ -1,9 +1,9 @@
 import Logging
 
-/// Writes messages of a program to its log, by way of swift-log.
+/// Writes log messages through swift-log.
 ///
-/// Where they end up is for `LoggingSystem.bootstrap` to say; standard error unless a program says
-/// otherwise. The label of the swift-log logger is `subsystem:category`.
+/// `LoggingSystem.bootstrap` selects the destination; without it messages go to standard error. The
+/// label of the swift-log logger is `subsystem:category`.
 public struct Logger: Sendable {
   private let logger: Logging.Logger
 
@@ -13,48 +13,48 @@ public struct Logger: Sendable {
   /// Creates a logger for a part of a program.
   ///
   /// - Parameters:
-  ///   - subsystem: The program, usually as a reverse domain name.
-  ///   - category: The part of it.
+  ///   - subsystem: The program, usually in reverse-DNS notation.
+  ///   - category: The part of the program.
   public init(subsystem: String, category: String) {
     self.init(Logging.Logger(quietLabel: "\(subsystem):\(category)"))
   }
 
   init(_ logger: Logging.Logger) { self.logger = logger }
 
-  /// Writes a message of the level `notice`.
+  /// Writes a message at the level `notice`.
   public func log(_ message: OSLogMessage) { write(message, .notice) }
 
-  /// Writes a message of a level.
+  /// Writes a message at a level.
   public func log(level: OSLogType, _ message: OSLogMessage) { write(message, level.level) }
 
-  /// Writes what only helps to follow a program step by step.
+  /// Writes a message that traces the execution in detail.
   public func trace(_ message: OSLogMessage) { write(message, .trace) }
 
-  /// Writes what only helps to find a fault.
+  /// Writes a message for debugging.
   public func debug(_ message: OSLogMessage) { write(message, .debug) }
 
-  /// Writes what may help, but isn't needed, to understand a problem.
+  /// Writes a message that is helpful, but not essential, for troubleshooting.
   public func info(_ message: OSLogMessage) { write(message, .info) }
 
-  /// Writes what is needed to understand a problem.
+  /// Writes a message that is essential for troubleshooting.
   public func notice(_ message: OSLogMessage) { write(message, .notice) }
 
-  /// Writes that something unexpected happened that the program can live with.
+  /// Writes a message about an unexpected condition from which the program can recover.
   public func warning(_ message: OSLogMessage) { write(message, .warning) }
 
-  /// Writes that something failed.
+  /// Writes a message about an error.
   public func error(_ message: OSLogMessage) { write(message, .error) }
 
-  /// Writes that something failed that the program needs.
+  /// Writes a message about a critical error.
   public func critical(_ message: OSLogMessage) { write(message, .critical) }
 
-  /// Writes that there is a fault in the program.
+  /// Writes a message about a bug in the program.
   public func fault(_ message: OSLogMessage) { write(message, .critical) }
 
-  /// Creates a logger that writes to a log.
+  /// Creates a logger for an existing log.
   public init(_ logObj: OSLog) { self = logObj.logger }
 
-  /// Whether messages of a level are taken down.
+  /// Whether messages at a level are logged.
   func isEnabled(_ type: OSLogType) -> Bool { logger.logLevel <= type.level }
 
   private func write(_ message: OSLogMessage, _ level: Logging.Logger.Level) {
@@ -62,7 +62,7 @@ public struct Logger: Sendable {
   }
 }
 
-/// How important a message is.
+/// The level of a message.
 public struct OSLogType: RawRepresentable, Hashable, Sendable {
   /// The number of the level.
   public let rawValue: UInt8
@@ -70,15 +70,15 @@ public struct OSLogType: RawRepresentable, Hashable, Sendable {
   /// Creates a level from its number.
   public init(rawValue: UInt8) { self.rawValue = rawValue }
 
-  /// Needed to understand a problem.
+  /// Essential for troubleshooting.
   public static let `default` = OSLogType(rawValue: 0)
-  /// May help to understand a problem.
+  /// Helpful for troubleshooting.
   public static let info = OSLogType(rawValue: 1)
-  /// Only helps to find a fault.
+  /// For debugging.
   public static let debug = OSLogType(rawValue: 2)
-  /// Something failed.
+  /// An error.
   public static let error = OSLogType(rawValue: 16)
-  /// There is a fault in the program.
+  /// A bug in the program.
   public static let fault = OSLogType(rawValue: 17)
 
   fileprivate var level: Logging.Logger.Level {

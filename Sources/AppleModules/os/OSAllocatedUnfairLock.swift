@@ -1,12 +1,12 @@
 import Foundation
 import Synchronization
 
-/// A lock that guards a value.
+/// A lock that protects a value.
 public struct OSAllocatedUnfairLock<State>: @unchecked Sendable {
   private final class Storage {
     var state: State
     let lock = NSLock()
-    /// The thread that holds the lock; of use to that thread only.
+    /// The thread that holds the lock; reliable only for comparison with the current thread.
     let holder = Atomic<UInt>(0)
 
     init(_ state: State) { self.state = state }
@@ -30,22 +30,22 @@ public struct OSAllocatedUnfairLock<State>: @unchecked Sendable {
 
   private let storage: Storage
 
-  /// Creates a lock that guards a value which may only be used under the lock.
+  /// Creates a lock that protects a non-Sendable value, which must be used only under the lock.
   public init(uncheckedState initialState: State) { storage = Storage(initialState) }
 
-  /// Does work on the value while no other thread does.
+  /// Calls a closure with the value while holding the lock.
   public func withLockUnchecked<R>(_ body: (inout State) throws -> R) rethrows -> R {
     storage.enter()
     defer { storage.leave() }
     return try body(&storage.state)
   }
 
-  /// Does work on the value while no other thread does.
+  /// Calls a closure with the value while holding the lock.
   public func withLock<R: Sendable>(
     _ body: @Sendable (inout State) throws -> R
   ) rethrows -> R { try withLockUnchecked(body) }
 
-  /// Does work on the value unless another thread does; nil then.
+  /// Calls a closure with the value if the lock is free; returns nil otherwise.
   public func withLockIfAvailable<R: Sendable>(
     _ body: @Sendable (inout State) throws -> R
   ) rethrows -> R? {
@@ -56,15 +56,15 @@ public struct OSAllocatedUnfairLock<State>: @unchecked Sendable {
 }
 
 extension OSAllocatedUnfairLock {
-  /// Who holds a lock.
+  /// The owner of a lock.
   public enum Ownership: Hashable, Sendable {
-    /// The thread that asks.
+    /// The current thread.
     case owner
     /// Another thread, or none.
     case notOwner
   }
 
-  /// Stops the program unless the lock is held, or not held, by this thread.
+  /// Stops the program unless the ownership of the lock is as given.
   public func precondition(_ condition: Ownership) {
     let isHeld = storage.holder.load(ordering: .relaxed) == pthread_self()
     Swift.precondition(isHeld == (condition == .owner), "The lock isn't as expected.")
@@ -72,7 +72,7 @@ extension OSAllocatedUnfairLock {
 }
 
 extension OSAllocatedUnfairLock where State: Sendable {
-  /// Creates a lock that guards a value.
+  /// Creates a lock that protects a value.
   public init(initialState: State) { self.init(uncheckedState: initialState) }
 }
 
@@ -80,16 +80,16 @@ extension OSAllocatedUnfairLock where State == Void {
   /// Creates a lock without a value.
   public init() { self.init(uncheckedState: ()) }
 
-  /// Takes the lock; `unlock` must follow on the same thread.
+  /// Acquires the lock; the same thread must release it.
   public func lock() { storage.enter() }
 
-  /// Takes the lock if no other thread has it, and says whether it did.
+  /// Acquires the lock if it is free; returns whether it did.
   public func lockIfAvailable() -> Bool { storage.enterIfFree() }
 
-  /// Gives the lock back.
+  /// Releases the lock.
   public func unlock() { storage.leave() }
 
-  /// Does work while no other thread does.
+  /// Calls a closure while holding the lock.
   public func withLock<R: Sendable>(_ body: @Sendable () throws -> R) rethrows -> R {
     try withLockUnchecked { _ in try body() }
   }

@@ -1,7 +1,7 @@
 import Foundation
 import Logging
 
-/// A log for the functions that came before `Logger`.
+/// A log for the functions that predate `Logger`.
 public final class OSLog: Sendable {
   let logger: Logger
 
@@ -19,16 +19,16 @@ public final class OSLog: Sendable {
 
   /// The log without a subsystem.
   public static let `default` = OSLog(Logger())
-  /// The log that takes nothing down.
+  /// The log that discards all messages.
   public static let disabled = OSLog(Logger(Logging.Logger(label: "", factory: { _ in Silence() })))
 
-  /// Whether messages of a level are taken down.
+  /// Whether messages at a level are logged.
   public func isEnabled(type: OSLogType) -> Bool { logger.isEnabled(type) }
 
-  /// Whether signposts are taken down.
+  /// Whether signposts are logged.
   public var signpostsEnabled: Bool { logger.isEnabled(.debug) }
 
-  /// Categories that tools know.
+  /// Well-known categories.
   public struct Category: RawRepresentable, Hashable, Sendable {
     /// The name of the category.
     public let rawValue: String
@@ -36,12 +36,12 @@ public final class OSLog: Sendable {
     /// Creates a category from its name.
     public init(rawValue: String) { self.rawValue = rawValue }
 
-    /// Points that tools show.
+    /// Events that profiling tools display.
     public static let pointsOfInterest = Category(rawValue: "PointsOfInterest")
   }
 }
 
-/// Takes nothing down.
+/// A log handler that discards all messages.
 private struct Silence: LogHandler {
   var logLevel = Logging.Logger.Level.critical
   var metadata: Logging.Logger.Metadata = [:]
@@ -57,24 +57,24 @@ private struct Silence: LogHandler {
   ) {}
 }
 
-/// Writes a message, its values after a format as `printf` has it: `%d`, `%{public}@`, `%.2f` ….
+/// Writes a message with a format string in the syntax of `printf`: `%d`, `%{public}@`, `%.2f` ….
 ///
-/// Values marked `private` or `sensitive` aren't shown.
+/// Values marked `private` or `sensitive` are redacted.
 public func os_log(
   _ message: StaticString, log: OSLog = .default,
   type: OSLogType = .default, _ args: any CVarArg...
 ) { write(message, log, type, args) }
 
-/// Writes a message, its values after a format as `printf` has it.
+/// Writes a message with a format string in the syntax of `printf`.
 public func os_log(
   _ type: OSLogType, log: OSLog = .default, _ message: StaticString,
   _ args: any CVarArg...
 ) { write(message, log, type, args) }
 
-/// Writes a message whose values are in it.
+/// Writes an interpolated message.
 public func os_log(_ message: OSLogMessage) { OSLog.default.logger.log(message) }
 
-/// Writes a message whose values are in it.
+/// Writes an interpolated message at a level.
 public func os_log(_ type: OSLogType, log: OSLog = .default, _ message: OSLogMessage) {
   log.logger.log(level: type, message)
 }

@@ -1,6 +1,6 @@
 import Foundation
 
-/// How an integer is written.
+/// The format of an integer.
 public struct OSLogIntegerFormatting: Hashable, Sendable {
   private let radix: Int
   private let prefix: String
@@ -8,14 +8,14 @@ public struct OSLogIntegerFormatting: Hashable, Sendable {
   private let hasPlus: Bool
   private let digits: Int
 
-  /// With decimal digits.
+  /// Decimal.
   public static var decimal: OSLogIntegerFormatting { decimal() }
-  /// With hexadecimal digits.
+  /// Hexadecimal.
   public static var hex: OSLogIntegerFormatting { hex() }
-  /// With octal digits.
+  /// Octal.
   public static var octal: OSLogIntegerFormatting { octal() }
 
-  /// With decimal digits, zeros in front where there are fewer than `minDigits`.
+  /// Decimal, padded with zeros to `minDigits` digits.
   public static func decimal(
     explicitPositiveSign: Bool = false, minDigits: @autoclosure () -> Int = 1
   ) -> OSLogIntegerFormatting {
@@ -23,7 +23,7 @@ public struct OSLogIntegerFormatting: Hashable, Sendable {
       radix: 10, prefix: "", isUppercase: false, hasPlus: explicitPositiveSign, digits: minDigits())
   }
 
-  /// With hexadecimal digits, zeros in front where there are fewer than `minDigits`.
+  /// Hexadecimal, padded with zeros to `minDigits` digits.
   public static func hex(
     explicitPositiveSign: Bool = false, includePrefix: Bool = false, uppercase: Bool = false,
     minDigits: @autoclosure () -> Int = 1
@@ -33,7 +33,7 @@ public struct OSLogIntegerFormatting: Hashable, Sendable {
       hasPlus: explicitPositiveSign, digits: minDigits())
   }
 
-  /// With octal digits, zeros in front where there are fewer than `minDigits`.
+  /// Octal, padded with zeros to `minDigits` digits.
   public static func octal(
     explicitPositiveSign: Bool = false, includePrefix: Bool = false, uppercase: Bool = false,
     minDigits: @autoclosure () -> Int = 1
@@ -50,7 +50,7 @@ public struct OSLogIntegerFormatting: Hashable, Sendable {
   }
 }
 
-/// How a floating-point number is written.
+/// The format of a floating-point number.
 public struct OSLogFloatFormatting: Hashable, Sendable {
   private let specifier: Character
   private let precision: Int?
@@ -62,21 +62,21 @@ public struct OSLogFloatFormatting: Hashable, Sendable {
     (self.hasPlus, self.isUppercase) = (hasPlus, isUppercase)
   }
 
-  /// With six digits after the point.
+  /// With six digits after the decimal point.
   public static var fixed: OSLogFloatFormatting { fixed() }
   /// As a hexadecimal fraction with an exponent.
   public static var hex: OSLogFloatFormatting { hex() }
   /// With an exponent.
   public static var exponential: OSLogFloatFormatting { exponential() }
-  /// With an exponent where that is shorter.
+  /// With an exponent if that is shorter.
   public static var hybrid: OSLogFloatFormatting { hybrid() }
 
-  /// With six digits after the point.
+  /// With six digits after the decimal point.
   public static func fixed(
     explicitPositiveSign: Bool = false, uppercase: Bool = false
   ) -> OSLogFloatFormatting { .init("f", nil, explicitPositiveSign, uppercase) }
 
-  /// With so many digits after the point.
+  /// With `precision` digits after the decimal point.
   public static func fixed(
     precision: @autoclosure () -> Int, explicitPositiveSign: Bool = false, uppercase: Bool = false
   ) -> OSLogFloatFormatting { .init("f", precision(), explicitPositiveSign, uppercase) }
@@ -91,17 +91,17 @@ public struct OSLogFloatFormatting: Hashable, Sendable {
     explicitPositiveSign: Bool = false, uppercase: Bool = false
   ) -> OSLogFloatFormatting { .init("e", nil, explicitPositiveSign, uppercase) }
 
-  /// With an exponent and so many digits after the point.
+  /// With an exponent and `precision` digits after the decimal point.
   public static func exponential(
     precision: @autoclosure () -> Int, explicitPositiveSign: Bool = false, uppercase: Bool = false
   ) -> OSLogFloatFormatting { .init("e", precision(), explicitPositiveSign, uppercase) }
 
-  /// With an exponent where that is shorter.
+  /// With an exponent if that is shorter.
   public static func hybrid(
     explicitPositiveSign: Bool = false, uppercase: Bool = false
   ) -> OSLogFloatFormatting { .init("g", nil, explicitPositiveSign, uppercase) }
 
-  /// With an exponent where that is shorter, and so many digits.
+  /// With an exponent if that is shorter, and `precision` significant digits.
   public static func hybrid(
     precision: @autoclosure () -> Int, explicitPositiveSign: Bool = false, uppercase: Bool = false
   ) -> OSLogFloatFormatting { .init("g", precision(), explicitPositiveSign, uppercase) }
@@ -113,11 +113,11 @@ public struct OSLogFloatFormatting: Hashable, Sendable {
   }
 }
 
-/// How a truth value is written.
+/// The format of a Boolean.
 public enum OSLogBoolFormat: Hashable, Sendable {
-  /// As true or false.
+  /// true or false.
   case truth
-  /// As yes or no.
+  /// YES or NO.
   case answer
 
   func formatted(_ value: Bool) -> String {

@@ -1,16 +1,16 @@
 import Foundation
 
-/// Puts a message together from texts and values.
+/// Builds a log message from literals and values.
 public struct OSLogInterpolation: StringInterpolationProtocol {
-  /// What was put together so far.
+  /// The message so far.
   private(set) var text = ""
 
-  /// Begins with an empty text.
+  /// Creates an empty message.
   public init(literalCapacity: Int, interpolationCount: Int) {
     text.reserveCapacity(literalCapacity + 16 * interpolationCount)
   }
 
-  /// Appends a text.
+  /// Appends a literal.
   public mutating func appendLiteral(_ literal: String) { text += literal }
 
   /// Appends a string.
@@ -19,7 +19,7 @@ public struct OSLogInterpolation: StringInterpolationProtocol {
     privacy: OSLogPrivacy = .auto
   ) { append(value(), align, privacy) }
 
-  /// Appends what describes a value.
+  /// Appends the description of a value.
   public mutating func appendInterpolation<T: CustomStringConvertible>(
     _ value: @autoclosure () -> T, align: OSLogStringAlignment = .none,
     privacy: OSLogPrivacy = .auto
@@ -49,7 +49,7 @@ public struct OSLogInterpolation: StringInterpolationProtocol {
     align: OSLogStringAlignment = .none, privacy: OSLogPrivacy = .auto
   ) { append(format.formatted(Double(number())), align, privacy) }
 
-  /// Appends a truth value.
+  /// Appends a Boolean.
   public mutating func appendInterpolation(
     _ boolean: @autoclosure () -> Bool, format: OSLogBoolFormat = .truth,
     privacy: OSLogPrivacy = .auto

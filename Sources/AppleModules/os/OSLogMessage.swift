@@ -1,12 +1,12 @@
-/// A message for the log: a string whose interpolated values say how they are shown.
+/// A log message: an interpolated string whose values have formats and privacy options.
 public struct OSLogMessage: ExpressibleByStringInterpolation {
-  /// The text with its values.
+  /// The message with its values.
   public let interpolation: OSLogInterpolation
 
-  /// Creates a message from interpolated values.
+  /// Creates a message from an interpolation.
   public init(stringInterpolation: OSLogInterpolation) { interpolation = stringInterpolation }
 
-  /// Creates a message from a text.
+  /// Creates a message from a literal.
   public init(stringLiteral value: String) {
     var interpolation = OSLogInterpolation(literalCapacity: value.utf8.count, interpolationCount: 0)
     interpolation.appendLiteral(value)
@@ -14,42 +14,42 @@ public struct OSLogMessage: ExpressibleByStringInterpolation {
   }
 }
 
-/// Whether a value may be read by everyone who sees the log.
+/// The visibility of a value in the log.
 ///
-/// A value is shown unless it is marked `private` or `sensitive`: unlike the log of a Mac, which all
-/// programs share, this one goes to the user's own terminal.
+/// A value is visible unless it is marked `private` or `sensitive`: the log of a Mac is shared by
+/// all programs, but this one goes to the user's own terminal.
 public struct OSLogPrivacy: Hashable, Sendable {
-  /// What is shown in the place of a value that isn't.
+  /// What replaces a redacted value.
   public struct Mask: Hashable, Sendable {
     fileprivate let isHash: Bool
 
-    /// A number that is the same for the same value, within one run.
+    /// A hash that is equal for equal values within one run.
     public static let hash = Mask(isHash: true)
-    /// The value isn't told at all.
+    /// Only the placeholder `<private>`.
     public static let none = Mask(isHash: false)
   }
 
   fileprivate let isHidden: Bool
   fileprivate let mask: Mask
 
-  /// The value is shown.
+  /// Visible.
   public static let auto = OSLogPrivacy(isHidden: false, mask: .none)
-  /// The value is shown.
+  /// Visible.
   public static let `public` = OSLogPrivacy(isHidden: false, mask: .none)
-  /// The value is not shown.
+  /// Redacted.
   public static let `private` = OSLogPrivacy(isHidden: true, mask: .none)
-  /// The value is not shown.
+  /// Redacted.
   public static let sensitive = OSLogPrivacy(isHidden: true, mask: .none)
 
-  /// The value is shown.
+  /// Visible; the mask has no effect.
   public static func auto(mask: Mask) -> OSLogPrivacy { OSLogPrivacy(isHidden: false, mask: mask) }
 
-  /// The value is not shown but by its mask.
+  /// Redacted, replaced by the mask.
   public static func `private`(mask: Mask) -> OSLogPrivacy {
     OSLogPrivacy(isHidden: true, mask: mask)
   }
 
-  /// The value is not shown but by its mask.
+  /// Redacted, replaced by the mask.
   public static func sensitive(mask: Mask) -> OSLogPrivacy {
     OSLogPrivacy(isHidden: true, mask: mask)
   }
@@ -60,20 +60,20 @@ public struct OSLogPrivacy: Hashable, Sendable {
   }
 }
 
-/// How many columns a value takes, and on which side of them it stands.
+/// The column width and alignment of a value.
 public struct OSLogStringAlignment: Hashable, Sendable {
   fileprivate let columns: Int
   fileprivate let isRight: Bool
 
-  /// As many columns as the value has characters.
+  /// No padding.
   public static let none = OSLogStringAlignment(columns: 0, isRight: false)
 
-  /// At least so many columns, the value to the left.
+  /// Left-aligned, padded to at least `columns` columns.
   public static func left(columns: @autoclosure () -> Int) -> OSLogStringAlignment {
     OSLogStringAlignment(columns: columns(), isRight: false)
   }
 
-  /// At least so many columns, the value to the right.
+  /// Right-aligned, padded to at least `columns` columns.
   public static func right(columns: @autoclosure () -> Int) -> OSLogStringAlignment {
     OSLogStringAlignment(columns: columns(), isRight: true)
   }

@@ -1,7 +1,7 @@
 import Foundation
 
-/// Marks intervals and events of a program. There is no tool that shows them here: they are written
-/// to the log as messages of the level `trace`, with the interval's length where it ends.
+/// Marks intervals and events. There is no tool that displays them here: they are logged at the
+/// level `trace`, with the duration at the end of each interval.
 public struct OSSignposter: Sendable {
   private let logger: Logger?
 
@@ -18,7 +18,7 @@ public struct OSSignposter: Sendable {
     self.init(subsystem: subsystem, category: category.rawValue)
   }
 
-  /// Creates a signposter that writes where a logger does.
+  /// Creates a signposter that writes to a logger.
   public init(logger: Logger) { self.logger = logger }
 
   /// Creates a signposter that writes to a log.
@@ -26,18 +26,18 @@ public struct OSSignposter: Sendable {
 
   private init(silent: Void) { logger = nil }
 
-  /// The signposter that writes nothing.
+  /// A signposter that discards everything.
   public static let disabled = OSSignposter(silent: ())
 
-  /// Whether anything is written.
+  /// Whether signposts are written.
   public var isEnabled: Bool { logger?.isEnabled(.debug) ?? false }
 
-  /// Makes an identifier for an interval.
+  /// Makes a random identifier for an interval.
   public func makeSignpostID() -> OSSignpostID {
     OSSignpostID(UInt64.random(in: 1..<UInt64.max))
   }
 
-  /// Makes the identifier of an object.
+  /// Makes an identifier for an object.
   public func makeSignpostID(from object: AnyObject) -> OSSignpostID {
     OSSignpostID(UInt64(UInt(bitPattern: ObjectIdentifier(object))))
   }
@@ -62,15 +62,15 @@ public struct OSSignposter: Sendable {
     _ name: StaticString, _ state: OSSignpostIntervalState, _ message: OSLogMessage
   ) { end(name, state, " \(message.interpolation.text)") }
 
-  /// Marks an event.
+  /// Emits an event.
   public func emitEvent(_ name: StaticString, id: OSSignpostID = .exclusive) { write("\(name)") }
 
-  /// Marks an event with a message.
+  /// Emits an event with a message.
   public func emitEvent(
     _ name: StaticString, id: OSSignpostID = .exclusive, _ message: OSLogMessage
   ) { write("\(name) \(message.interpolation.text)") }
 
-  /// Makes an interval of some work.
+  /// Runs a closure as an interval.
   public func withIntervalSignpost<T>(
     _ name: StaticString, id: OSSignpostID = .exclusive, around task: () throws -> T
   ) rethrows -> T {
@@ -79,7 +79,7 @@ public struct OSSignposter: Sendable {
     return try task()
   }
 
-  /// Makes an interval of some work, with a message.
+  /// Runs a closure as an interval with a message.
   public func withIntervalSignpost<T>(
     _ name: StaticString, id: OSSignpostID = .exclusive, _ message: OSLogMessage,
     around task: () throws -> T
@@ -104,7 +104,7 @@ public struct OSSignposter: Sendable {
   private func write(_ text: String) { logger?.trace("\(text, privacy: .public)") }
 }
 
-/// Tells intervals of the same name apart.
+/// Distinguishes overlapping intervals of the same name.
 public struct OSSignpostID: RawRepresentable, Hashable, Comparable, Sendable {
   /// The number of the interval.
   public let rawValue: UInt64
@@ -115,14 +115,14 @@ public struct OSSignpostID: RawRepresentable, Hashable, Comparable, Sendable {
   /// Creates an identifier from its number.
   public init(_ value: UInt64) { rawValue = value }
 
-  /// Creates an identifier of its own for an interval of a log.
+  /// Creates a unique identifier for an interval of a log.
   public init(log: OSLog) { self.init(UInt64.random(in: 1..<UInt64.max)) }
 
-  /// There is one interval of the name at a time.
+  /// For names with at most one interval at a time.
   public static let exclusive = OSSignpostID(0xEEEE_B0B5_B2B2_EEEE)
   /// No interval.
   public static let null = OSSignpostID(0)
-  /// No interval that is valid.
+  /// An invalid identifier.
   public static let invalid = OSSignpostID(UInt64.max)
 
   /// Whether the number of the first is smaller.
@@ -131,9 +131,9 @@ public struct OSSignpostID: RawRepresentable, Hashable, Comparable, Sendable {
   }
 }
 
-/// An interval that has begun.
+/// The state of an interval that has begun.
 public final class OSSignpostIntervalState: Sendable {
-  /// The interval.
+  /// The identifier of the interval.
   public let signpostID: OSSignpostID
   private let start = ProcessInfo.processInfo.systemUptime
 
@@ -146,19 +146,19 @@ public final class OSSignpostIntervalState: Sendable {
 public enum OSSignpostType: UInt8, Hashable, Sendable {
   /// A point in time.
   case event
-  /// The begin of an interval.
+  /// The beginning of an interval.
   case begin
   /// The end of an interval.
   case end
 }
 
-/// Marks a point in time: a message of the level `trace`.
+/// Emits a signpost: a log message at the level `trace`.
 public func os_signpost(
   _ type: OSSignpostType, log: OSLog, name: StaticString,
   signpostID: OSSignpostID = .exclusive
 ) { log.logger.trace("\(name.description, privacy: .public) \(verb(type), privacy: .public)") }
 
-/// Marks a point in time, with a message.
+/// Emits a signpost with a message.
 public func os_signpost(
   _ type: OSSignpostType, log: OSLog, name: StaticString,
   signpostID: OSSignpostID = .exclusive, _ format: StaticString, _ arguments: any CVarArg...

@@ -65,7 +65,7 @@ public struct simd_double3x3: Hashable, Sendable {
   /// The matrix with columns and rows exchanged.
   public var transpose: simd_double3x3 { simd_double3x3(columns: transposed(columns)) }
 
-  /// The inverse; its elements are infinite or not a number where there is none.
+  /// The inverse; not finite if the matrix is singular.
   public var inverse: simd_double3x3 { simd_double3x3(columns: inverted(columns)) }
 
   /// The determinant.
@@ -103,7 +103,7 @@ extension simd_double3x3 {
   /// The difference of two matrices.
   public static func - (lhs: Self, rhs: Self) -> Self { lhs + -rhs }
 
-  /// The matrix with all signs changed.
+  /// The negated matrix.
   public static prefix func - (matrix: Self) -> Self { -1 * matrix }
 
   /// The matrix multiplied by a scalar.
@@ -133,14 +133,14 @@ extension simd_double3x3 {
   /// Subtracts a matrix.
   public static func -= (lhs: inout Self, rhs: Self) { lhs = lhs - rhs }
 
-  /// Multiplies by a matrix from the right.
+  /// Multiplies by a matrix on the right.
   public static func *= (lhs: inout Self, rhs: Self) { lhs = lhs * rhs }
 
   /// Multiplies by a scalar.
   public static func *= (lhs: inout Self, rhs: Double) { lhs = lhs * rhs }
 }
 
-/// The current name of the type's short form.
+/// The short name of the type.
 public typealias double3x3 = simd_double3x3
 /// The name of the type in C.
 public typealias matrix_double3x3 = simd_double3x3

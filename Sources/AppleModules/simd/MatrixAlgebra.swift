@@ -1,4 +1,4 @@
-// The mathematics that the matrices of both precisions share, on their columns.
+// The algebra that the matrices of both precisions share, on their columns.
 
 typealias Columns3<S: SIMDScalar> = (SIMD3<S>, SIMD3<S>, SIMD3<S>)
 typealias Columns4<S: SIMDScalar> = (SIMD4<S>, SIMD4<S>, SIMD4<S>, SIMD4<S>)
@@ -20,14 +20,14 @@ func determinant<S: SIMDScalar & FloatingPoint>(_ m: Columns3<S>) -> S {
   dot(m.0, cross(m.1, m.2))
 }
 
-/// The inverse by the adjugate; infinite or not a number where the determinant is zero.
+/// The inverse by the adjugate; not finite if the matrix is singular.
 func inverted<S: SIMDScalar & FloatingPoint>(_ m: Columns3<S>) -> Columns3<S> {
   let rows = (cross(m.1, m.2), cross(m.2, m.0), cross(m.0, m.1))
   let scale = 1 / dot(m.0, rows.0)
   return transposed((rows.0 * scale, rows.1 * scale, rows.2 * scale))
 }
 
-/// The 2×2 minors of the upper (s) and the lower (c) two rows, after Laplace's expansion.
+/// The 2×2 minors of the upper (s) and the lower (c) two rows, for Laplace's expansion.
 private func minors<S: SIMDScalar & FloatingPoint>(_ m: Columns4<S>) -> (s: [S], c: [S]) {
   let pairs = [(m.0, m.1), (m.0, m.2), (m.0, m.3), (m.1, m.2), (m.1, m.3), (m.2, m.3)]
   return (
@@ -41,7 +41,7 @@ func determinant<S: SIMDScalar & FloatingPoint>(_ m: Columns4<S>) -> S {
   return outer + s[3] * c[2] - s[4] * c[1] + s[5] * c[0]
 }
 
-/// The inverse by the adjugate; infinite or not a number where the determinant is zero.
+/// The inverse by the adjugate; not finite if the matrix is singular.
 func inverted<S: SIMDScalar & FloatingPoint>(_ m: Columns4<S>) -> Columns4<S> {
   let (s, c) = minors(m)
   let scale = 1 / determinant(m)

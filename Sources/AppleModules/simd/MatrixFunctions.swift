@@ -1,5 +1,5 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
-// The functions on matrices that also go by older names.
+// The matrix functions under their C names and former names.
 
 /// The product of two matrices.
 public func matrix_multiply(_ x: simd_float4x4, _ y: simd_float4x4) -> simd_float4x4 { x * y }

@@ -1,5 +1,5 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
-// On a Mac these differ in speed and in the last bits. Here all of them are exact.
+// On macOS these variants differ in speed and in the last bits. Here all of them are exact.
 
 /// The Euclidean length.
 public func simd_fast_length<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint {
@@ -32,13 +32,13 @@ public func simd_precise_normalize<V: SIMD>(_ x: V) -> V where V.Scalar: Floatin
 /// −1, 0 or 1 for each component.
 public func simd_sign<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { sign(x) }
 
-/// What each component has beyond the whole number below it.
+/// The fractional part of each component: the distance to the next integer below.
 public func simd_fract<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { fract(x) }
 
-/// One over each component.
+/// The reciprocal of each component.
 public func simd_recip<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { recip(x) }
 
-/// One over the square root of each component.
+/// The reciprocal square root of each component.
 public func simd_rsqrt<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { rsqrt(x) }
 
 /// 0 for each component below the edge, and 1 for the others.
@@ -46,10 +46,10 @@ public func simd_step<V: SIMD>(_ edge: V, _ x: V) -> V where V.Scalar: FloatingP
   step(x, edge: edge)
 }
 
-/// From 0 below the one edge to 1 above the other, without a corner.
+/// Hermite interpolation from 0 at the lower edge to 1 at the upper edge, clamped outside.
 public func simd_smoothstep<V: SIMD>(_ edge0: V, _ edge1: V, _ x: V) -> V
 where V.Scalar: FloatingPoint { smoothstep(x, edge0: edge0, edge1: edge1) }
 
-/// The direction of a ray behind a surface.
+/// The direction of a ray refracted at a surface.
 public func simd_refract<V: SIMD>(_ x: V, _ n: V, _ eta: V.Scalar) -> V
 where V.Scalar: FloatingPoint { refract(x, n: n, eta: eta) }

@@ -1,12 +1,12 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
-// The vector functions by the names that C gives them.
+// The vector functions under their C names.
 
-/// The sum of the products of corresponding components.
+/// The dot product.
 public func simd_dot<V: SIMD>(_ x: V, _ y: V) -> V.Scalar where V.Scalar: FloatingPoint {
   dot(x, y)
 }
 
-/// The vector perpendicular to both, right-handed.
+/// The cross product, right-handed.
 public func simd_cross<S: SIMDScalar & FloatingPoint>(_ x: SIMD3<S>, _ y: SIMD3<S>) -> SIMD3<S> {
   cross(x, y)
 }
@@ -31,10 +31,10 @@ public func simd_distance_squared<V: SIMD>(
   distance_squared(x, y)
 }
 
-/// The vector of the same direction with length 1; not a number for the zero vector.
+/// The unit vector of the same direction; NaN for the zero vector.
 public func simd_normalize<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { normalize(x) }
 
-/// The component of `x` along `y`.
+/// The projection of `x` onto `y`.
 public func simd_project<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: FloatingPoint {
   project(x, y)
 }
@@ -44,21 +44,21 @@ public func simd_reflect<V: SIMD>(_ x: V, _ n: V) -> V where V.Scalar: FloatingP
   reflect(x, n: n)
 }
 
-/// The magnitude of each component.
+/// The absolute value of each component.
 public func simd_abs<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { abs(x) }
 
-/// The smaller of each pair of components.
+/// The componentwise minimum.
 public func simd_min<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: Comparable { min(x, y) }
 
-/// The larger of each pair of components.
+/// The componentwise maximum.
 public func simd_max<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: Comparable { max(x, y) }
 
-/// Each component held between those of two bounds.
+/// Each component clamped to a range.
 public func simd_clamp<V: SIMD>(_ x: V, _ lower: V, _ upper: V) -> V where V.Scalar: Comparable {
   clamp(x, min: lower, max: upper)
 }
 
-/// The point at `t` on the line from `x` (0) to `y` (1), component by component.
+/// Linear interpolation from `x` (t = 0) to `y` (t = 1), componentwise.
 public func simd_mix<V: SIMD>(_ x: V, _ y: V, _ t: V) -> V where V.Scalar: FloatingPoint {
   mix(x, y, t: t)
 }

@@ -1,6 +1,6 @@
 import Foundation
 
-// The mathematics that quaternions of both precisions share, on vectors (x, y, z, w), w real.
+// The algebra that quaternions of both precisions share, on vectors (x, y, z, w) with w real.
 
 func imaginary<S: SIMDScalar>(_ q: SIMD4<S>) -> SIMD3<S> { SIMD3(q.x, q.y, q.z) }
 
@@ -31,7 +31,8 @@ func rotationColumns<S: SIMDScalar & FloatingPoint>(_ q: SIMD4<S>) -> Columns3<S
   )
 }
 
-/// The unit quaternion of a proper rotation matrix (Shepperd 1978: divide by the largest component).
+/// The unit quaternion of a proper rotation matrix (Shepperd 1978: divide by the largest
+/// component).
 func quaternion<S: SIMDScalar & FloatingPoint>(ofRotation m: Columns3<S>) -> SIMD4<S> {
   let (d0, d1, d2) = (m.0.x, m.1.y, m.2.z)
   let trace = d0 + d1 + d2
@@ -57,7 +58,7 @@ func quaternion<S: SIMDScalar & FloatingPoint>(
 ) -> SIMD4<S> {
   if dot(from, to) >= 0 { return quaternion(halfwayFrom: from, to: to) }
   let sum = from + to
-  // Where the two are opposite, any axis perpendicular to them will do.
+  // If the two are opposite, any axis perpendicular to them is valid.
   guard dot(sum, sum) > S.ulpOfOne else {
     let magnitude = abs(from)
     let basis: SIMD3<S> =
@@ -70,7 +71,7 @@ func quaternion<S: SIMDScalar & FloatingPoint>(
     quaternion(halfwayFrom: half, to: to), quaternion(halfwayFrom: from, to: half))
 }
 
-/// As above for vectors less than a right angle apart, where the half vector is well defined.
+/// As above for vectors at most a right angle apart, where the half vector is well defined.
 private func quaternion<S: SIMDScalar & FloatingPoint>(
   halfwayFrom from: SIMD3<S>, to: SIMD3<S>
 ) -> SIMD4<S> {

@@ -6,7 +6,7 @@ public struct simd_quatf: Hashable, Codable, Sendable {
   /// The imaginary components x, y, z, then the real one.
   public var vector: simd_float4
 
-  /// Creates a quaternion of zeros.
+  /// Creates the zero quaternion.
   public init() { vector = .zero }
 
   /// Creates a quaternion from the imaginary components x, y, z and the real one.
@@ -63,7 +63,7 @@ public struct simd_quatf: Hashable, Codable, Sendable {
   /// The angle of the rotation in radians, from 0 to 2π.
   public var angle: Float { 2 * atan2(simd.length(imag), real) }
 
-  /// The axis of the rotation, a unit vector; not a number where there is no rotation.
+  /// The axis of the rotation, a unit vector; NaN for the identity.
   public var axis: simd_float3 { normalize(imag) }
 
   /// The quaternion with the imaginary part negated.
@@ -72,7 +72,7 @@ public struct simd_quatf: Hashable, Codable, Sendable {
   /// The quaternion whose product with this one is 1.
   public var inverse: simd_quatf { simd_quatf(vector: conjugated(vector) / dot(vector, vector)) }
 
-  /// The quaternion of unit length with the same direction.
+  /// The quaternion scaled to unit length.
   public var normalized: simd_quatf { simd_quatf(vector: normalize(vector)) }
 
   /// The length.
@@ -94,7 +94,7 @@ extension simd_quatf {
   /// The difference of two quaternions.
   public static func - (lhs: Self, rhs: Self) -> Self { Self(vector: lhs.vector - rhs.vector) }
 
-  /// The quaternion with all signs changed: the same rotation.
+  /// The negated quaternion: the same rotation.
   public static prefix func - (rhs: Self) -> Self { Self(vector: -rhs.vector) }
 
   /// The product: the rotation `rhs` followed by the rotation `lhs`.
@@ -120,13 +120,13 @@ extension simd_quatf {
   /// Subtracts a quaternion.
   public static func -= (lhs: inout Self, rhs: Self) { lhs = lhs - rhs }
 
-  /// Multiplies by a quaternion from the right.
+  /// Multiplies by a quaternion on the right.
   public static func *= (lhs: inout Self, rhs: Self) { lhs = lhs * rhs }
 
   /// Multiplies by a scalar.
   public static func *= (lhs: inout Self, rhs: Float) { lhs = lhs * rhs }
 
-  /// Multiplies by the inverse of a quaternion from the right.
+  /// Multiplies by the inverse of a quaternion on the right.
   public static func /= (lhs: inout Self, rhs: Self) { lhs = lhs / rhs }
 
   /// Divides by a scalar.
@@ -175,16 +175,16 @@ public func simd_inverse(_ q: simd_quatf) -> simd_quatf { q.inverse }
 /// The quaternion with the imaginary part negated.
 public func simd_conjugate(_ q: simd_quatf) -> simd_quatf { q.conjugate }
 
-/// The quaternion of unit length with the same direction.
+/// The quaternion scaled to unit length.
 public func simd_normalize(_ q: simd_quatf) -> simd_quatf { q.normalized }
 
 /// The length of a quaternion.
 public func simd_length(_ q: simd_quatf) -> Float { q.length }
 
-/// The sum of the products of corresponding components.
+/// The dot product.
 public func simd_dot(_ p: simd_quatf, _ q: simd_quatf) -> Float { dot(p.vector, q.vector) }
 
-/// The sum of the products of corresponding components.
+/// The dot product.
 public func dot(_ p: simd_quatf, _ q: simd_quatf) -> Float { dot(p.vector, q.vector) }
 
 /// The angle of a rotation in radians.

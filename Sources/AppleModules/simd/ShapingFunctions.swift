@@ -1,26 +1,26 @@
-// The functions that work on each component of a vector of floating-point scalars.
+// Componentwise functions of vectors of floating-point scalars.
 
 /// −1, 0 or 1 for each component.
 public func sign<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { mapped(x) { $0.sign() } }
 
-/// What each component has beyond the whole number below it.
+/// The fractional part of each component: the distance to the next integer below.
 public func fract<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint {
   x - x.rounded(.down)
 }
 
-/// The whole number below each component.
+/// Each component rounded down to an integer.
 public func floor<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { x.rounded(.down) }
 
-/// The whole number above each component.
+/// Each component rounded up to an integer.
 public func ceil<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { x.rounded(.up) }
 
-/// Each component without its fraction.
+/// Each component rounded toward zero to an integer.
 public func trunc<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { x.rounded(.towardZero) }
 
-/// One over each component.
+/// The reciprocal of each component.
 public func recip<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { 1 / x }
 
-/// One over the square root of each component.
+/// The reciprocal square root of each component.
 public func rsqrt<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { 1 / x.squareRoot() }
 
 /// The square root of each component.
@@ -31,7 +31,7 @@ public func step<V: SIMD>(_ x: V, edge: V) -> V where V.Scalar: FloatingPoint {
   V(repeating: 1).replacing(with: 0, where: x .< edge)
 }
 
-/// From 0 below the one edge to 1 above the other, without a corner.
+/// Hermite interpolation from 0 at the lower edge to 1 at the upper edge, clamped outside.
 public func smoothstep<V: SIMD>(_ x: V, edge0: V, edge1: V) -> V
 where V.Scalar: FloatingPoint {
   let share = ((x - edge0) / (edge1 - edge0)).clamped(
@@ -39,7 +39,8 @@ where V.Scalar: FloatingPoint {
   return share * share * (3 - 2 * share)
 }
 
-/// The direction of a ray behind a surface with the unit normal `n`; zero where it doesn't get through.
+/// The direction of a ray refracted at a surface with the unit normal `n`; zero on total internal
+/// reflection.
 public func refract<V: SIMD>(_ x: V, n: V, eta: V.Scalar) -> V where V.Scalar: FloatingPoint {
   let cosine = dot(x, n)
   let rest = 1 - eta * eta * (1 - cosine * cosine)

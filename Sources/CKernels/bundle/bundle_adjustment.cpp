@@ -11,7 +11,7 @@
 namespace ck {
 namespace {
 
-/// Passes progress out of Ceres and the wish to cancel into it.
+/// Reports the progress of Ceres and passes cancellation to it.
 class ControlCallback final : public ceres::IterationCallback {
  public:
   ControlCallback(const ck_control* control, int max_iterations)
@@ -65,7 +65,7 @@ class Adjustment {
     return summary;
   }
 
-  /// False when the adjusted cameras aren't cameras any more.
+  /// False if adjusted cameras are not finite or have a focal length of 0 or less.
   bool is_sound() const {
     bool sound = true;
     for (size_t i = 0; i < blocks_.size(); ++i) {
@@ -113,7 +113,7 @@ class Adjustment {
   void load() {
     for (size_t i = 0; i < bundle_.camera_count; ++i) {
       const ck_camera_model& c = bundle_.cameras[i];
-      require(c.fx > 0 && c.fy > 0, "a camera without a focal length");
+      require(c.fx > 0 && c.fy > 0, "a camera has no positive focal length");
       blocks_.push_back({c.fx, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2});
       aspects_.push_back(c.fy / c.fx);
     }
@@ -132,10 +132,10 @@ class Adjustment {
       const ck_observation& o = bundle_.observations[i];
       require(o.photo >= 0 && size_t(o.photo) < bundle_.photo_count && o.point >= 0 &&
                   size_t(o.point) < bundle_.point_count,
-              "an observation names a photo or point that isn't there");
+              "an observation refers to a photo or point that does not exist");
       const int32_t index = bundle_.photo_cameras[o.photo];
       require(index >= 0 && size_t(index) < bundle_.camera_count,
-              "a photo names a camera that isn't there");
+              "a photo refers to a camera that does not exist");
       used_cameras_[size_t(index)] = true;
       used_photos_[size_t(o.photo)] = true;
       used_points[size_t(o.point)] = true;
@@ -175,7 +175,8 @@ class Adjustment {
   }
 
   /// The component of a photo's translation that changes most when the world is scaled about the
-  /// first constant photo: the translation's derivative is that photo's centre in this one's frame.
+  /// first constant photo: the derivative of the translation is that photo's center in this photo's
+  /// frame.
   int scale_axis(size_t i) {
     Vector3 center = Vector3::Zero();
     for (size_t k = 0; k < bundle_.photo_count; ++k) {
@@ -232,7 +233,8 @@ ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
   return ck::guarded([&] {
     using namespace ck;
     require(bundle && summary && options, "bundle adjustment needs a scene");
-    require(options->max_iterations >= 0 && options->huber_width > 0, "bundle options invalid");
+    require(options->max_iterations >= 0 && options->huber_width > 0,
+            "a bundle adjustment option is out of range");
     *summary = {0, 0, 0, true};
     if (bundle->observation_count == 0) return;
     step(control, 0);

@@ -10,16 +10,16 @@ namespace ck {
 
 /// Parameters of a pose: quaternion x, y, z, w, then the translation.
 constexpr int pose_size = 7;
-/// Parameters of a camera: fx (fy keeps its ratio), cx, cy, k1, k2, p1, p2.
+/// Parameters of a camera: fx (fy in constant proportion), cx, cy, k1, k2, p1, p2.
 constexpr int camera_size = 7;
 
-/// A pose's tangent space: a rotation vector applied from the left, then the translation.
+/// The tangent space of a pose: a rotation vector applied from the left, then the translation.
 ///
-/// `ReprojectionCost` differentiates by the tangent directly and leaves the seventh column zero, so
-/// the derivative of `Plus` only has to pick columns.
+/// `ReprojectionCost` differentiates with respect to the tangent directly and leaves the seventh
+/// column zero, so the Jacobian of `Plus` only selects columns.
 class PoseManifold final : public ceres::Manifold {
  public:
-  /// `fixed_axis` 0…2 keeps one component of the translation; −1 keeps none.
+  /// `fixed_axis` 0…2 holds one component of the translation constant; −1 none.
   explicit PoseManifold(int fixed_axis) : fixed_axis_(fixed_axis) {}
 
   int AmbientSize() const override { return pose_size; }
@@ -33,7 +33,7 @@ class PoseManifold final : public ceres::Manifold {
   int fixed_axis_;
 };
 
-/// The reprojection error of one observation with hand-derived derivatives.
+/// The reprojection error of one observation with analytic derivatives.
 ///
 /// Parameter blocks: pose, point, camera.
 class ReprojectionCost final : public ceres::SizedCostFunction<2, pose_size, 3, camera_size> {
@@ -49,7 +49,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<2, pose_size, 3, 
   double aspect_;
 };
 
-/// The distance of a camera from what is known of it, in standard deviations.
+/// Deviation of the camera parameters from their priors, in standard deviations.
 class CameraPriorCost final : public ceres::SizedCostFunction<5, camera_size> {
  public:
   explicit CameraPriorCost(const ck_camera_prior& prior);
@@ -59,7 +59,7 @@ class CameraPriorCost final : public ceres::SizedCostFunction<5, camera_size> {
 
  private:
   double mean_[5];
-  /// Reciprocal deviations; 0 where nothing is known.
+  /// Reciprocal standard deviations; 0 without prior.
   double weight_[5];
 };
 

@@ -27,12 +27,12 @@ struct Views {
   const ck_camera_model& camera(int photo) const { return raw.cameras[raw.photo_cameras[photo]]; }
 };
 
-/// One track: its rays, and the work on its point.
+/// One track with its viewing rays.
 struct Track {
   const Views& views;
   const ck_observation* observations;
   size_t count;
-  std::vector<Vector3> directions;  // unit, in the world
+  std::vector<Vector3> directions;  // unit vectors in the world
 
   Track(const Views& views, const ck_observation* observations, size_t count)
       : views(views), observations(observations), count(count) {
@@ -51,7 +51,7 @@ struct Track {
     return (project(views.camera(photo), p) - Vector2(observations[i].x, observations[i].y)).norm();
   }
 
-  /// The point nearest to the chosen rays.
+  /// The point with the smallest sum of squared distances to the chosen rays.
   bool intersect(const std::vector<size_t>& chosen, Vector3& point) const {
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
     Vector3 b = Vector3::Zero();
@@ -66,7 +66,7 @@ struct Track {
     return point.allFinite();
   }
 
-  /// Gauss–Newton on the chosen observations' reprojection errors.
+  /// Gauss–Newton on the reprojection errors of the chosen observations.
   void refine(const std::vector<size_t>& chosen, Vector3& point) const {
     double cost = squares(chosen, point);
     for (int iteration = 0; iteration < 8; ++iteration) {
@@ -106,7 +106,7 @@ struct Track {
     return std::atan2(directions[i].cross(directions[j]).norm(), directions[i].dot(directions[j]));
   }
 
-  /// The largest angle at `point` between two of the chosen centres.
+  /// The largest angle at `point` between the rays to two of the chosen camera centers.
   double largest_angle(const std::vector<size_t>& chosen, const Vector3& point) const {
     std::vector<Vector3> rays;
     for (const size_t i : chosen) {
@@ -136,12 +136,12 @@ struct Track {
     return sum;
   }
 
-  /// The observations that the best hypothesis from two rays explains.
+  /// The inliers of the best hypothesis from two rays.
   std::vector<size_t> robust(double max_error, double min_angle) const {
     const double max_square = max_error * max_error;
     double best_score = std::numeric_limits<double>::infinity();
     Vector3 best = Vector3::Zero();
-    // Long tracks try pairs at growing distances in the track, up to a fixed number.
+    // Pairs in order of descending distance within the track, up to a fixed number.
     size_t tried = 0;
     for (size_t gap = count - 1; gap >= 1 && tried < 60; --gap) {
       for (size_t i = 0; i + gap < count && tried < 60; ++i) {
@@ -159,7 +159,7 @@ struct Track {
     return std::isfinite(best_score) ? inliers(best, max_error) : std::vector<size_t>{};
   }
 
-  /// True with a point that at least two observations agree on.
+  /// True if a point was found that at least two observations agree on.
   bool triangulate(const ck_triangulation_options& options, Vector3& point,
                    std::vector<size_t>& chosen) const {
     if (count < 2) return false;
@@ -194,16 +194,17 @@ const double* strided(const double* base, size_t stride, size_t i) {
 
 void check(const int32_t* offsets, size_t track_count, const ck_observation* observations,
            const ck_views* views) {
-  require(offsets && observations && views && views->cameras && views->poses, "missing tracks");
-  for (size_t t = 0; t < track_count; ++t) require(offsets[t] <= offsets[t + 1], "bad offsets");
+  require(offsets && observations && views && views->cameras && views->poses, "missing argument");
+  for (size_t t = 0; t < track_count; ++t)
+    require(offsets[t] <= offsets[t + 1], "the track offsets are not ascending");
   for (int32_t i = 0; i < offsets[track_count]; ++i) {
     require(observations[i].photo >= 0 &&
                 static_cast<size_t>(observations[i].photo) < views->photo_count,
-            "an observation names a photo that isn't there");
+            "an observation refers to a photo that does not exist");
   }
 }
 
-/// Runs `body(track index)` in blocks, so that progress costs nothing.
+/// Calls `body(track index)` in blocks, so that progress reporting is negligible.
 template <typename Body>
 void for_each_track(const ck_control* control, size_t count, Body&& body) {
   constexpr size_t block = 512;

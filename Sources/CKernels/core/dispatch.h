@@ -4,9 +4,9 @@
 
 namespace ck {
 
-/// The table of kernels that runs on this processor, of those compiled for each instruction set.
+/// Selects the kernel table for this processor among those compiled for each instruction set.
 ///
-/// For files that are compiled without special instructions only.
+/// Only for files that are compiled without special instructions.
 template <typename Table>
 const Table& dispatch(ck_instructions wish, const Table& (*portable)(), const Table& (*avx2)(),
                       const Table& (*avx512)()) {

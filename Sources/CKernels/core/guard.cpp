@@ -13,7 +13,7 @@ void set_last_error(const std::string& message) { last_error = message; }
 
 bool is_out_of_memory(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) return true;
-  // A thread that has no room for its stack.
+  // The stack of a thread could not be allocated.
   const auto* system = dynamic_cast<const std::system_error*>(&error);
   if (system && system->code() == std::errc::resource_unavailable_try_again) return true;
   const auto* exception = dynamic_cast<const cv::Exception*>(&error);

@@ -8,7 +8,7 @@
 
 namespace ck {
 
-/// Thrown by `step` when the caller asks to stop.
+/// Thrown by `step` when the caller cancels.
 struct Cancelled {};
 
 /// Thrown when valid input does not determine a result.
@@ -19,10 +19,10 @@ struct Degenerate : std::runtime_error {
 /// Stores the message that `ck_last_error` returns on this thread.
 void set_last_error(const std::string& message);
 
-/// Whether an exception, of the language's or of OpenCV, says that memory can't be had.
+/// Whether an exception of the standard library or of OpenCV reports a failed allocation.
 bool is_out_of_memory(const std::exception& error);
 
-/// Reports progress; throws `Cancelled` when the caller asks to stop.
+/// Reports progress; throws `Cancelled` when the caller cancels.
 inline void step(const ck_control* control, double fraction) {
   if (control && control->should_continue &&
       !control->should_continue(control->context, fraction)) {
@@ -30,22 +30,24 @@ inline void step(const ck_control* control, double fraction) {
   }
 }
 
+/// The number of threads of a control, at least 1.
 inline int thread_count(const ck_control* control) {
   return control && control->threads > 0 ? control->threads : 1;
 }
 
+/// Throws `std::invalid_argument` unless the condition holds.
 inline void require(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
-/// Runs a kernel body; no exception leaves it.
+/// Runs a kernel body and converts exceptions to a status; no exception leaves it.
 template <typename Body>
 ck_status guarded(Body&& body) noexcept {
   try {
     body();
     return ck_ok;
   } catch (const Cancelled&) {
-    set_last_error("cancelled");
+    set_last_error("canceled");
     return ck_cancelled;
   } catch (const std::invalid_argument& e) {
     set_last_error(e.what());

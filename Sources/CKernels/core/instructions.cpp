@@ -28,7 +28,8 @@ bool ck_instructions_supported(ck_instructions instructions) {
 }
 
 ck_instructions ck::chosen_instructions(ck_instructions wish) {
-  require(ck_instructions_supported(wish), "this processor lacks the instructions asked for");
+  require(ck_instructions_supported(wish),
+          "this processor doesn't support the requested instructions");
   if (wish != ck_instructions_automatic) return wish;
   for (ck_instructions set :
        {ck_instructions_avx512_vnni, ck_instructions_avx512, ck_instructions_avx2}) {

@@ -4,11 +4,11 @@
 
 namespace ck {
 
-// Nothing here is inline: a file compiled for one of the sets must not emit the code that asks
-// whether the processor has it.
+// Nothing here is inline: a file compiled for one of the instruction sets must not emit the code
+// that tests whether the processor supports it.
 
-/// The instructions to run: those wished for, or the last set that this processor has where the
-/// wish is automatic. Throws where the processor lacks them.
+/// The instruction set to use: the requested one, or the most capable one of this processor if
+/// automatic was requested. Throws if the processor does not support it.
 ck_instructions chosen_instructions(ck_instructions wish);
 
 }  // namespace ck

@@ -14,8 +14,8 @@ namespace ck {
 
 /// Calls `body(i)` for every i in 0..<count on the control's threads and reports progress.
 ///
-/// Bodies must not depend on each other's order, so that the result is the same at any number of
-/// threads. The first exception stops the rest and is rethrown.
+/// Calls of `body` must not depend on each other's order, so that the result is the same with any
+/// number of threads. The first exception stops the rest and is rethrown.
 template <typename Body>
 void parallel_for(const ck_control* control, size_t count, Body&& body) {
   const size_t threads = std::min<size_t>(static_cast<size_t>(thread_count(control)), count);

@@ -11,9 +11,9 @@ void ck_silence_libraries(void) {
   static const bool once = [] {
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
-    // Kernels fan out themselves; a second level of threads would only break determinism.
+    // Kernels manage threads themselves; a second level of threads would break determinism.
     cv::setNumThreads(1);
-    // OpenCV's decoders write to this stream past its logger.
+    // OpenCV's decoders bypass its logger and write to this stream.
     std::cerr.rdbuf(nullptr);
     FLAGS_minloglevel = google::GLOG_FATAL;
     open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);

@@ -2,13 +2,14 @@
 
 #include <cstdint>
 
-// Values of these types never cross a call: all functions that take or return them are inlined.
+// Values of these types never cross a call boundary: all functions that take or return them are
+// inlined.
 #pragma clang diagnostic ignored "-Wpsabi"
 
 namespace ck {
 
-// Vectors by the kind of their lanes (float, signed, unsigned, half word, byte) and their number;
-// the compiler maps them to what the target has.
+// Vector types named by the type of their lanes (float, signed, unsigned, half word, byte) and
+// their number; the compiler maps them to the registers of the target.
 typedef float F16 __attribute__((ext_vector_type(16)));
 typedef float F8 __attribute__((ext_vector_type(8)));
 typedef float F4 __attribute__((ext_vector_type(4)));

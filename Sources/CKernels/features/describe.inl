@@ -1,9 +1,9 @@
 // Orientations and descriptors, included once for each instruction set after `gather` is defined
 // and after scale_space.inl.
 //
-// Both look at a window of 16 × 16 cells, turned and scaled with the feature, whose corners are
-// sampled from the blurred level. The cells are about as large as the blur, so that no detail falls
-// between the corners. Window and weights are the same for all features, hence tables.
+// Both use a window of 16 × 16 cells, rotated and scaled with the feature, whose corners are
+// sampled from the blurred level. The cells are about as large as the blur, so that no detail is
+// lost between the corners. The window and its weights are the same for all features, hence tables.
 
 namespace ck::sift {
 namespace {
@@ -13,18 +13,20 @@ constexpr int kDirections = 8;
 constexpr int kBins = 4;
 constexpr int kPeakBins = 36;
 
-/// Size of a cell in blurs: the cells reach 4.5 blurs from the feature, as Lowe's orientation does.
+/// Side of a cell in units of the feature's σ: the window extends 4.5 σ from the feature, as in
+/// Lowe's orientation assignment.
 constexpr float kOrientationCell = 9.0f / kCells;
-/// Blurs of a descriptor's bin, and cells of a bin: the cells reach half a bin beyond the bins.
+/// Side of a descriptor bin in units of σ, and cells per bin: the window extends half a bin beyond
+/// the bins.
 constexpr float kBinSize = 3;
 constexpr float kCellsOfBin = kCells / 5.0f;
 
 const F16 kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 struct Tables {
-  /// Weight of each cell for the orientation: a Gaussian of 1.5 blurs.
+  /// Weight of each cell for the orientation: a Gaussian of 1.5 σ.
   float orientation[kCells][kCells];
-  /// Weight of a row, or column, of cells for each bin: linear in the distance, averaged over the
+  /// Weight of a row, or column, of cells for each bin: linear interpolation, averaged over the
   /// cell, under a Gaussian of two bins.
   float bin[kBins][kCells];
 
@@ -56,16 +58,16 @@ const Tables& tables() {
   return kTables;
 }
 
-/// Differences of grey level along the window's axes in a row of cells.
+/// Gray level differences along the window's axes, per row of cells.
 struct Gradients {
   F16 x[kCells], y[kCells];
 };
 
-/// A window of cells: where it lies in its level, and the level.
+/// A window of cells: its position in its level, and the level.
 struct Window {
   const uint16_t* level;
   int width, height, stride;
-  /// Centre, and the window's x axis as long as a cell.
+  /// Center in pixels, and the window's x axis with the length of a cell.
   float x, y, ux, uy;
 
   Window(const Octave& octave, const Extremum& e, float cell, float angle)
@@ -89,7 +91,8 @@ CK_INLINE F16 limited(const F16& v, float limit) {
   return __builtin_elementwise_min(__builtin_elementwise_max(v, F16(0.0f)), F16(limit));
 }
 
-/// The level at offsets from the centre in cells, bilinearly; the nearest pixel outside.
+/// Bilinear samples of the level at offsets from the center in cells; positions outside are clamped
+/// to the border.
 CK_INLINE F16 sample(const Window& w, const F16& u, const F16& v) {
   const F16 x = limited(w.x + u * w.ux - v * w.uy, static_cast<float>(w.width) - 1.001f);
   const F16 y = limited(w.y + u * w.uy + v * w.ux, static_cast<float>(w.height) - 1.001f);
@@ -108,7 +111,7 @@ CK_INLINE F16 sample(const Window& w, const F16& u, const F16& v) {
   return top + fy * (bottom - top);
 }
 
-/// −1 where a row of cells lies in the level.
+/// −1 in lanes whose cell center lies within the level.
 CK_INLINE I16 cells_inside(const Window& w, int row) {
   const F16 u = kLane - 7.5f;
   const float v = static_cast<float>(row) - 7.5f;
@@ -118,7 +121,7 @@ CK_INLINE I16 cells_inside(const Window& w, int row) {
 }
 
 CK_INLINE void window_gradients(const Window& w, Gradients& g) {
-  // The seventeenth corner of each row of corners, but for the last.
+  // The seventeenth corner of each row of corners.
   float last[kCells + 1];
   store(last, sample(w, F16(8.0f), kLane - 8.0f));
   last[kCells] = sample(w, F16(8.0f), F16(8.0f)).x;
@@ -147,7 +150,7 @@ CK_INLINE F16 length(const F16& x, const F16& y) {
   return __builtin_elementwise_sqrt(x * x + y * y);
 }
 
-/// The angle of a vector in full turns, 0…1. The polynomial for the arc tangent is right to 1e-5.
+/// The angle of a vector in turns, 0…1. The arctangent polynomial is accurate to 1e-5.
 CK_INLINE F16 turns(const F16& x, const F16& y) {
   const F16 ax = __builtin_elementwise_abs(x), ay = __builtin_elementwise_abs(y);
   const F16 big = __builtin_elementwise_max(ax, ay), small = __builtin_elementwise_min(ax, ay);
@@ -165,11 +168,11 @@ CK_INLINE F16 turns(const F16& x, const F16& y) {
 
 // ---- Orientation ----------------------------------------------------------------------------
 
-/// Directions around a feature, weighted by gradient and distance; smoothed.
+/// Smoothed histogram of gradient directions around a feature, weighted by magnitude and distance.
 void direction_histogram(const Window& window, float* histogram) {
   Gradients g;
   window_gradients(window, g);
-  // Two cells at each end take what wraps around.
+  // One extra bin receives what wraps around.
   float raw[kPeakBins + 1] = {};
   for (int r = 0; r < kCells; ++r) {
     const F16 place = turns(g.x[r], g.y[r]) * static_cast<float>(kPeakBins);
@@ -220,13 +223,13 @@ int orient(const Octave& octave, const Extremum& extremum, float* orientations) 
   });
   count = std::min(count, kMaximumOrientations);
   for (int i = 0; i < count; ++i) orientations[i] = peaks[i].angle;
-  if (count == 0) orientations[count++] = 0;  // No gradient at all.
+  if (count == 0) orientations[count++] = 0;  // no gradient
   return count;
 }
 
 // ---- Descriptor -----------------------------------------------------------------------------
 
-/// Gradient lengths of the cells, pooled into four rows of bins for each direction; columns are
+/// Gradient magnitudes of the cells, pooled into four rows of bins for each direction; columns are
 /// pooled later.
 struct RowBins {
   F16 sum[kBins][kDirections];
@@ -236,7 +239,7 @@ CK_INLINE void pool_rows(const Gradients& g, RowBins& bins) {
   for (int b = 0; b < kBins; ++b) {
     for (int d = 0; d < kDirections; ++d) bins.sum[b][d] = 0;
   }
-  // Every bin takes part in seven rows of cells.
+  // Every bin covers seven rows of cells.
   constexpr int kFirstRow[kBins] = {0, 3, 6, 9};
   const Tables& t = tables();
   F16 size[kCells], turned[kCells];
@@ -251,7 +254,7 @@ CK_INLINE void pool_rows(const Gradients& g, RowBins& bins) {
     for (int b = 0; b < kBins; ++b) sum[b] = 0;
 #pragma clang loop unroll(full)
     for (int r = 0; r < kCells; ++r) {
-      // The part of the length that belongs to the direction, linear in the angle.
+      // The part of the magnitude that belongs to the direction, linear in the angle.
       F16 part = __builtin_elementwise_max(
           size[r] - __builtin_elementwise_abs(turned[r] - static_cast<float>(d) * size[r]),
           F16(0.0f));
@@ -300,7 +303,7 @@ CK_INLINE float sum_of(const F16& v) {
   return (q.x + q.z) + (q.y + q.w);
 }
 
-/// Limits single values to a fifth of the whole, then root-SIFT.
+/// Clamps values to 0.2 of the norm (Lowe), then converts to root-SIFT bytes.
 CK_INLINE void write_bytes(const float* values, uint8_t* bytes) {
   F16 v[8], square = 0, total = 0;
   for (int i = 0; i < 8; ++i) {

@@ -12,19 +12,18 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-/// What the search for a line's neighbours needs of a feature.
+/// A feature as stored in the grid.
 struct GridFeature {
   float x, y;
-  /// Its part of the divisor of the Sampson error.
+  /// Its part of the denominator of the squared Sampson error.
   float slope;
   uint32_t index;
 };
 
-/// The features of a photo by the cells of a grid, in columns or in rows, so that those near a line
-/// are found fast.
+/// The features of a photo in a grid, in column or row order, to find those near a line quickly.
 class FeatureGrid {
  public:
-  /// Axis 0: cells lie in memory column by column, for lines that run along x; 1: row by row.
+  /// Axis 0: cells are stored column by column, for lines along x; axis 1: row by row.
   FeatureGrid(const std::vector<GridFeature>& features, const Eigen::AlignedBox2d& box, int axis)
       : along_(axis), box_(box), scale_(kCells / box.sizes().cwiseMax(1e-12).array()) {
     std::vector<std::vector<GridFeature>> cells(kCells * kCells);
@@ -39,11 +38,12 @@ class FeatureGrid {
     begins_.push_back(features_.size());
   }
 
-  /// Calls `visit(feature)` for all within `margin` of the line a x + b y + c = 0, and some beyond.
+  /// Calls `visit(feature)` for all features within `margin` of the line a x + b y + c = 0, and for
+  /// some beyond.
   template <typename Visit>
   void visit_near(const Eigen::Vector3d& line, double margin, Visit visit) const {
     const int across = 1 - along_;
-    // Where the line crosses the borders of the strips, in cells.
+    // The intersection of the line with the strip borders, in cells.
     const double factor = scale_[across] / line[across];
     const double drift = -line[along_] / scale_[along_] * factor;
     const double reach = std::abs(margin * factor);
@@ -58,7 +58,7 @@ class FeatureGrid {
   }
 
  private:
-  /// Cells of a side.
+  /// Cells per side.
   static constexpr int kCells = 64;
 
   static size_t clamped(double cell) {
@@ -73,11 +73,11 @@ class FeatureGrid {
   Eigen::AlignedBox2d box_;
   Eigen::Array2d scale_;
   std::vector<GridFeature> features_;
-  /// Where each cell begins, and the end of the last.
+  /// Start of each cell in `features_`, and the end of the last.
   std::vector<size_t> begins_;
 };
 
-/// Squared distances of the descriptors of features that lie near each other's epipolar line.
+/// Squared descriptor distances between features near each other's epipolar line.
 class EpipolarBand {
  public:
   EpipolarBand(const ck_features& first, const ck_features& second,
@@ -103,8 +103,8 @@ class EpipolarBand {
     for (int axis : {0, 1}) grids_.emplace_back(features, box, axis);
   }
 
-  /// Calls `visit(second, squared distance of the descriptors)` for the features whose Sampson
-  /// error with feature `i` is within the limit.
+  /// Calls `visit(second, squared descriptor distance)` for the features whose Sampson error with
+  /// feature `i` is within the limit.
   template <typename Visit>
   void visit(size_t i, Visit visit) const {
     const Eigen::Vector3d line =
@@ -129,9 +129,9 @@ class EpipolarBand {
   Matrix matrix_;
   double limit_;
   uint32_t (*distance_)(const uint8_t*, const uint8_t*);
-  /// The second photo's features for lines along x and along y; none where no feature takes part.
+  /// The second photo's features for lines along x and along y; empty if no feature is included.
   std::vector<FeatureGrid> grids_;
-  /// The largest slope of the second photo's features.
+  /// The largest `slope` of the second photo's features.
   double steepest_ = 0;
 };
 

@@ -40,7 +40,7 @@ NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* c
   const uint32_t row_norm = largest_norm(rows, row_count);
   const uint32_t column_norm = largest_norm(columns, column_count);
   const Scan scan = scan_with(chosen_instructions(wish));
-  // Packed keys hold distances of unit-length descriptors; others take the plain road.
+  // Packed keys hold distances of unit-length descriptors (norm 512); others use the portable code.
   const bool is_packable = row_norm + column_norm < kFar;
   for (size_t i = 0; i < row_count; i += kBlockRows) {
     step(control, static_cast<double>(i) / static_cast<double>(row_count));

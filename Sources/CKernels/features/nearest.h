@@ -11,12 +11,12 @@
 namespace ck {
 
 constexpr size_t kDescriptorLength = 128;
-/// Squared distances are below this; also the distance to a neighbour that doesn't exist.
+/// Upper bound of squared distances; also the distance to a missing neighbor.
 constexpr uint32_t kFar = 1u << 20;
-/// Bits of a packed key that hold an index; the rest hold the squared distance.
+/// Bits of a packed key for the index; the others hold the squared distance.
 constexpr int kIndexBits = 12;
 
-/// The two nearest neighbours of a descriptor by squared distance; ties go to the lower index.
+/// The two nearest neighbors of a descriptor by squared distance; ties go to the lower index.
 struct NearestTwo {
   uint32_t distance = kFar;
   uint32_t second = kFar;
@@ -33,7 +33,7 @@ struct NearestTwo {
   }
 };
 
-/// A rectangle of the table of distances between two sets of descriptors.
+/// A rectangular block of the distance matrix of two sets of descriptors.
 struct DistanceBlock {
   const uint8_t* rows;
   size_t row_begin, row_end;
@@ -47,24 +47,25 @@ struct DistanceBlock {
 };
 
 // Each offers every distance of the block to its row and to its column. The vector versions need at
-// least two and at most 2^12 rows, and at least two and at most 2^15 columns, and largest norms
-// that add to less than `kFar`. They fill up with rows and columns that are farther than all
-// others.
+// least two and at most 2^12 rows, at least two and at most 2^15 columns, and largest norms with a
+// sum below `kFar`. They pad with rows and columns that are farther than all others.
 void nearest_portable(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 void nearest_avx2(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 void nearest_avx512_vnni(const DistanceBlock& block, NearestTwo* by_row, NearestTwo* by_column);
 
-/// The nearest two among the others of every descriptor of two sets.
+/// The two nearest neighbors of every descriptor of two sets in the other set.
 struct NearestTable {
   std::vector<NearestTwo> by_row, by_column;
 };
 
-/// Writes the pairs that are each other's nearest and pass the ratio test both ways, the most
-/// distinctive first; returns how many. `pairs` has room for the smaller set's size.
+/// Writes the mutually nearest pairs that pass the ratio test in both directions, the most
+/// distinctive first; returns their number. `pairs` has room for as many pairs as the smaller set
+/// has descriptors.
 size_t write_mutual_matches(const NearestTable& table, double ratio, double maximum_distance,
                             int32_t* pairs);
 
-/// Compares all descriptors of two sets. Throws where the processor lacks the instructions.
+/// Compares all descriptors of two sets. Throws if the processor does not support the instruction
+/// set.
 NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* columns,
                          size_t column_count, ck_instructions wish, const ck_control* control);
 
@@ -76,7 +77,7 @@ uint32_t squared_distance_avx2(const uint8_t* a, const uint8_t* b);
 /// Squared length of a descriptor.
 uint32_t squared_norm(const uint8_t* descriptor);
 
-/// The two smallest keys seen by each lane of a vector.
+/// The two smallest keys per lane of a vector.
 template <size_t Lanes>
 struct alignas(4 * Lanes) LaneState {
   uint32_t best[Lanes], second[Lanes];
@@ -90,19 +91,19 @@ std::vector<LaneState<Lanes>> empty_states(size_t count) {
   return std::vector<LaneState<Lanes>>(count, empty);
 }
 
-/// Offers the packed (distance, index) pairs that one lane of a vector has kept.
+/// Offers the packed (distance, index) pairs kept by one lane of a vector.
 inline void offer_packed(NearestTwo& nearest, uint32_t best, uint32_t second, uint32_t first_index,
                          uint32_t index_step) {
   if (best != UINT32_MAX) {
     const uint32_t place = best & ((1u << kIndexBits) - 1);
     nearest.offer(best >> kIndexBits, first_index + place * index_step);
   }
-  // Its index doesn't matter: it can't be the best any more, or ties with it and comes later.
+  // Its index is irrelevant: it cannot be the nearest, or ties with it and comes later.
   if (second != UINT32_MAX) nearest.offer(second >> kIndexBits, UINT32_MAX);
 }
 
-/// Offers what all lanes have kept of a block. Lane l of a row's state has seen the columns l, l +
-/// Lanes and so on; lane l of the state i of the columns all rows of column i · Lanes + l.
+/// Offers the pairs kept by all lanes of a block. Lane l of a row's state has processed the columns
+/// l, l + Lanes and so on; lane l of column state i all rows of column i · Lanes + l.
 template <size_t Lanes>
 void offer_states(const DistanceBlock& block, const std::vector<LaneState<Lanes>>& row_states,
                   const std::vector<LaneState<Lanes>>& column_states, NearestTwo* by_row,

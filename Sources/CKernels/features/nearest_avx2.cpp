@@ -9,19 +9,19 @@
 namespace ck {
 namespace {
 
-constexpr size_t kLanes = 8;   // columns of a tile
-constexpr size_t kGroup = 4;   // rows handled together
-constexpr size_t kChunk = 64;  // rows whose state stays in the first-level cache
+constexpr size_t kLanes = 8;   // columns per tile
+constexpr size_t kGroup = 4;   // rows processed together
+constexpr size_t kChunk = 64;  // rows whose state fits into the first-level cache
 constexpr size_t kSteps = kDescriptorLength / 2;
 
-/// 16-bit words, since sums of two products of bytes overflow them; two words of four rows, or of
-/// eight columns, in turn.
+/// Descriptors as 16-bit words, because sums of two products of bytes overflow 16 bits; two words
+/// of four rows, or of eight columns, are interleaved.
 struct Panel {
   std::vector<int32_t> words;
   std::vector<uint32_t> term, term_with_index;
 };
 
-/// `padded` is a multiple of `interleave`; what is filled up is `far` away.
+/// `padded` is a multiple of `interleave`; the padding has distance `far`.
 Panel pack(const uint8_t* descriptors, size_t count, size_t padded, uint32_t far, size_t interleave,
            size_t index_divisor) {
   Panel panel{std::vector<int32_t>(padded * kSteps),

@@ -9,26 +9,26 @@
 namespace ck {
 namespace {
 
-constexpr size_t kLanes = 16;  // columns of a tile
-constexpr size_t kGroup = 8;   // rows handled together
-constexpr size_t kChunk = 64;  // rows whose state stays in the first-level cache
+constexpr size_t kLanes = 16;  // columns per tile
+constexpr size_t kGroup = 8;   // rows processed together
+constexpr size_t kChunk = 64;  // rows whose state fits into the first-level cache
 constexpr size_t kSteps = kDescriptorLength / 4;
 
-/// Rows as signed bytes, four bytes of eight rows in turn. With a signed row a − 128 the product
-/// instruction gives a·b − 128 Σb; the column's term makes up for it.
+/// Rows as signed bytes; four bytes of eight rows are interleaved. With a signed row a − 128 the
+/// dot product instruction yields a·b − 128 Σb; the column's term corrects for it.
 struct Rows {
   std::vector<int32_t> words;
   std::vector<uint32_t> term, term_with_index;
 };
 
 struct Columns {
-  std::vector<uint8_t> bytes;  // four bytes of sixteen columns in turn
+  std::vector<uint8_t> bytes;  // four bytes of sixteen columns, interleaved
   std::vector<uint32_t> term, term_with_index;
 };
 
 Rows pack_rows(const DistanceBlock& block) {
   const size_t padded = rounded_up(block.row_count(), kGroup);
-  // A row of zero bytes is −128 signed, and farther away than any norm.
+  // Padding rows are zero (−128 signed) and farther away than any norm.
   const uint32_t far = (kFar - 1 - block.column_norm) << kIndexBits;
   Rows rows{std::vector<int32_t>(padded * kSteps, static_cast<int32_t>(0x80808080)),
             std::vector<uint32_t>(padded, far), std::vector<uint32_t>(padded, far)};

@@ -7,7 +7,7 @@ namespace ck {
 uint32_t squared_distance(const uint8_t* a, const uint8_t* b) {
   int32_t sum = 0;
   for (size_t k = 0; k < kDescriptorLength; ++k) {
-    // 16 bits, so that compilers find the instruction that multiplies and adds pairs.
+    // 16 bits, so that compilers use the multiply-add instruction for pairs.
     const auto difference = static_cast<int16_t>(int16_t{a[k]} - int16_t{b[k]});
     sum += int32_t{difference} * int32_t{difference};
   }

@@ -14,9 +14,9 @@
 namespace ck {
 namespace {
 
-/// Descriptors that one unit of work assigns to words.
+/// Descriptors per unit of work.
 constexpr size_t kChunk = 4096;
-/// Vectors that are compared with all others together.
+/// Vectors per unit of work that are compared with all others.
 constexpr size_t kRankedRows = 32;
 
 /// The index of the nearest word of each descriptor.
@@ -32,7 +32,7 @@ std::vector<uint32_t> assign(const uint8_t* descriptors, size_t count, const uin
   return nearest;
 }
 
-/// `count` different numbers below `bound`, in order.
+/// `count` distinct random numbers below `bound`, in ascending order.
 std::vector<size_t> sample(size_t count, size_t bound, uint64_t seed) {
   std::vector<size_t> numbers(bound);
   std::iota(numbers.begin(), numbers.end(), size_t{0});
@@ -43,7 +43,7 @@ std::vector<size_t> sample(size_t count, size_t bound, uint64_t seed) {
   return numbers;
 }
 
-/// Moves each word to the mean of its descriptors; words without any stay.
+/// Updates each word to the mean of its descriptors; words without descriptors do not change.
 void move_words(const uint8_t* descriptors, const std::vector<uint32_t>& nearest, uint8_t* words,
                 size_t word_count) {
   std::vector<uint64_t> sums(word_count * kDescriptorLength);
@@ -112,7 +112,7 @@ ck_status ck_encode_vlad(const uint8_t* descriptors, size_t count, const uint8_t
       const uint8_t* descriptor = descriptors + i * kLength;
       const uint8_t* word = words + nearest[i] * kLength;
       float* sum = vector + nearest[i] * kLength;
-      // Whole numbers, exact as floats.
+      // Integers that floats represent exactly.
       for (size_t k = 0; k < kLength; ++k) sum[k] += static_cast<float>(descriptor[k] - word[k]);
     }
     for (size_t w = 0; w < word_count; ++w) ck::scale_to_unit_length(vector + w * kLength, kLength);
@@ -124,7 +124,8 @@ ck_status ck_most_similar(const float* vectors, size_t count, size_t length, siz
                           const ck_control* control, int32_t* indices, float* similarities) {
   return ck::guarded([&] {
     ck::require(vectors && indices && similarities, "an argument is missing");
-    ck::require(length > 0 && neighbor_count < count, "there are not as many vectors");
+    ck::require(length > 0 && neighbor_count < count,
+                "neighbor_count must be less than the number of vectors");
     using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const Rows> all(vectors, static_cast<Eigen::Index>(count),
                                      static_cast<Eigen::Index>(length));

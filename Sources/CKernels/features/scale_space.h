@@ -15,36 +15,36 @@
 
 namespace ck::sift {
 
-/// A photo as the caller stores it: 8-bit, 1, 3 or 4 channels.
+/// The caller's photo: 8-bit with 1, 3 or 4 channels.
 struct Photo {
   const uint8_t* pixels;
   int width, height, channels;
   size_t stride;
 };
 
-/// What is an extremum worth keeping, and how the scales are sampled.
+/// Acceptance thresholds of extrema and sampling of the scales.
 struct Search {
-  /// Scale samples of one octave.
+  /// Number of scale samples per octave.
   int layers;
-  /// Blur of the first level of an octave, in pixels of the octave.
+  /// Blur σ of the first level of an octave, in pixels of the octave.
   float sigma;
-  /// Least difference of Gaussians at an extremum, in grey levels (0…255).
+  /// Smallest absolute difference of Gaussians at an extremum, in gray levels (0…255).
   float threshold;
   /// Lowe's limit on the ratio of principal curvatures.
   float edge_threshold;
 };
 
-/// An extremum of the difference of Gaussians, in pixels of its octave. The origin is the centre of
+/// An extremum of the difference of Gaussians, in pixels of its octave. The origin is the center of
 /// the first pixel.
 struct Extremum {
   float x, y, sigma;
-  /// Absolute value there, in grey levels.
+  /// Absolute difference of Gaussians there, in gray levels.
   float response;
-  /// The level to describe it from, and its octave; both from 0.
+  /// The level for orientation and description, and the octave; both from 0.
   int level, octave;
 };
 
-/// Memory that isn't filled. Large blocks ask for large pages, which are many times cheaper to get.
+/// Uninitialized memory. Large blocks request huge pages, which are many times cheaper to allocate.
 class Block {
  public:
   Block() = default;
@@ -72,14 +72,14 @@ class Block {
   std::unique_ptr<void, Free> memory_;
 };
 
-/// What is kept of an octave: the levels that features are described from, in grey levels × 256.
+/// The levels of an octave from which features are described, in gray levels × 256.
 struct Octave {
   int width = 0, height = 0;
   size_t stride = 0;
   std::vector<Block> levels;
 };
 
-/// Rows of floats. Holds the last `height` rows written, or all.
+/// A ring buffer of the last `height` rows of floats written, or all rows.
 struct Rows {
   std::vector<float> values;
   size_t stride = 0;
@@ -96,46 +96,46 @@ struct Rows {
     return values.data() + static_cast<size_t>(y % height) * stride;
   }
 
-  /// Whole vectors, one more to read ahead, and an odd number of cache lines, so that the rows
-  /// above each other don't fall on the same cache sets.
+  /// Whole vectors, one more for reading ahead, and an odd number of cache lines, so that adjacent
+  /// rows do not map to the same cache sets.
   static size_t row_stride(int width) {
     return (((static_cast<size_t>(width) + 15) / 16 + 1) | 1) * 16;
   }
 };
 
-/// Where the first level of an octave comes from: a photo, or the octave before.
+/// The source of the first level of an octave: a photo, or the previous octave.
 struct OctaveInput {
-  /// Null for all but the first octave.
+  /// Null except for the first octave.
   const Photo* photo = nullptr;
   bool is_doubled = false;
-  /// All rows of the first level, where there is no photo.
+  /// All rows of the first level, if there is no photo.
   Rows* rows = nullptr;
   int width = 0, height = 0, index = 0;
 };
 
-/// The loops that are compiled for each instruction set.
+/// The inner loops, compiled for each instruction set.
 struct Kernels {
   /// Appends the extrema of an octave. Fills `octave`, and `next` with the first level of the next
   /// octave, which has half the width and height (rounded down).
   void (*search)(const OctaveInput& input, const Search& search, Octave& octave, Rows& next,
                  std::vector<Extremum>& found);
-  /// The directions of the gradient around an extremum, in radians 0…2π from x to y, the strongest
-  /// first. Returns how many: at least one, at most `kMaximumOrientations`.
+  /// Computes the dominant gradient directions around an extremum, in radians 0…2π from x to y, the
+  /// strongest first. Returns their number: at least one, at most `kMaximumOrientations`.
   int (*orient)(const Octave& octave, const Extremum& extremum, float* orientations);
-  /// The root-SIFT bytes of an extremum, seen along the orientation.
+  /// Computes the root-SIFT bytes of an extremum relative to the orientation.
   void (*describe)(const Octave& octave, const Extremum& extremum, float orientation,
                    uint8_t* descriptor);
 };
 
 constexpr int kMaximumOrientations = 4;
-/// Octaves are searched down to this width and height.
+/// Smallest width and height of an octave.
 constexpr int kSmallestOctave = 16;
 
 const Kernels& portable_kernels();
 const Kernels& avx2_kernels();
 const Kernels& avx512_kernels();
 
-/// Throws where the processor lacks the instructions.
+/// The kernels of an instruction set. Throws if the processor does not support it.
 const Kernels& kernels(ck_instructions instructions);
 
 }  // namespace ck::sift

@@ -1,6 +1,6 @@
 // The scale space of an octave and its extrema, included once for each instruction set after
-// `lane_bits` is defined. Nothing but what descriptors need is ever held for the whole octave: the
-// levels and their differences roll by row, each level just far enough ahead of the next.
+// `lane_bits` is defined. Only what descriptors need is stored for the whole octave: the levels and
+// their differences are ring buffers of rows, each level just far enough ahead of the next.
 
 namespace ck::sift {
 namespace {
@@ -21,8 +21,9 @@ CK_INLINE int mirrored(int i, int count) {
   return i;
 }
 
-// ---- Grey rows of the photo -----------------------------------------------------------------
+// ---- Gray rows of the photo -----------------------------------------------------------------
 
+/// Converts a row of the photo to gray.
 void gray_row(const Photo& photo, int y, float* out) {
   const uint8_t* p = photo.pixels + static_cast<size_t>(y) * photo.stride;
   if (photo.channels == 1) {
@@ -38,7 +39,8 @@ void gray_row(const Photo& photo, int y, float* out) {
   }
 }
 
-/// Doubles a row linearly about pixel centres; `in[-1]` and `in[width]` are overwritten.
+/// Upsamples a row by 2 with linear interpolation at pixel centers; `in[-1]` and `in[width]` are
+/// overwritten.
 void doubled_row(float* in, int width, float* out) {
   in[-1] = in[0];
   in[width] = in[width - 1];
@@ -48,11 +50,11 @@ void doubled_row(float* in, int width, float* out) {
   }
 }
 
-/// The rows of a photo from top to bottom, doubled where wanted.
+/// The rows of a photo from top to bottom, optionally upsampled by 2.
 struct PhotoRows {
   const Photo& photo;
   bool is_doubled;
-  Rows wide;  // the last rows, doubled along x
+  Rows wide;  // the last rows, upsampled along x
   std::vector<float> gray;
   int done = 0;
 
@@ -81,12 +83,12 @@ struct PhotoRows {
 
 /// Rows that are blurred together.
 constexpr int kGroup = 4;
-/// Columns around a row that the blur along x reads.
+/// Padding of a row in columns for the blur along x.
 constexpr int kMargin = 64;
 
 struct Gaussian {
   int radius = 0;
-  /// From the centre outwards.
+  /// From the center outwards.
   std::vector<float> taps;
 
   Gaussian() = default;
@@ -100,8 +102,8 @@ struct Gaussian {
   }
 };
 
-/// Blurs along y: four rows from the 2 · radius + 4 rows around them. `known` is the radius where
-/// the compiler may unroll for it, or 0.
+/// Blurs along y: four rows from the 2 · radius + 4 rows around them. `known` is the radius if the
+/// compiler can unroll for it, otherwise 0.
 template <int known>
 void blur_columns(const float* const* rows, const Gaussian& gaussian, int width,
                   float* const* out) {
@@ -140,7 +142,7 @@ void blur_columns(const float* const* rows, const Gaussian& gaussian, int width,
   }
 }
 
-/// Blurs along x. Reads `radius` values on both sides of the row.
+/// Blurs along x. Reads `radius` values on both sides of the position.
 CK_INLINE F16 blurred(const float* p, const float* taps, int radius) {
   F16 sum = load(p) * taps[0];
   for (int i = 1; i <= radius; ++i) sum += (load(p - i) + load(p + i)) * taps[i];
@@ -154,7 +156,8 @@ void mirror_ends(float* row, int width, int radius) {
   }
 }
 
-/// Where a blurred row goes, besides to the level itself.
+/// Destinations of a blurred row: the level itself, the difference to the previous level, and the
+/// copy for descriptors.
 struct RowOutputs {
   float* level;
   const float* previous = nullptr;
@@ -189,7 +192,7 @@ constexpr Blur blur_of() {
   return {blur_columns<known>, blur_row<known>};
 }
 
-/// The radii of three scales an octave from a first blur of 1.6 are unrolled.
+/// The radii for three scales per octave and an initial σ of 1.6 are unrolled.
 Blur blur_of_radius(int radius) {
   switch (radius) {
     case 4:
@@ -209,14 +212,14 @@ Blur blur_of_radius(int radius) {
 
 /// Value, gradient and second derivatives along x, y and scale.
 ///
-/// The place and the scale are solved for apart. Around a spot the difference of Gaussians is about
-/// a function of the place times one of the scale: the place of the extremum is the same at every
-/// scale, while a joint solution, which knows the change of the gradient with scale but not that of
-/// the curvature, would be wrong by up to a tenth of the offset.
+/// Position and scale are solved for separately. Around a blob the difference of Gaussians is
+/// approximately a function of position times one of scale: the extremum has the same position at
+/// every scale, whereas a joint solution, which includes the change of the gradient with scale but
+/// not that of the curvature, would be wrong by up to a tenth of the offset.
 struct Quadratic {
   double value, gx, gy, gs, xx, yy, ss, xy;
 
-  /// The offset of the extremum; false where there is none.
+  /// Computes the offset of the extremum; false if there is none.
   bool solve(double* offset) const {
     const double determinant = xx * yy - xy * xy;
     if (determinant <= 0 || std::abs(ss) < 1e-9) return false;
@@ -248,7 +251,7 @@ CK_INLINE bool is_edge(const Quadratic& q, double limit) {
 
 // ---- One octave -----------------------------------------------------------------------------
 
-/// Extrema closer to the border than this are not looked for.
+/// Distance from the border in pixels within which extrema are ignored.
 constexpr int kBorder = 5;
 /// Rows above and below an extremum that its refinement may read.
 constexpr int kReach = 3;
@@ -265,7 +268,7 @@ class OctaveSearch {
     Gaussian from_previous;
     Rows rows;
     int done = 0;
-    /// Index in Lowe's sense; −1 for the raw photo.
+    /// Index within the octave as in Lowe's paper; −1 for the raw photo.
     int index = 0;
   };
 
@@ -318,7 +321,7 @@ void OctaveSearch::make_levels() {
   const double sigma = search_.sigma, step = std::exp2(1.0 / search_.layers);
   if (input_.photo) {
     photo_ = std::make_unique<PhotoRows>(*input_.photo, input_.is_doubled);
-    // Half a pixel of blur is in the photo; doubling makes it a whole one.
+    // The photo is assumed to have a blur of σ = 0.5 pixels; upsampling doubles it.
     const double blur = input_.is_doubled ? 1.0 : 0.5;
     levels_.emplace_back();
     levels_.back().index = -1;
@@ -392,7 +395,7 @@ void OctaveSearch::blur_group(Level& level, Level& previous) {
   }
 }
 
-/// Makes the first rows of a level, and those of the levels before that it needs.
+/// Computes the first rows of a level, and those of previous levels that it needs.
 void OctaveSearch::advance(size_t index, int row_count) {
   Level& level = levels_[index];
   while (level.done < std::min(row_count, height_)) {
@@ -418,7 +421,7 @@ void OctaveSearch::scan_row(int y) {
   for (int layer = 1; layer <= search_.layers; ++layer) scan_layer(layer, y);
 }
 
-/// Sixteen values under the signs `sign`.
+/// Sixteen values with their signs flipped by `sign`.
 CK_INLINE F16 signed_value(const float* p, const I16& sign) {
   I16 bits;
   __builtin_memcpy(&bits, p, sizeof bits);
@@ -430,7 +433,7 @@ CK_INLINE F16 signed_value(const float* p, const I16& sign) {
 
 CK_INLINE F16 larger(const F16& a, const F16& b) { return __builtin_elementwise_max(a, b); }
 
-/// The larger of each and of its left and right neighbour.
+/// The maximum of each value and its left and right neighbors.
 CK_INLINE F16 largest_of_row(const float* p, const I16& sign) {
   return larger(larger(signed_value(p - 1, sign), signed_value(p, sign)),
                 signed_value(p + 1, sign));
@@ -441,12 +444,12 @@ CK_INLINE F16 largest_of_plane(const Rows& rows, int x, int y, const I16& sign) 
                 largest_of_row(rows[y + 1] + x, sign));
 }
 
-/// Extrema among their 26 neighbours. Of equal neighbours the first counts as the extremum, in the
-/// order of rows, columns and layers, so that a symmetric spot is found once.
+/// Finds extrema among their 26 neighbors. Of equal neighbors the first counts as the extremum, in
+/// the order of rows, columns and layers, so that a symmetric blob is found once.
 void OctaveSearch::scan_layer(int layer, int y) {
   const Rows& plane = differences_[layer];
   const float *above = plane[y - 1], *row = plane[y], *below = plane[y + 1];
-  // The value between the pixels is larger, by much less than this factor.
+  // The interpolated value is larger, but by much less than this factor.
   const float threshold = 0.6f * search_.threshold;
   const int end = width_ - kBorder;
   for (int x = kBorder; x < end; x += 16) {
@@ -471,10 +474,10 @@ void OctaveSearch::scan_layer(int layer, int y) {
   }
 }
 
-/// −1, 0 or 1: to the neighbour that is clearly nearer to the extremum.
+/// −1, 0 or 1: step to a neighbor that is clearly nearer to the extremum.
 CK_INLINE int step_towards(double offset) { return offset > 0.6 ? 1 : offset < -0.6 ? -1 : 0; }
 
-/// Fits a quadratic, moves to where its extremum is, and keeps it if it is strong and no edge.
+/// Fits a quadratic, moves to its extremum, and keeps it if it is strong and not on an edge.
 bool OctaveSearch::refine(int layer, int x, int y) {
   const int first_row = y;
   for (int iteration = 0; iteration < 5; ++iteration) {
@@ -486,7 +489,7 @@ bool OctaveSearch::refine(int layer, int x, int y) {
     double o[3];
     if (!q.solve(o)) return false;
     const int dx = step_towards(o[0]), dy = step_towards(o[1]);
-    // Beyond the first and last layer the octaves before and after may miss it too.
+    // Clamped, because the adjacent octaves may miss extrema beyond the first and last layer.
     const int next_layer = std::clamp(layer + step_towards(o[2]), 1, search_.layers);
     if ((dx == 0 && dy == 0 && next_layer == layer) || iteration == 4) {
       return keep(q, o, layer, x, y);

@@ -7,7 +7,7 @@
 namespace ck {
 namespace {
 
-/// Indices from strong to weak, ties by index.
+/// Indices by descending response, ties by index.
 std::vector<size_t> by_response(const std::vector<Candidate>& candidates) {
   std::vector<size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), size_t{0});
@@ -20,7 +20,7 @@ std::vector<size_t> by_response(const std::vector<Candidate>& candidates) {
   return order;
 }
 
-/// Cuts what is below the threshold, which falls until enough is left.
+/// Removes features below the threshold, which is lowered until enough are left.
 void apply_threshold(std::vector<size_t>& order, const std::vector<Candidate>& candidates,
                      const Selection& selection) {
   size_t count = selection.sufficient;
@@ -30,7 +30,7 @@ void apply_threshold(std::vector<size_t>& order, const std::vector<Candidate>& c
   order.resize(std::min(order.size(), count));
 }
 
-/// The rank of each of `order` within its cell.
+/// The rank of each element of `order` within its cell.
 std::vector<size_t> ranks_in_cells(const std::vector<size_t>& order,
                                    const std::vector<Candidate>& candidates, int width, int height,
                                    int cells) {
@@ -58,7 +58,7 @@ std::vector<size_t> select_features(const std::vector<Candidate>& candidates, in
     const auto ranks = ranks_in_cells(order, candidates, width, height, selection.cells);
     std::vector<size_t> places(order.size());
     std::iota(places.begin(), places.end(), size_t{0});
-    // Within a rank the order by response stays.
+    // Within a rank the order by response is kept.
     std::sort(places.begin(), places.end(), [&](size_t a, size_t b) {
       return ranks[a] != ranks[b] ? ranks[a] < ranks[b] : a < b;
     });

@@ -5,27 +5,26 @@
 
 namespace ck {
 
-/// What the selection needs to know about a feature.
+/// A feature as input of the selection.
 struct Candidate {
   float x, y;
-  /// Contrast in the units of the threshold.
+  /// Contrast in units of the threshold.
   float response;
 };
 
-/// How features are selected.
+/// Options of feature selection.
 struct Selection {
   size_t maximum = 0;
-  /// The threshold falls until this many are found.
+  /// The threshold is lowered until this many features are found.
   size_t sufficient = 0;
-  /// Where the threshold starts.
+  /// Initial threshold.
   float high_threshold = 0;
-  /// Cells along the longer side.
+  /// Number of grid cells along the longer side.
   int cells = 1;
 };
 
-/// The indices of the features to keep, ascending: those above a threshold that adapts to the
-/// photo, of these the strongest of each cell of a grid, so that one textured corner can't take
-/// all.
+/// The indices of the features to keep, ascending: those above an adaptive threshold, and of these
+/// the strongest of each cell of a grid, so that a textured corner does not take all.
 std::vector<size_t> select_features(const std::vector<Candidate>& candidates, int width, int height,
                                     const Selection& selection);
 

@@ -10,17 +10,17 @@
 namespace ck::sift {
 namespace {
 
-/// All octaves of a photo and the extrema in them.
+/// All octaves of a photo and their extrema.
 struct ScaleSpace {
   std::vector<Octave> octaves;
   std::vector<Extremum> extrema;
-  /// Pixels of the photo in a pixel of the first octave.
+  /// Side of a pixel of the first octave in pixels of the photo.
   float first_pixel = 1;
 
   float pixel(int octave) const { return first_pixel * std::exp2(static_cast<float>(octave)); }
 
-  /// Along one axis in the photo, origin at the corner. A pixel of an octave lies on every second
-  /// of the octave before, so that all first pixels share their centre.
+  /// Position along one axis in the photo, origin at the corner. Each octave takes every second
+  /// pixel of the previous one, so the first pixels of all octaves share their center.
   float position(float along, int octave) const {
     return along * pixel(octave) + 0.5f * first_pixel;
   }
@@ -75,7 +75,7 @@ std::vector<Extremum> selected(const ScaleSpace& space, const Photo& photo,
 }
 
 struct Feature {
-  /// In the photo.
+  /// In pixels of the photo, and radians.
   float x, y, sigma, orientation;
   Extremum extremum;
 };
@@ -88,8 +88,8 @@ bool larger_scale_first(const Feature& a, const Feature& b) {
   return a.orientation < b.orientation;
 }
 
-/// One feature for each orientation. Where there are too many, all have their strongest one, and
-/// the extrema of the highest contrast their others.
+/// One feature per orientation. If there are too many, each extremum keeps its strongest one, and
+/// those with the highest contrast keep the others.
 std::vector<Feature> oriented(const ScaleSpace& space, const std::vector<Extremum>& extrema,
                               size_t maximum, const Kernels& kernels) {
   std::vector<Feature> features, others;
@@ -123,7 +123,7 @@ void write_color(const Photo& photo, float x, float y, uint8_t* color) {
   for (int c = 0; c < 3; ++c) color[c] = pixel[photo.channels >= 3 ? c : 0];
 }
 
-/// Two searches that end at the same extremum are one.
+/// Removes duplicates: two refinements may converge to the same extremum.
 void remove_repetitions(std::vector<Extremum>& extrema) {
   const auto before = [](const Extremum& a, const Extremum& b) {
     if (a.octave != b.octave) return a.octave < b.octave;
@@ -138,7 +138,7 @@ void remove_repetitions(std::vector<Extremum>& extrema) {
   extrema.erase(std::unique(extrema.begin(), extrema.end(), same), extrema.end());
 }
 
-/// Before the selection, so that what is left out takes no room.
+/// Removes masked extrema before the selection, so that they do not count toward its limit.
 void remove_masked(ScaleSpace& space, const Photo& photo, const uint8_t* mask) {
   const auto is_masked = [&](const Extremum& e) {
     const int column = static_cast<int>(space.position(e.x, e.octave));
@@ -160,7 +160,7 @@ void validate(const Photo& photo, const ck_sift_options& options) {
               options.octave_layers <= 8 && options.grid_cells > 0 && options.sigma >= 0.6 &&
               options.sigma <= 4 && (options.first_octave == -1 || options.first_octave == 0),
           "an option is out of range");
-  // Pixels of an octave are numbered by 32 bits.
+  // Pixels of an octave are indexed by 32 bits.
   require(static_cast<int64_t>(photo.width) * photo.height < 400'000'000, "the photo is too large");
 }
 

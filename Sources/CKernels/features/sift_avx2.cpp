@@ -20,7 +20,7 @@ inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
          static_cast<uint32_t>(_mm256_movemask_ps(halves[1])) << 8;
 }
 
-/// Each pixel with its neighbour to the right.
+/// Gathers each pixel together with its right neighbor.
 inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base,
                                                   const I16& index) {
   const int* words = reinterpret_cast<const int*>(base);

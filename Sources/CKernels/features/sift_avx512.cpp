@@ -20,7 +20,7 @@ inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
   return _mm512_movepi32_mask(word);
 }
 
-/// Each pixel with its neighbour to the right.
+/// Gathers each pixel together with its right neighbor.
 inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base,
                                                   const I16& index) {
   __m512i lanes;

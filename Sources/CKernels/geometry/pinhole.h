@@ -9,7 +9,7 @@
 
 namespace ck::texture {
 
-/// A view as a 3 × 4 projection: homogeneous pixels are affine in the world.
+/// A view as a 3 × 4 projection matrix: homogeneous pixel coordinates are affine in the world.
 struct Projection {
   double rows[3][4];
   Vec3 center;
@@ -28,7 +28,7 @@ struct Projection {
               static_cast<float>(-(r[2] * t[0] + r[5] * t[1] + r[8] * t[2]))};
   }
 
-  /// x, y in pixels times depth, and depth.
+  /// x and y in pixels times depth, and depth.
   Vec3 homogeneous(Vec3 p) const {
     const auto row = [&](int i) {
       return static_cast<float>(rows[i][0] * p.x + rows[i][1] * p.y + rows[i][2] * p.z +
@@ -38,7 +38,7 @@ struct Projection {
   }
 };
 
-/// Colour at a pixel position (centres at .5), bilinear, the rim continued.
+/// Bilinear color at a pixel position (pixel centers at .5); the border is repeated.
 inline Vec3 sample_rgb(const uint8_t* rgb, int width, int height, float x, float y) {
   x = std::clamp(x - 0.5f, 0.0f, static_cast<float>(width - 1));
   y = std::clamp(y - 0.5f, 0.0f, static_cast<float>(height - 1));

@@ -36,7 +36,7 @@ void copy_geometry(ck_ray_scene& scene, const float* positions, size_t position_
   for (size_t i = 0; i < position_count; ++i) {
     const Vec3 p = vec_at(positions, stride, i);
     require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
-            "a mesh has a vertex that is not finite");
+            "a mesh vertex is not finite");
     if (i == 0) low = high = p;
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
@@ -47,7 +47,8 @@ void copy_geometry(ck_ray_scene& scene, const float* positions, size_t position_
   scene.face_normals.resize(triangle_count);
   for (size_t t = 0; t < triangle_count; ++t) {
     for (size_t i = 0; i < 3; ++i) {
-      require(triangles[3 * t + i] < position_count, "a triangle names a vertex that isn't there");
+      require(triangles[3 * t + i] < position_count,
+              "a triangle refers to a vertex that does not exist");
       scene.triangles[t][i] = triangles[3 * t + i];
     }
     const Vec3 a = scene.corner(t, 0);
@@ -56,16 +57,16 @@ void copy_geometry(ck_ray_scene& scene, const float* positions, size_t position_
 }
 
 void build(ck_ray_scene& scene) {
-  // One thread builds the same hierarchy every time.
+  // With one thread the hierarchy is the same in every run.
   scene.device = rtcNewDevice("threads=1,set_affinity=0");
   if (!scene.device && rtcGetDeviceError(nullptr) == RTC_ERROR_UNSUPPORTED_CPU) {
-    throw std::runtime_error("embree can't be started on this processor");
+    throw std::runtime_error("Embree does not support this processor");
   }
   if (!scene.device) throw std::bad_alloc();
   scene.scene = rtcNewScene(scene.device);
   rtcSetSceneFlags(scene.scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(scene.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  // Embree reads 16 bytes at a position, so it gets its own padded copy.
+  // Embree reads 16 bytes per position, so it gets a padded copy.
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, sizeof(Vec3),
                                                                scene.positions.size()));
@@ -86,7 +87,7 @@ void build(ck_ray_scene& scene) {
   const RTCError error = rtcGetDeviceError(scene.device);
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   if (error != RTC_ERROR_NONE) {
-    throw std::runtime_error("embree could not build the ray casting structure");
+    throw std::runtime_error("Embree could not build the ray casting structure");
   }
 }
 
@@ -119,7 +120,7 @@ ck_status ck_ray_scene_create(const float* positions, size_t position_count, siz
                               const uint32_t* triangles, size_t triangle_count,
                               const ck_control* control, ck_ray_scene** scene) {
   return ck::guarded([&] {
-    ck::require(scene != nullptr, "no place for the scene");
+    ck::require(scene != nullptr, "null pointer");
     *scene = nullptr;
     ck::require(position_count > 0 && triangle_count > 0, "the mesh has no triangles");
     ck::step(control, 0);

@@ -9,7 +9,7 @@
 #include "ck_texture.h"
 #include "geometry/vec.h"
 
-/// A surface with its bounding volume hierarchy.
+/// A triangle mesh with its bounding volume hierarchy.
 struct ck_ray_scene {
   std::vector<ck::texture::Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;
@@ -35,7 +35,7 @@ struct ck_ray_scene {
 
 namespace ck::texture {
 
-/// Where a ray meets the surface.
+/// Intersection of a ray with the surface.
 struct Hit {
   float distance = 0;
   uint32_t triangle = 0;
@@ -43,10 +43,10 @@ struct Hit {
   float u = 0, v = 0;
 };
 
-/// Whether anything lies on the ray between `near` and `far` times `direction`.
+/// Whether the ray hits the surface between `near` and `far` times `direction`.
 bool is_occluded(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float near, float far);
 
-/// The first thing on the ray before `far` times `direction`.
+/// The first intersection between `near` and `far` times `direction`; false if there is none.
 bool intersect(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float near, float far,
                Hit* hit);
 

@@ -5,7 +5,7 @@
 
 namespace ck::texture {
 
-/// Three floats with the arithmetic that the texture kernels need.
+/// Three floats with vector arithmetic.
 struct Vec3 {
   float x = 0, y = 0, z = 0;
 
@@ -22,13 +22,13 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 }
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
-/// Unit length; the zero vector stays zero.
+/// Scales to unit length; the zero vector stays zero.
 inline Vec3 normalized(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a * (1 / l) : a;
 }
 
-/// The vector at `index` of floats that repeat every `stride` bytes.
+/// Element `index` of vectors stored every `stride` bytes.
 inline Vec3 vec_at(const float* base, size_t stride, size_t index) {
   const auto* p =
       reinterpret_cast<const float*>(reinterpret_cast<const char*>(base) + stride * index);
@@ -45,7 +45,7 @@ struct Vec2 {
 
 inline float cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
-/// Two unit vectors that make a right-handed frame with the unit vector `n` as third.
+/// Two unit vectors that form a right-handed orthonormal frame with the unit vector `n` as third.
 inline void frame_around(Vec3 n, Vec3* u, Vec3* v) {
   const Vec3 helper = std::fabs(n.y) < 0.9f ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
   *u = normalized(cross(helper, n));

@@ -33,7 +33,7 @@ BlockCholesky::BlockCholesky(size_t size, std::vector<std::pair<int32_t, int32_t
     for (size_t k = 0; k < rows_[column].size(); ++k) {
       Place place;
       place.is_diagonal = k == 0;
-      // Column c of the diagonal block holds 3 − c values, what is below comes after.
+      // Column c of the diagonal block holds 3 − c values, the blocks below follow.
       for (int c = 0; c < 3; ++c) {
         place.starts[c] = starts[3 * column + size_t(c)] + (k == 0 ? 0 : 3 * int(k) - c);
       }

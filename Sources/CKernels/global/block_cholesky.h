@@ -7,30 +7,32 @@
 
 namespace ck {
 
-/// A symmetric positive definite matrix of 3×3 blocks, of which many are zero, and its factor.
+/// A sparse symmetric positive definite matrix of 3×3 blocks, and its factorization.
 ///
-/// The lower triangle is stored column by column; which blocks there are never changes.
+/// The lower triangle is stored column by column; the sparsity pattern is fixed.
 class BlockCholesky {
  public:
-  /// `blocks` are the places (row ≥ column) of the blocks, in any order, doubles allowed; every
-  /// block of the diagonal is there anyway.
+  /// `blocks` are the positions (row ≥ column) of the nonzero blocks, in any order, with duplicates
+  /// permitted; diagonal blocks are always included.
   BlockCholesky(size_t size, std::vector<std::pair<int32_t, int32_t>> blocks);
 
-  /// The number of a block for `add`.
+  /// The index of a block for `add`.
   size_t slot(int32_t row, int32_t column) const;
 
+  /// Sets all values to 0.
   void clear();
 
-  /// Adds to a block; of those of the diagonal the lower triangle counts.
+  /// Adds to a block; of a diagonal block only the lower triangle is used.
   void add(size_t slot, const Eigen::Matrix3d& block);
 
-  /// False where the matrix isn't positive definite.
+  /// Factorizes the matrix; false if it is not positive definite.
   bool factorise();
 
+  /// Solves for a right-hand side with the last factorization.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
-  /// Where the three columns of a block begin in the values.
+  /// Start of the three columns of a block in the values.
   struct Place {
     int starts[3];
     bool is_diagonal;

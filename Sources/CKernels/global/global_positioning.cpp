@@ -12,14 +12,14 @@
 namespace ck {
 namespace {
 
-/// Centres, points and factors: what is sought.
+/// The unknowns: camera centers, points and one factor per direction.
 struct Places {
   std::vector<Vector3> centers, points;
   std::vector<double> factors;
 };
 
-/// Levenberg and Marquardt's method on all of it. Factors are eliminated first, each on its own,
-/// then points; what is left is a system of the cameras.
+/// Levenberg–Marquardt on all unknowns. Factors are eliminated first, each independently, then
+/// points (Schur complement); the remaining system contains the cameras only.
 class Positioning {
  public:
   Positioning(Places places, const ck_direction* directions, size_t count,
@@ -69,7 +69,8 @@ class Positioning {
   const Places& places() const { return places_; }
 
  private:
-  /// What one direction adds to the normal equations of y = X − c, its factor eliminated.
+  /// Contribution of one direction to the normal equations of y = X − c, with its factor
+  /// eliminated.
   struct Term {
     Eigen::Matrix3d matrix;
     Vector3 right;
@@ -122,7 +123,7 @@ class Positioning {
     return sum / 2;
   }
 
-  /// The weighted residuals and offsets at the present places.
+  /// Computes residuals, offsets and robust weights at the current unknowns.
   void linearise() {
     residuals_.resize(count_);
     offsets_.resize(count_);
@@ -139,7 +140,7 @@ class Positioning {
     return diagonal + damping * std::clamp(diagonal, 1e-6, 1e32);
   }
 
-  /// One damped Gauss–Newton step. `expected` receives the decrease of the cost that it promises.
+  /// One damped Gauss–Newton step. `expected` receives the predicted decrease of the cost.
   bool advance(double damping, Places& next, double& expected) {
     eliminate_factors(damping);
     std::vector<Eigen::Matrix3d> inverses(places_.points.size(), Eigen::Matrix3d::Zero());
@@ -167,7 +168,7 @@ class Positioning {
     return true;
   }
 
-  /// Sets the factor that fits the moved camera and point; returns the promised decrease.
+  /// Sets the factor for the moved camera and point; returns the predicted decrease.
   double move_factor(size_t k, double damping, Places& next) const {
     const Vector3 move = offset(next, k) - offsets_[k];
     const Vector3& y = offsets_[k];
@@ -188,7 +189,7 @@ class Positioning {
     }
   }
 
-  /// Sums up the system of the cameras, the points eliminated.
+  /// Assembles the system of the cameras, with the points eliminated.
   void assemble(double damping, std::vector<Eigen::Matrix3d>& inverses,
                 std::vector<Vector3>& point_rights, Eigen::VectorXd& right) {
     system_.clear();
@@ -223,7 +224,7 @@ class Positioning {
     }
   }
 
-  /// The part of two directions of one point in the system of the cameras.
+  /// Adds the contribution of two directions of one point to the system of the cameras.
   void add_pair(size_t a, size_t b, size_t slot, const Eigen::Matrix3d& weighted) {
     const Eigen::Matrix3d block = -(weighted * terms_[b].matrix);
     if (a == b) {
@@ -258,7 +259,7 @@ Places read(const double* centers, size_t photo_count, const double* points, siz
     const ck_direction& d = directions[k];
     require(d.photo >= 0 && size_t(d.photo) < photo_count && d.point >= 0 &&
                 size_t(d.point) < point_count && (k == 0 || d.point >= directions[k - 1].point),
-            "a direction names a photo or point that isn't there");
+            "a direction refers to a missing photo or point, or is not grouped by point");
   }
   places.factors.assign(direction_count, 1);
   return places;

@@ -10,16 +10,16 @@
 namespace ck {
 namespace {
 
-/// The shortest rotation vector of a quaternion.
+/// The shortest rotation vector of a quaternion (logarithmic map), in radians.
 Vector3 logarithm(Eigen::Quaterniond q) {
   if (q.w() < 0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
   return sine > 1e-12 ? Vector3(q.vec() * (2 * std::atan2(sine, q.w()) / sine)) : 2 * q.vec();
 }
 
-/// Rotations and the graph between them. A change ω_i of a rotation acts from the right, in the
-/// world, so that to first order ω_second − ω_first is the pair's error: one Laplacian for all
-/// axes.
+/// Rotations and the graph of pairs. An update ω_i of a rotation acts from the right, in the world
+/// frame, so that to first order ω_second − ω_first is the pair's error: one graph Laplacian for
+/// all axes.
 class RotationGraph {
  public:
   RotationGraph(const double* rotations, size_t photo_count, const ck_relative_rotation* pairs,
@@ -33,7 +33,7 @@ class RotationGraph {
       const ck_relative_rotation& p = pairs[k];
       require(p.first >= 0 && p.second >= 0 && p.first != p.second && p.weight > 0 &&
                   size_t(p.first) < photo_count && size_t(p.second) < photo_count,
-              "a pair names a photo that isn't there");
+              "a pair refers to a photo that does not exist");
       relative_.push_back(Eigen::Quaterniond(p.qw, p.qx, p.qy, p.qz).normalized());
     }
     errors_.resize(pair_count);
@@ -42,6 +42,7 @@ class RotationGraph {
     solver_.analyzePattern(laplacian());
   }
 
+  /// Computes the residual rotation vector of every pair.
   void measure() {
     for (size_t k = 0; k < pair_count_; ++k) {
       errors_[k] = logarithm(rotations_[size_t(pairs_[k].second)].conjugate() * relative_[k] *
@@ -49,8 +50,8 @@ class RotationGraph {
     }
   }
 
-  /// Weighs each pair by `weight(error in radians)` and moves the rotations to the least weighted
-  /// squares. Returns the mean change in radians.
+  /// Weights each pair by `weight(error in radians)` and solves the weighted least squares problem.
+  /// Returns the mean update in radians.
   template <typename Weight>
   double move(Weight&& weight) {
     for (size_t k = 0; k < pair_count_; ++k) {
@@ -95,7 +96,7 @@ class RotationGraph {
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
-  /// The weighted Laplacian without photo 0, which stays.
+  /// The weighted Laplacian without photo 0, which is constant.
   Matrix laplacian() const {
     std::vector<Eigen::Triplet<double>> entries;
     entries.reserve(4 * pair_count_);
@@ -118,13 +119,13 @@ class RotationGraph {
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 
-/// Least sum of angles by reweighting, then the robust loss of Geman and McClure.
+/// L1 averaging by iteratively reweighted least squares, then the robust loss of Geman and McClure.
 void average(RotationGraph& graph, const ck_rotation_averaging_options& options,
              const ck_control* control) {
   const int total = options.absolute_iterations + options.robust_iterations;
   for (int iteration = 0; iteration < options.absolute_iterations; ++iteration) {
     step(control, double(iteration) / total);
-    // Smaller errors count as this one: a weight has to be finite.
+    // Lower bound on the error, so that the weight is finite.
     const double floor = std::max(1e-6, 0.1 * graph.median_error());
     if (graph.move([&](double e) { return 1 / std::max(e, floor); }) < options.tolerance) break;
   }

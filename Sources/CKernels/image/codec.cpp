@@ -19,8 +19,8 @@ void require_within(const ck_decode_limits& limits, int64_t width, int64_t heigh
 
 namespace {
 
-/// All pixels of a PNG as RGBA, which keeps the colours under transparent ones, where RGB would
-/// composite on a background; `image` gets the size.
+/// Reads all pixels of a PNG as RGBA, which preserves the color of transparent pixels, whereas RGB
+/// would composite them with a background; `image` receives the size.
 std::vector<uint8_t> read_png(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
                               ck_image& image) {
   png_image png{};
@@ -74,7 +74,7 @@ void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& li
   cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
 }
 
-/// Leaves the image without pixels where the file has no alpha channel.
+/// Decodes the alpha channel; leaves the image without pixels if the file has none.
 void decode_other_alpha(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
                         ck_image& image) {
   require(count <= static_cast<size_t>(INT32_MAX), "the file is too large");
@@ -99,7 +99,7 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
   return ck::guarded([&] {
     ck::require(bytes && byte_count > 0, "the file is empty");
     ck::require(reduction == 1 || reduction == 2 || reduction == 4 || reduction == 8,
-                "sides are divided by 1, 2, 4 or 8");
+                "the reduction must be 1, 2, 4 or 8");
     auto result = std::make_unique<ck_image>();
     switch (codec) {
       case ck_codec_jpeg:
@@ -168,7 +168,7 @@ ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, 
       result->data = ck::encode_png(pixels, width, height, channels);
     } else {
       const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels));
-      // Of its own, since OpenCV would write into a matrix of the right size that it is given.
+      // A separate matrix: OpenCV would write into an existing one of the same size.
       cv::Mat swapped;
       if (channels == 3) {
         cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR);

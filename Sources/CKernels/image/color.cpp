@@ -21,7 +21,7 @@ struct Delete {
 };
 using Transform = std::unique_ptr<void, Delete>;
 
-/// Adobe RGB (1998) Color Image Encoding, section 4.3.
+/// The Adobe RGB (1998) Color Image Encoding, section 4.3.
 Profile adobe_rgb() {
   const cmsCIExyY white{0.3127, 0.3290, 1};
   const cmsCIExyYTRIPLE primaries{{0.64, 0.33, 1}, {0.21, 0.71, 1}, {0.15, 0.06, 1}};
@@ -32,7 +32,7 @@ Profile adobe_rgb() {
   return Profile(cmsCreateRGBProfile(&white, &primaries, curves));
 }
 
-/// Whether no colour of a lattice moves by more than two steps.
+/// Whether no color of a 9 × 9 × 9 lattice changes by more than two 8-bit steps.
 bool is_identity(cmsHTRANSFORM transform) {
   constexpr int steps = 9;
   for (int i = 0; i < steps * steps * steps; ++i) {
@@ -52,7 +52,8 @@ bool is_identity(cmsHTRANSFORM transform) {
 ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_colors colors,
                                    const uint8_t* profile, size_t profile_count) {
   return ck::guarded([&] {
-    ck::require(pixel_count <= UINT32_MAX && profile_count <= UINT32_MAX, "there is too much");
+    ck::require(pixel_count <= UINT32_MAX && profile_count <= UINT32_MAX,
+                "the image or its color profile is too large");
     const Profile source =
         colors == ck_colors_adobe_rgb
             ? adobe_rgb()

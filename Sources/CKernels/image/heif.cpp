@@ -12,7 +12,7 @@ namespace {
 using namespace heif;
 using DecodingOptions = std::unique_ptr<heif_decoding_options, Free<heif_decoding_options_free>>;
 
-/// A file's primary image; `bytes` must outlive it.
+/// The primary image of a file; `bytes` must outlive it.
 struct Primary {
   Context context = make_context();
   Handle handle;
@@ -30,7 +30,7 @@ struct Primary {
   bool has_alpha() const { return heif_image_handle_has_alpha_channel(handle.get()); }
 };
 
-/// Decodes to `channels` bytes a pixel, 3 or 4, upright.
+/// Decodes to `channels` bytes per pixel, 3 or 4, in upright orientation.
 void decode(const uint8_t* bytes, size_t count, size_t channels, const ck_decode_limits& limits,
             ck_image& image) {
   const Primary primary(bytes, count);
@@ -57,7 +57,7 @@ void decode(const uint8_t* bytes, size_t count, size_t channels, const ck_decode
   }
 }
 
-/// The EXIF data from its TIFF header on.
+/// The EXIF data, starting at its TIFF header.
 std::vector<uint8_t> exif(const Primary& primary) {
   heif_item_id id = 0;
   if (heif_image_handle_get_list_of_metadata_block_IDs(primary.handle.get(), "Exif", &id, 1) != 1) {
@@ -66,7 +66,7 @@ std::vector<uint8_t> exif(const Primary& primary) {
   std::vector<uint8_t> block(heif_image_handle_get_metadata_size(primary.handle.get(), id));
   if (block.size() < 4) return {};
   check(heif_image_handle_get_metadata(primary.handle.get(), id, block.data()));
-  // The block starts with the distance from its fifth byte to that header.
+  // The block starts with the offset from its fifth byte to that header.
   const size_t start = 4 + (size_t{block[0]} << 24 | size_t{block[1]} << 16 |
                             size_t{block[2]} << 8 | size_t{block[3]});
   if (start >= block.size()) return {};

@@ -20,7 +20,7 @@ using Context = std::unique_ptr<heif_context, Free<heif_context_free>>;
 using Handle = std::unique_ptr<heif_image_handle, Free<heif_image_handle_release>>;
 using Image = std::unique_ptr<heif_image, Free<heif_image_release>>;
 
-/// Throws what libheif reports: `std::invalid_argument` where it has no codec for the file.
+/// Throws the error that libheif reports: `std::invalid_argument` if it has no codec for the file.
 inline void check(const heif_error& error) {
   if (error.code == heif_error_Ok) return;
   if (error.code == heif_error_Memory_allocation_error) throw std::bad_alloc();
@@ -33,7 +33,7 @@ inline void check(const heif_error& error) {
 inline Context make_context() {
   Context context(heif_context_alloc());
   if (!context) throw std::bad_alloc();
-  // Photos are decoded side by side; tiles need no threads of their own.
+  // Photos are decoded concurrently; tiles need no additional threads.
   heif_context_set_max_decoding_threads(context.get(), 0);
   return context;
 }

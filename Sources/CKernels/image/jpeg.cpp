@@ -14,7 +14,7 @@
 namespace ck {
 namespace {
 
-/// Files with more scans than any camera writes only serve to keep a decoder busy.
+/// Files with more scans than any camera writes would only occupy the decoder.
 constexpr int maximum_scans = 100;
 
 struct Errors {
@@ -31,7 +31,7 @@ void on_error(j_common_ptr info) {
   std::longjmp(errors->jump, 1);
 }
 
-/// Notes warnings that mean lost pixels; stray bytes between segments lose none.
+/// Records warnings about lost pixels; stray bytes between segments lose none.
 void on_message(j_common_ptr info, int level) {
   if (level >= 0 || !info->is_decompressor) return;
   auto* errors = reinterpret_cast<Errors*>(info->err);
@@ -48,7 +48,7 @@ void on_progress(j_common_ptr info) {
   if (decoder->input_scan_number > maximum_scans) ERREXIT(info, JERR_BAD_PROGRESSION);
 }
 
-/// Adobe stores CMYK inverted, so 255 is no ink.
+/// Converts CMYK to RGB. Adobe stores CMYK inverted: 255 is no ink.
 void write_rgb_of_inverted_cmyk(const uint8_t* cmyk, size_t count, uint8_t* rgb) {
   for (size_t i = 0; i < count; ++i) {
     const unsigned k = cmyk[4 * i + 3];
@@ -68,7 +68,7 @@ bool read(jpeg_decompress_struct& decoder, Errors& errors, const uint8_t* bytes,
   const int64_t full_width = decoder.image_width, full_height = decoder.image_height;
   if (full_width < 1 || full_height < 1 || full_width > limits.maximum_side ||
       full_height > limits.maximum_side || full_width * full_height > limits.maximum_pixels) {
-    std::snprintf(errors.message, sizeof errors.message, "%lld × %lld pixels are too many",
+    std::snprintf(errors.message, sizeof errors.message, "%lld × %lld pixels exceed the size limit",
                   static_cast<long long>(full_width), static_cast<long long>(full_height));
     return false;
   }
@@ -122,7 +122,7 @@ void decode_jpeg(const uint8_t* bytes, size_t count, int reduction, const ck_dec
   jpeg_destroy_decompress(&decoder);
   if (!complete) throw std::runtime_error(errors.message);
   if (errors.damaged) {
-    throw std::runtime_error("its pixel data is damaged or cut off from row " +
+    throw std::runtime_error("its pixel data is damaged or truncated from row " +
                              std::to_string(errors.damaged_row) + " of " +
                              std::to_string(image.height));
   }

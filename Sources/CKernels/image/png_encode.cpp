@@ -13,7 +13,7 @@
 namespace ck {
 namespace {
 
-/// Beyond it, time grows much faster than files shrink.
+/// Compression level of libdeflate: higher levels take much more time for little gain in size.
 constexpr int kLevel = 5;
 constexpr size_t kFilters = 5;
 
@@ -24,15 +24,15 @@ uint8_t paeth(int left, int above, int corner) {
   return static_cast<uint8_t>(a <= b && a <= c ? left : b <= c ? above : corner);
 }
 
-/// One row as each of PNG's filters leaves it.
+/// One row under each of the PNG filters.
 class FilteredRow {
  public:
   FilteredRow(size_t size, size_t pixel) : size_(size), pixel_(pixel) {
     for (auto& bytes : filtered_) bytes.resize(size);
   }
 
-  /// Writes the filter's number and the row with the smallest sum of differences: the choice that
-  /// the PNG specification recommends.
+  /// Writes the filter type and the filtered row with the smallest sum of absolute differences: the
+  /// heuristic that the PNG specification recommends.
   void write(const uint8_t* row, const uint8_t* above, uint8_t* out) {
     filter(row, above);
     size_t best = 0;

@@ -11,7 +11,7 @@ cv::Mat wrap(const uint8_t* pixels, int32_t width, int32_t height, int32_t chann
   return cv::Mat(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels));
 }
 
-/// OpenCV's maps of the source pixel of each destination pixel, in rows `first..<last`.
+/// Fills OpenCV's maps of the source pixel of each destination pixel, in rows `first..<last`.
 void fill_maps(const ck_camera& from, const ck_camera& to, int first, int last, cv::Mat& map_x,
                cv::Mat& map_y) {
   const double k1 = from.distortion[0], k2 = from.distortion[1];
@@ -19,7 +19,7 @@ void fill_maps(const ck_camera& from, const ck_camera& to, int first, int last, 
   for (int row = first; row < last; ++row) {
     float* to_x = map_x.ptr<float>(row - first);
     float* to_y = map_y.ptr<float>(row - first);
-    // Our pixel centres are at one half, OpenCV's at whole numbers.
+    // Pixel centers are at one half here, but at integers in OpenCV.
     const double y = (row + 0.5 - to.principal_point[1]) / to.focal_length[1];
     for (int column = 0; column < to.width; ++column) {
       const double x = (column + 0.5 - to.principal_point[0]) / to.focal_length[0];
@@ -59,7 +59,7 @@ ck_status ck_image_turn(const uint8_t* source, int32_t width, int32_t height, in
     } else {
       transposed = from;
     }
-    // After transposing, 5…8 need the flips 0: none, 6: columns, 7: both, 8: rows.
+    // After transposing, orientations 5…8 need these flips: 5 none, 6 columns, 7 both, 8 rows.
     switch (orientation) {
       case 2:
       case 6:

@@ -9,11 +9,12 @@
 
 namespace {
 
+/// Side of the blocks in pixels.
 constexpr int block = 32;
 /// Standard deviation in pixels of the blur that the image is compared with.
 constexpr double blur = 1.5;
 
-/// Sums over a block of the products of the gradient's components.
+/// Structure tensor: sums over a block of the products of the gradient's components.
 struct Tensor {
   double xx = 0, yy = 0, xy = 0;
 
@@ -68,8 +69,9 @@ ck_status ck_image_sharpness(const uint8_t* gray, int32_t width, int32_t height,
         blocks.push_back({tensor(image, x, y), tensor(blurred, x, y), blocks.size()});
       }
     }
-    if (blocks.empty()) throw ck::Degenerate("the image is too small to tell its sharpness");
-    // The quarter with the strongest gradients: sky and walls say nothing about focus.
+    if (blocks.empty()) throw ck::Degenerate("the image is too small to measure its sharpness");
+    // The quarter of the blocks with the strongest gradients: sky and walls contain no information
+    // about focus.
     const size_t used = std::max<size_t>(1, blocks.size() / 4);
     std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
       const double x = a.after.trace(), y = b.after.trace();
@@ -77,7 +79,7 @@ ck_status ck_image_sharpness(const uint8_t* gray, int32_t width, int32_t height,
     });
     blocks.resize(used);
     if (blocks.front().after.trace() < block * block) {
-      throw ck::Degenerate("the image shows nothing");
+      throw ck::Degenerate("the image has no texture");
     }
     double least = INFINITY;
     for (const auto& [cosine, sine] : std::array<std::pair<double, double>, 4>{

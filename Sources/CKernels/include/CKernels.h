@@ -1,4 +1,4 @@
-/// The umbrella of the C boundary: one header a kernel family.
+/// Umbrella header of the C interface: one header per kernel family.
 #ifndef CKERNELS_H
 #define CKERNELS_H
 

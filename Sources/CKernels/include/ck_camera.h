@@ -7,7 +7,8 @@
 extern "C" {
 #endif
 
-/// A pinhole with OpenCV's distortion, in pixels from the corner of the top-left pixel.
+/// A pinhole camera with OpenCV's distortion model, in pixels. The origin is the corner of the
+/// top-left pixel.
 typedef struct {
   double fx, fy, cx, cy;
   double k1, k2, p1, p2;
@@ -19,14 +20,14 @@ typedef struct {
   double tx, ty, tz;
 } ck_pose;
 
-/// What photo `photo` sees of point `point`, in pixels.
+/// The pixel position at which photo `photo` observes point `point`.
 typedef struct {
   int32_t photo;
   int32_t point;
   double x, y;
 } ck_observation;
 
-/// Cameras and posed photos; `photo_cameras` holds an index into `cameras` for each photo.
+/// Cameras and photos with poses; `photo_cameras` holds an index into `cameras` for each photo.
 typedef struct {
   const ck_camera_model* cameras;
   size_t camera_count;

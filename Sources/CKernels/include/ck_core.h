@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/// How a kernel call ended.
+/// Status of a kernel call.
 typedef enum {
   ck_ok = 0,
   ck_cancelled = 1,
@@ -17,46 +17,46 @@ typedef enum {
   /// The input is valid but does not determine a result.
   ck_degenerate = 3,
   ck_failed = 4,
-  /// There was too little memory, which may be otherwise at another time.
+  /// Memory allocation failed; a later call with the same input may succeed.
   ck_out_of_memory = 5,
 } ck_status;
 
-/// Reports progress and asks whether to go on. May be called from any thread.
+/// Reports progress and queries cancellation. May be called from any thread.
 typedef struct {
   void* context;
-  /// `fraction` runs from 0 to 1. Returns false to cancel the kernel.
+  /// `fraction` is in 0…1. Returns false to cancel the kernel.
   bool (*should_continue)(void* context, double fraction);
-  /// Threads the kernel may use, at least 1. Results do not depend on it.
+  /// Number of threads the kernel may use, at least 1. Results do not depend on it.
   int32_t threads;
 } ck_control;
 
-/// Sets of instructions that a kernel may use, each with all of those before it.
+/// Instruction sets that a kernel may use; each includes those listed before it.
 typedef enum {
-  /// The last of these that the processor has.
+  /// The most capable set that the processor supports.
   ck_instructions_automatic = 0,
-  /// What every processor of the architecture has.
+  /// The baseline of the architecture.
   ck_instructions_portable = 1,
   /// AVX2 and FMA.
   ck_instructions_avx2 = 2,
   /// AVX-512 F, BW, DQ and VL.
   ck_instructions_avx512 = 3,
-  /// The products of bytes of AVX-512 VNNI.
+  /// AVX-512 VNNI: dot products of bytes.
   ck_instructions_avx512_vnni = 4,
 } ck_instructions;
 
-/// Whether this processor has the instructions; always true of automatic ones.
+/// Whether this processor supports the instruction set; always true for the automatic choice.
 bool ck_instructions_supported(ck_instructions instructions);
 
-/// What went wrong in the last call on this thread that did not return `ck_ok`.
+/// Description of the error of the last call on this thread that did not return `ck_ok`.
 ///
 /// Valid until the next kernel call on the same thread.
 const char* ck_last_error(void);
 
-/// The XXH64 hash of some bytes (Y. Collet): the same in every run and on every machine. It tells
-/// changed bytes, not forged ones.
+/// The XXH64 hash (Y. Collet): the same in every run and on every machine. It detects accidental
+/// changes, not forgery.
 uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 
-/// Redirects the messages of OpenCV, glog and Open3D away from the terminal. Call once.
+/// Suppresses the terminal output of OpenCV, glog and Open3D. Call once.
 void ck_silence_libraries(void);
 
 #ifdef __cplusplus

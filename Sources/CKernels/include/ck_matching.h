@@ -7,48 +7,51 @@
 extern "C" {
 #endif
 
-/// What a match is.
+/// Options of descriptor matching.
 typedef struct {
-  /// The best distance is below this fraction of the second best (Lowe's ratio test).
+  /// Lowe's ratio test: the best distance must be below this fraction of the second best.
   double ratio;
-  /// Largest distance of a match, in units where a root-SIFT descriptor has length 512.
+  /// Largest descriptor distance of a match, in units in which a root-SIFT descriptor has length
+  /// 512.
   double maximum_distance;
-  /// All give the same result.
+  /// All instruction sets give the same result.
   ck_instructions instructions;
 } ck_match_options;
 
-/// Matches descriptors by exact nearest neighbours: mutual best with the ratio test both ways.
+/// Matches descriptors by exact nearest neighbors: mutually nearest, with the ratio test in both
+/// directions.
 ///
-/// At most 65,536 descriptors of 128 bytes a side. `pairs` receives (first, second) indices, the
+/// At most 65,536 descriptors of 128 bytes per side. `pairs` receives (first, second) indices, the
 /// most distinctive pair (smallest ratio of best to second best) first; it holds `2 ×
 /// min(first_count, second_count)` elements. Ties go to the lower index.
 ck_status ck_match_descriptors(const uint8_t* first, size_t first_count, const uint8_t* second,
                                size_t second_count, const ck_match_options* options,
                                const ck_control* control, int32_t* pairs, size_t* pair_count);
 
-/// The features of a photo that take part in guided matching.
+/// Features of a photo for guided matching.
 typedef struct {
   /// Descriptors of 128 bytes.
   const uint8_t* descriptors;
-  /// (x, y) at depth 1 of the viewing rays; not a number for features that don't take part.
+  /// (x, y) at depth 1 on the viewing rays; NaN excludes a feature.
   const double* points;
   size_t count;
 } ck_features;
 
+/// Options of guided matching.
 typedef struct {
-  /// Essential or fundamental matrix M by rows, x₂ᵀ M x₁ = 0.
+  /// Essential or fundamental matrix M, row-major: x₂ᵀ M x₁ = 0.
   double matrix[9];
-  /// Largest Sampson error of a match in units of the points.
+  /// Largest Sampson error of a match, in units of the points.
   double maximum_error;
-  /// As in `ck_match_options`; the second best is looked for near the epipolar line only.
+  /// As in `ck_match_options`; the second best is searched for only near the epipolar line.
   double ratio;
   double maximum_distance;
 } ck_guided_match_options;
 
-/// Matches features among those near their epipolar line: mutual best with the ratio test both
-/// ways.
+/// Matches features within a band around their epipolar lines: mutually nearest, with the ratio
+/// test in both directions.
 ///
-/// What looks alike elsewhere in the photo doesn't count against a match. `pairs` receives indices
+/// Similar features elsewhere in the photo do not count against a match. `pairs` receives indices
 /// as in `ck_match_descriptors`.
 ck_status ck_match_guided(const ck_features* first, const ck_features* second,
                           const ck_guided_match_options* options, const ck_control* control,

@@ -7,69 +7,71 @@
 extern "C" {
 #endif
 
-/// A photo without distortion and its pinhole camera.
+/// An undistorted photo with its pinhole camera.
 typedef struct {
   int32_t width, height;
   /// `width × height` bytes, top row first.
   const uint8_t* luma;
-  /// Pixels; the origin is the corner of the top-left pixel.
+  /// Focal lengths and principal point in pixels; the origin is the corner of the top-left pixel.
   double fx, fy, cx, cy;
-  /// `cameraFromWorld`: rotation by rows, then translation. x right, y down, z forward.
+  /// `cameraFromWorld`: row-major rotation, then translation. x right, y down, z forward.
   double rotation[9];
   double translation[3];
-  /// Standard deviation of the luma's noise in grey levels.
+  /// Standard deviation of the luma noise, in gray levels (0…255).
   float noise;
 } ck_patch_view;
 
-/// Averages 2 × 2 pixels of `width × height` bytes; `result` holds `(width / 2) × (height / 2)`.
+/// Halves a `width × height` luma image by averaging 2 × 2 pixels; `result` holds `(width / 2) ×
+/// (height / 2)` bytes.
 void ck_patches_halve(uint8_t* result, const uint8_t* luma, int32_t width, int32_t height);
 
-/// Estimates the standard deviation of the noise of `width × height` bytes in grey levels, from
-/// what differs from a smooth surface in the smoothest parts (after Immerkær, CVIU 1996); at least
-/// that of rounding.
+/// Estimates the standard deviation of the noise of a `width × height` luma image in gray levels,
+/// from the deviation from a smooth surface in its smoothest parts (after Immerkær, CVIU 1996); at
+/// least the standard deviation of rounding.
 float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height);
 
-/// A sparse point in a reference view: pixel and inverse depth.
+/// A sparse point in a reference view: pixel position and inverse depth.
 typedef struct {
   float x, y, inverse_depth;
 } ck_patch_seed;
 
-/// The patch of one pixel: a plane as its inverse depth at the pixel's centre and the gradient of
-/// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
+/// The patch of one pixel: a plane, given by its inverse depth at the pixel center and the gradient
+/// of the inverse depth over the pixel grid (per pixel). An inverse depth of 0 means that there is
+/// no patch.
 typedef struct {
   float inverse_depth, gradient_x, gradient_y;
-  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch. From 0.4 where texture
-  /// is so weak that the patch is that of a coarser level.
+  /// 1 − ZNCC, averaged over the two best sources; 2 where there is no patch. At least 0.4 where
+  /// texture is so weak that the patch was inherited from a coarser level.
   float cost;
 } ck_patch;
 
-/// How the patches of a view are made.
+/// Options of patch reconstruction.
 typedef struct {
-  /// Resolutions, each half of the next.
+  /// Number of pyramid levels; each has half the resolution of the next finer one.
   int32_t level_count;
-  /// Sweeps of expansion at the coarsest level; one at the others.
+  /// Number of propagation sweeps at the coarsest level; the finer levels have one.
   int32_t coarse_sweeps;
-  /// Random planes tried around the current one at the coarsest level.
+  /// Number of random perturbations of the current plane to test at the coarsest level.
   int32_t perturbations;
-  /// Gauss–Newton steps.
+  /// Number of Gauss–Newton steps.
   int32_t refinement_steps;
-  /// Grey levels at which the bilateral weight is one half.
+  /// Difference in gray levels at which the bilateral weight is one half.
   float bilateral_contrast;
-  /// Views offer each other their patches.
+  /// Nonzero to propagate patches across views.
   int32_t expands_across_views;
-  /// Patches face the camera instead of following the surface.
+  /// Nonzero for fronto-parallel patches instead of slanted ones.
   int32_t is_frontal;
-  /// The same seed gives the same patches.
+  /// Random seed; the same seed gives the same patches.
   uint32_t seed;
-  /// Of the inner loops. Results differ by rounding only.
+  /// Instruction set of the inner loops. Results differ by rounding only.
   ck_instructions instructions;
 } ck_patch_options;
 
-/// Makes the patches of one reference view, coarse to fine (Furukawa and Ponce, PAMI 2010, with the
-/// plane per pixel of Bleyer et al., BMVC 2011).
+/// Reconstructs the patches of one reference view, coarse to fine (Furukawa and Ponce, PAMI 2010,
+/// with one plane per pixel as in Bleyer et al., BMVC 2011).
 ///
 /// `sources` are at most 8 views, the best first. `patches` holds `width × height` values of the
-/// reference. Runs on one thread: call it for several views at once.
+/// reference. Runs on one thread; may be called for several views at once.
 ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* reference,
                                  const ck_patch_view* sources, size_t source_count,
                                  const ck_patch_seed* seeds, size_t seed_count,
@@ -77,75 +79,82 @@ ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* referen
 
 /// The patches of one view.
 typedef struct {
-  /// Tells views apart, at most 65535.
+  /// Unique identifier of the view, 0…65535.
   int32_t photo;
   ck_patch_view view;
   /// RGB of the view.
   const uint8_t* rgb;
   const ck_patch* patches;
-  /// What the filter said of each patch; may be null where only patches are asked for.
+  /// Filter result of each patch (`ck_patches_filter`): 0 if rejected; may be null for functions
+  /// that need only the patches.
   const uint8_t* states;
-  /// The neighbours that agree with each patch, a bit each in the filter's order; may be null.
+  /// Bit mask of the neighbors that are consistent with each patch, in the order given to the
+  /// filter; may be null.
   const uint8_t* visibility;
 } ck_patch_map;
 
-/// Makes the patches of one reference view from its patches at half the resolution.
+/// Reconstructs the patches of one reference view from its patches at half the resolution.
 ///
-/// `coarse` are filtered patches of the reference that `ck_patches_halve` halved, with half its
-/// focal lengths and principal point; its neighbours were the halved `sources`, in the same order.
-/// Each patch is compared with the sources that agree with the coarse ones around (its visible
-/// photos, Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width × height` values.
+/// `coarse` holds the filtered patches of the reference halved by `ck_patches_halve`, with half its
+/// focal lengths and principal point; its neighbors were the halved `sources`, in the same order.
+/// Each patch is compared with the sources that are consistent with the surrounding coarse patches
+/// (its visible photos; Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width ×
+/// height` values.
 ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
                             const ck_patch_view* sources, size_t source_count,
                             const ck_patch_map* coarse, const ck_patch_options* options,
                             const ck_control* control);
 
-/// Which patches are kept and how they are joined.
+/// Thresholds of the patch filter and of fusion.
 typedef struct {
-  /// Largest cost of a patch that `minimum_agreeing` views may confirm.
+  /// Largest cost of a patch for which `minimum_agreeing` consistent views suffice.
   float photometric_threshold;
-  /// Largest cost of a patch; between the two thresholds one more view must agree.
+  /// Largest cost of any patch; between the two thresholds one more consistent view is required.
   float weak_texture_threshold;
-  /// Other views that must agree; all but one where there are fewer, but always one.
+  /// Number of other views that must be consistent; all but one if there are fewer, but at least
+  /// one.
   int32_t minimum_agreeing;
-  /// Pixels of disparity between a patch and its confirmation, in the coarser view.
+  /// Largest disparity between two consistent patches, in pixels of the coarser view.
   float reprojection_threshold;
-  /// Relative difference of depth.
+  /// Largest relative difference in depth of two consistent patches.
   float depth_threshold;
-  /// Cosine of the largest angle between normals.
+  /// Cosine of the largest angle between the normals of two consistent patches.
   float normal_cosine;
-  /// Patches that another view sees through are removed beyond this relative distance.
+  /// Relative depth difference from which another view that sees past a patch counts as a
+  /// free-space violation.
   float contradiction_threshold;
-  /// How often pixels that look like their rejected neighbours are peeled off the border.
+  /// Number of passes that remove boundary pixels affected by foreground fattening.
   int32_t fringe_passes;
-  /// Grey levels that make a pixel half like another.
+  /// Difference in gray levels at which the similarity of two pixels is one half.
   float fringe_contrast;
-  /// Connected patches fewer than this are removed.
+  /// Connected components with fewer patches are removed.
   int32_t minimum_island;
-  /// Pixels within which confirmations are fused.
+  /// Largest disparity at which consistent patches are fused, in pixels of the coarser view.
   float fusion_threshold;
-  /// Of the inner loops. Results differ by rounding only.
+  /// Instruction set of the inner loops. Results differ by rounding only.
   ck_instructions instructions;
 } ck_patch_filter_options;
 
-/// Marks the patches of `reference` that enough of its neighbours confirm and no more contradict.
+/// Marks the patches of `reference` that enough neighbors confirm and not too many contradict
+/// (geometric consistency).
 ///
-/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint, so
-/// that views tell which of them shows a piece of surface finest. `states` holds `width × height`
-/// bytes, and `visibility` as many, or is null; `neighbors` are the views that may confirm, the
-/// best first. Runs on one thread: call it for several views at once.
+/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint,
+/// which determines the view that resolves a surface element best. `states` holds `width × height`
+/// bytes, and so does `visibility` unless it is null; `neighbors` are the views to compare with,
+/// the best first. Runs on one thread; may be called for several views at once.
 ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch_map* reference,
                             const ck_patch_map* neighbors, size_t neighbor_count,
                             const ck_patch_filter_options* options, const ck_control* control);
 
-/// Expands patches across views and into holes: offers the accepted patches of the neighbours, and
-/// those beside a cell, to the cells of `reference` that the filter rejected, and optimises what is
-/// better than what they had (Furukawa and Ponce, PAMI 2010, section 3.2). Near edges of the
-/// surface patches are made anew, of the texels that lie on their side of the edge by the patches
-/// there. In the end patches are averaged with those around, the more the less texture says.
+/// Propagates patches across views and into holes: tests the accepted patches of the neighbors, and
+/// those of adjacent cells, at the cells of `reference` that the filter rejected, and optimizes
+/// those that improve the cost (Furukawa and Ponce, PAMI 2010, section 3.2). Patches near depth
+/// discontinuities are re-estimated from the texels on their side of the edge, as determined by the
+/// surrounding patches. Finally patches are smoothed; the weaker the texture, the stronger the
+/// smoothing.
 ///
-/// All maps have states; `completed` holds `width × height` patches, for the filter to judge. Runs
-/// on one thread.
+/// All maps have states; `completed` holds `width × height` patches, which have to be filtered
+/// again. Runs on one thread.
 ck_status ck_patches_complete(ck_patch* completed, const ck_patch_map* reference,
                               const ck_patch_map* neighbors, size_t neighbor_count,
                               const ck_patch_options* options, const ck_control* control);
@@ -156,20 +165,20 @@ typedef struct {
   float normal[3];
   uint8_t color[3];
   uint8_t photo_count;
-  /// Mean ZNCC of the fused patches.
+  /// Mean ZNCC of the patches that were fused.
   float consistency;
-  /// Side of a pixel of the reference at the patch, in world units.
+  /// Side of a reference pixel at the depth of the patch, in world units.
   float footprint;
-  /// Photos that agree, ascending.
+  /// Photos that are consistent with the patch, ascending.
   uint16_t photos[16];
 } ck_fused_patch;
 
-/// Fuses the accepted patches of `reference` with those of its neighbours that agree with them.
+/// Fuses the accepted patches of `reference` with the consistent patches of its neighbors.
 ///
-/// A piece of surface that several views show becomes a point of the view that shows it finest, of
-/// the lowest photo among equals: each view tells which points are its own, so that views are fused
-/// in any order, or at once. `fused` has room for as many patches as the view has accepted. Runs on
-/// one thread.
+/// A surface element seen by several views becomes a point of the view with the smallest footprint,
+/// on a tie of the lowest photo. Each view determines its points independently, so views can be
+/// fused in any order, or concurrently. `fused` has room for as many patches as the view has
+/// accepted. Runs on one thread.
 ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* reference,
                           const ck_patch_map* neighbors, size_t neighbor_count,
                           const ck_patch_filter_options* options, const ck_control* control);

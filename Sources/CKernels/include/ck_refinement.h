@@ -7,50 +7,51 @@
 extern "C" {
 #endif
 
-/// Samples along a side of a template, its border of one sample for derivatives included.
+/// Samples per side of a template, including a border of one sample for derivatives.
 #define CK_TEMPLATE_SIDE 13
-/// Samples of a template.
+/// Number of samples of a template.
 #define CK_TEMPLATE_SAMPLES (CK_TEMPLATE_SIDE * CK_TEMPLATE_SIDE)
 
-/// A square of texture to be found again in other photos.
+/// A square image patch to locate in other photos.
 typedef struct {
-  /// Its centre in pixels of the image, origin at the corner of the top-left pixel.
+  /// Center in pixels of the image; the origin is the corner of the top-left pixel.
   double x, y;
-  /// Pixels from one sample to the next, at least 1.
+  /// Spacing of the samples in pixels, at least 1.
   double step;
 } ck_template_place;
 
-/// Where a template is expected in another photo.
+/// Initial estimate of a template's location in another photo.
 typedef struct {
   /// Index of the template.
   int32_t index;
-  /// Pixels of the template's image from one sample to the next.
+  /// Spacing of the samples in pixels of the template's image.
   double step;
-  /// The derivative, by rows, of the pixel in this image by the pixel in the template's image.
+  /// Affine warp, row-major: the derivative of the pixel in this image with respect to the pixel in
+  /// the template's image.
   double warp[4];
-  /// The expected centre.
+  /// The expected center in pixels.
   double x, y;
 } ck_template_search;
 
-/// Where a template was found in another photo.
+/// Location of a template in another photo.
 typedef struct {
-  /// The centre found, in pixels.
+  /// The estimated center in pixels.
   double x, y;
-  /// Zero-mean normalised cross-correlation there, −1…1; −1 where nothing was found.
+  /// Zero-mean normalized cross-correlation at the center, −1…1; −1 if the search failed.
   double zncc;
 } ck_template_find;
 
-/// Reads templates from an image with 1, 3 (RGB) or 4 channels.
+/// Extracts templates from an image with 1, 3 (RGB) or 4 channels.
 ///
-/// `samples` receives `CK_TEMPLATE_SAMPLES` values a place, 64 times the luma 0…255; `valid`
-/// becomes 1 where the square lies within the image and holds texture in two directions.
+/// `samples` receives `CK_TEMPLATE_SAMPLES` values per location: 64 times the luma 0…255. `valid`
+/// is set to 1 if the square lies within the image and has texture in two directions.
 ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t height,
                                int32_t channels, size_t row_stride, const ck_template_place* places,
                                size_t count, uint16_t* samples, uint8_t* valid);
 
-/// Finds templates in an image by least squares matching (Gruen, "Adaptive least squares
+/// Locates templates in an image by least squares matching (Gruen, "Adaptive least squares
 /// correlation", 1985) of position, gain and offset, in the inverse compositional form (Baker and
-/// Matthews, IJCV 2004). A search gives up that leaves `max_shift` pixels from where it began.
+/// Matthews, IJCV 2004). A search that moves more than `max_shift` pixels from its start fails.
 ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
                              size_t row_stride, const uint16_t* samples, size_t template_count,
                              const ck_template_search* searches, size_t count, double max_shift,

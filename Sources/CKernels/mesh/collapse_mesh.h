@@ -12,14 +12,14 @@
 
 namespace ck::texture {
 
-/// A mesh whose vertices know their triangles. A vertex has a ring of the corners (3 · triangle +
-/// 0…2) that name it, so that two vertices become one without a new list.
+/// A mesh with vertex–triangle incidence. The corners (3 · triangle + 0…2) at a vertex form a ring
+/// (circular list), so that two vertices can be merged without allocation.
 class CollapseMesh {
  public:
   using Face = std::array<uint32_t, 3>;
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
-  /// No triangle names a vertex twice.
+  /// No triangle may use a vertex twice.
   CollapseMesh(std::vector<Point> points, std::vector<Face> faces)
       : points_(std::move(points)),
         faces_(std::move(faces)),
@@ -39,10 +39,10 @@ class CollapseMesh {
   size_t vertex_count() const { return points_.size(); }
   const Point& point(uint32_t v) const { return points_[v]; }
   void move(uint32_t v, const Point& p) { points_[v] = p; }
-  /// Whether a triangle names `v`.
+  /// Whether a triangle uses `v`.
   bool is_used(uint32_t v) const { return first_[v] != kNone; }
 
-  /// Those that were taken away included.
+  /// Number of triangles, including removed ones.
   size_t face_count() const { return faces_.size(); }
   const Face& face(size_t f) const { return faces_[f]; }
   bool is_alive(size_t f) const { return faces_[f][0] != kNone; }
@@ -52,16 +52,17 @@ class CollapseMesh {
     return f[0] == vertex || f[1] == vertex || f[2] == vertex;
   }
 
-  /// Twice the area times the normal.
+  /// The normal of a triangle, with twice its area as length.
   Point normal(const Face& f) const { return normal(points_[f[0]], points_[f[1]], points_[f[2]]); }
 
-  /// The normal of triangle `face` once its vertex `v` is at `p`.
+  /// The same with vertex `v` moved to `p`.
   Point normal(const Face& f, uint32_t v, const Point& p) const {
     return normal(f[0] == v ? p : points_[f[0]], f[1] == v ? p : points_[f[1]],
                   f[2] == v ? p : points_[f[2]]);
   }
 
-  /// Calls `body(face)` for the triangles of `v` while it returns true; whether it always did.
+  /// Calls `body(face)` for the triangles of `v` until it returns false; returns whether it never
+  /// did.
   template <typename Body>
   bool all_faces(uint32_t v, Body&& body) const {
     const uint32_t first = first_[v];
@@ -82,7 +83,7 @@ class CollapseMesh {
     });
   }
 
-  /// Calls `body(vertex)` once for each neighbour of `v`; returns the number of its triangles.
+  /// Calls `body(vertex)` once for each neighbor of `v`; returns the number of its triangles.
   template <typename Body>
   size_t for_neighbors(uint32_t v, Body&& body) {
     const uint32_t mark = ++mark_;
@@ -102,14 +103,14 @@ class CollapseMesh {
     return count;
   }
 
-  /// Whether the triangles of `v` do not go all around it.
+  /// Whether `v` is on the boundary: its triangles do not form a closed fan.
   bool is_border(uint32_t v) {
     size_t around = 0;
     return for_neighbors(v, [&](uint32_t) { ++around; }) != around;
   }
 
-  /// Whether the surface stays a surface when `a` and `b` become one: the vertices next to both are
-  /// those of the shared triangles, and no two borders meet.
+  /// Whether merging `a` and `b` preserves the manifold (link condition): their common neighbors
+  /// are those of the shared triangles, and two boundaries do not meet.
   bool can_join(uint32_t a, uint32_t b) {
     size_t around_a = 0, around_b = 0, common = 0;
     const size_t faces_a = for_neighbors(a, [&](uint32_t) { ++around_a; });
@@ -131,8 +132,7 @@ class CollapseMesh {
     return shared != 2 || around_a == faces_a || around_b == faces_b;
   }
 
-  /// Makes `gone` the same vertex as `kept`, where `can_join`; returns how many triangles that
-  /// took.
+  /// Merges `gone` into `kept`; requires `can_join`. Returns the number of triangles removed.
   size_t join(uint32_t kept, uint32_t gone) {
     std::array<uint32_t, 2> dead;
     size_t count = 0;
@@ -156,7 +156,7 @@ class CollapseMesh {
     return count;
   }
 
-  /// Takes a triangle away.
+  /// Removes a triangle.
   void remove(uint32_t face) {
     for (const uint32_t v : faces_[face]) {
       uint32_t before = first_[v];

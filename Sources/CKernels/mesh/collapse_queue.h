@@ -8,17 +8,17 @@
 
 namespace ck::texture {
 
-/// An edge whose ends become one. It is out of date once an end's version has gone on.
+/// A candidate edge collapse. It is outdated once the version of an end has changed.
 struct Collapse {
   uint32_t a, b;
   uint32_t version : 31;
-  /// Whether they do so at an end or in the middle, as the place of least error is barred.
+  /// Whether the position is an end or the midpoint because the optimal position is not permitted.
   uint32_t is_fallback : 1;
 };
 
-/// Collapses by rising cost, those of nearly equal cost (within 1/128) in no special order: a stack
-/// for each exponent and the first bits of the mantissa, so that nothing is sorted. Stacks are
-/// lists of blocks, which memory likes better than single links.
+/// A bucket queue of collapses by ascending cost, unordered among nearly equal costs (within
+/// 1/128): one stack per exponent and leading mantissa bits, so that nothing is sorted. Stacks are
+/// lists of blocks for better memory locality.
 class CollapseQueue {
  public:
   CollapseQueue() : tops_(kStacks, kNone) {}
@@ -35,7 +35,7 @@ class CollapseQueue {
     if (stack < lowest_) lowest_ = stack;
   }
 
-  /// Takes the cheapest out; false when there is none.
+  /// Removes the cheapest collapse; false if the queue is empty.
   bool pop(Collapse* c) {
     while (lowest_ < kStacks && tops_[lowest_] == kNone) ++lowest_;
     if (lowest_ == kStacks) return false;

@@ -21,7 +21,7 @@ inline Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The sum of squared distances to planes, as a quadratic form in the point.
+/// The weighted sum of squared distances to planes, as a quadratic form in the point.
 struct Quadric {
   double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
   Point linear = {0, 0, 0};
@@ -34,8 +34,8 @@ struct Quadric {
     constant += weight * d * d;
   }
 
-  /// Adds planes of one unit normal `n`, but for the constant, by the sum of their weights and the
-  /// weighted sum of their distances from the origin.
+  /// Adds planes with a common unit normal `n`, given the sum of their weights and the weighted sum
+  /// of their distances from the origin; does not update the constant.
   void add_direction(const Point& n, double weight, double distance) {
     xx += weight * n[0] * n[0];
     xy += weight * n[0] * n[1];
@@ -65,8 +65,8 @@ struct Quadric {
     return p[0] * ax + p[1] * ay + p[2] * az + 2 * dot(linear, p) + constant;
   }
 
-  /// The point of least error, drawn to `anchor` by a share of the weight, so that flat places have
-  /// one too.
+  /// The point of least error, regularized toward `anchor` with a fraction of the total weight, so
+  /// that it is also determined on flat surfaces.
   Point minimizer(const Point& anchor, double share) const {
     const double pull = share * (xx + yy + zz) + 1e-300;
     const double a = xx + pull, d = yy + pull, f = zz + pull;

@@ -17,8 +17,9 @@ namespace {
 
 using Face = CollapseMesh::Face;
 
-/// A vertex is drawn to the middle of its edge by this share of its planes' weight, and is never
-/// farther from there than this many lengths of the edge: nearly parallel planes meet far away.
+/// A new vertex is regularized toward the midpoint of its edge with this fraction of the weight of
+/// its planes, and is at most this many edge lengths from it: nearly parallel planes intersect far
+/// away.
 constexpr double kPull = 1e-4, kReach = 2;
 
 std::vector<Point> load_points(const InputMesh& input) {
@@ -27,12 +28,12 @@ std::vector<Point> load_points(const InputMesh& input) {
     points[i] = input.point(i);
     require(
         std::isfinite(points[i][0]) && std::isfinite(points[i][1]) && std::isfinite(points[i][2]),
-        "a mesh has a vertex that is not finite");
+        "a mesh vertex is not finite");
   }
   return points;
 }
 
-/// The triangles without those that name a vertex twice or have the vertices of an earlier one.
+/// The triangles, except those that use a vertex twice or have the same vertices as an earlier one.
 std::vector<Face> load_faces(const InputMesh& input) {
   std::vector<std::pair<Face, size_t>> sorted;
   sorted.reserve(input.triangle_count);
@@ -40,7 +41,7 @@ std::vector<Face> load_faces(const InputMesh& input) {
     const uint32_t* corners = input.triangles + 3 * t;
     Face f = {corners[0], corners[1], corners[2]};
     for (const uint32_t v : f) {
-      require(v < input.position_count, "a triangle names a vertex that isn't there");
+      require(v < input.position_count, "a triangle refers to a vertex that does not exist");
     }
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
     std::sort(f.begin(), f.end());
@@ -60,6 +61,7 @@ std::vector<Face> load_faces(const InputMesh& input) {
   return faces;
 }
 
+/// Quadric edge collapse with component removal and a final fit.
 class Simplifier {
  public:
   explicit Simplifier(const InputMesh& input)
@@ -74,7 +76,8 @@ class Simplifier {
     add_quadrics();
   }
 
-  /// Collapses the cheapest edges first; no triangle may turn by more than the angle of `cosine`.
+  /// Collapses the cheapest edges first; a triangle's normal may not rotate by more than the angle
+  /// of `cosine`.
   void run(size_t maximum, double cosine, const ck_control* control) {
     if (alive_ <= maximum) return;
     minimum_cosine_ = cosine;
@@ -90,7 +93,7 @@ class Simplifier {
     }
   }
 
-  /// Drops the smallest components until no more than `maximum` triangles and `maximum_pieces`
+  /// Removes the smallest components until at most `maximum` triangles and `maximum_pieces`
   /// components are left.
   void drop_components(size_t maximum, size_t maximum_pieces) {
     std::vector<uint32_t> parents(mesh_.vertex_count());
@@ -128,7 +131,8 @@ class Simplifier {
     });
   }
 
-  /// Makes up for what the collapses took off the surface.
+  /// Fits the vertices to the input surface, which compensates for the shrinkage caused by the
+  /// collapses.
   void fit(const ck_control* control) {
     if (!has_collapsed_) return;
     for (uint32_t v = 0; v < homes_.size(); ++v) root(&homes_, v);
@@ -157,11 +161,11 @@ class Simplifier {
  private:
   struct Vertex {
     Quadric quadric;
-    double error = 0;  ///< of the quadric at the vertex
+    double error = 0;  ///< value of the quadric at the vertex
     bool is_border = false;
   };
 
-  /// Where an edge's ends go when they become one.
+  /// The vertex that replaces an edge.
   struct Target {
     Quadric quadric;
     Point position;
@@ -206,7 +210,7 @@ class Simplifier {
     });
   }
 
-  /// An upright plane along an edge that only one triangle has holds the outline in its place.
+  /// A perpendicular plane along each boundary edge keeps the outline in place.
   void add_border(uint32_t a, uint32_t b, const Point& n) {
     const Point side = cross(mesh_.point(b) - mesh_.point(a), n);
     const double length2 = dot(side, side);
@@ -223,7 +227,7 @@ class Simplifier {
     return {q, p, std::max(0.0, q(p))};
   }
 
-  /// The place of least error.
+  /// The position of least error.
   Target target(uint32_t a, uint32_t b) const {
     const Point along = mesh_.point(b) - mesh_.point(a), middle = mesh_.point(a) + along * 0.5;
     Target t = target_at(a, b, middle);
@@ -234,8 +238,8 @@ class Simplifier {
     return t;
   }
 
-  /// The best of both ends and the middle where no triangle turns too far; false when there is
-  /// none.
+  /// The best of the two ends and the midpoint at which no triangle rotates too far; false if there
+  /// is none.
   bool find_fallback(uint32_t a, uint32_t b, Target* best) const {
     bool is_found = false;
     for (const double share : {0.5, 0.0, 1.0}) {
@@ -248,10 +252,10 @@ class Simplifier {
   }
 
   void push(uint32_t a, uint32_t b, const Target& t, bool is_fallback) {
-    // What the collapse adds to the error counts, not what the surface around has lost before.
+    // The cost is the error that this collapse adds, not the error accumulated before.
     const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
     const Point along = mesh_.point(a) - mesh_.point(b);
-    // Among edges without error the shortest go first.
+    // Among edges without error the shortest are collapsed first.
     const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
     queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
   }
@@ -281,7 +285,7 @@ class Simplifier {
     } else {
       t = target(a, b);
       if (!keeps_shape(a, b, t.position)) {
-        // Another place may cost far more: it waits for its turn.
+        // The fallback position may cost far more, so it is queued.
         if (find_fallback(a, b, &t)) push(a, b, t, true);
         return;
       }
@@ -300,7 +304,8 @@ class Simplifier {
     return keeps_sides(a, b, p) && keeps_sides(b, a, p);
   }
 
-  /// Whether the triangles that stay at `v` keep their side when it moves to `p`.
+  /// Whether the normals of the remaining triangles at `v` rotate by less than the limit when it
+  /// moves to `p`.
   bool keeps_sides(uint32_t v, uint32_t other, const Point& p) const {
     return mesh_.all_faces(v, [&](uint32_t i) {
       if (mesh_.has(i, other)) return true;
@@ -315,8 +320,8 @@ class Simplifier {
   InputMesh input_;
   CollapseMesh mesh_;
   std::vector<Vertex> vertices_;
-  std::vector<uint32_t> versions_;  ///< how often each vertex has changed
-  std::vector<uint32_t> homes_;     ///< which vertex each one went into
+  std::vector<uint32_t> versions_;  ///< number of changes of each vertex
+  std::vector<uint32_t> homes_;     ///< the vertex that each one was merged into
   CollapseQueue queue_;
   size_t alive_ = 0;
   double minimum_cosine_ = 0;
@@ -335,10 +340,11 @@ ck_status ck_simplify(float* positions, size_t* position_count, size_t position_
     ck::step(control, 0);
     ck::texture::Simplifier simplifier(
         {positions, *position_count, position_stride, triangles, *triangle_count});
-    // No closed piece has fewer than four triangles: many crumbs would take the budget.
+    // A closed component has at least four triangles: many tiny components would use up the budget.
     simplifier.drop_components(*triangle_count, std::max<size_t>(1, maximum_count / 16));
-    // What is refused in one pass may be allowed after its surroundings have changed. A limit on
-    // the triangles' shape does harm: it stops what would mend the slivers of the input.
+    // A collapse that is rejected in one pass may be permitted after its surroundings have changed.
+    // A limit on triangle shape is harmful: it prevents collapses that would repair slivers of the
+    // input.
     for (const double cosine : {0.2, 0.2, 0.0}) simplifier.run(maximum_count, cosine, control);
     simplifier.drop_components(maximum_count, maximum_count);
     simplifier.fit(control);

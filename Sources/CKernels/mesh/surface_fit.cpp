@@ -8,16 +8,18 @@
 namespace ck::texture {
 namespace {
 
+/// Rounds of projecting the samples, and sweeps of moving the vertices in each.
 constexpr size_t kRounds = 2, kSweeps = 2;
-/// Holds vertices where the samples leave a direction open, as along a plane.
+/// Regularization weight, as a fraction of the weight of the planes, for directions that the
+/// samples do not determine, for example within a plane.
 constexpr double kPull = 2e-3;
-/// A mesh that is right in the mean bulges at its vertices, and they make its outline: the last
-/// part of the way is not gone.
+/// Fraction of the displacement to apply: a mesh that is right on average bulges at its vertices,
+/// which form its outline.
 constexpr double kPart = 0.8;
-/// No triangle may turn by more than 60° in all.
+/// No triangle's normal may rotate by more than 60° in total.
 constexpr double kMinimumCosine = 0.5;
 
-/// The weights of a triangle's corners at its point nearest to `p` (Ericson, "Real-Time Collision
+/// Barycentric weights of the point of a triangle nearest to `p` (Ericson, "Real-Time Collision
 /// Detection", 2005, 5.1.5).
 Point nearest_weights(const Point& p, const Point& a, const Point& b, const Point& c) {
   const Point ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
@@ -63,7 +65,7 @@ SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& home
     const Point a = input.point(f[0]), b = input.point(f[1]), c = input.point(f[2]);
     const Point n = cross(b - a, c - a);
     const double area = std::sqrt(dot(n, n)) / 2;
-    // Middle and corners in this proportion give the integral of any quadratic function.
+    // Centroid and corners in this proportion integrate any quadratic function exactly.
     add((a + b + c) * (1.0 / 3), area * 3 / 4, homes[f[0]]);
     for (size_t k = 0; k < 3; ++k) areas[f[k]] += area / 12;
   }
@@ -79,7 +81,7 @@ SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& home
 }
 
 void SurfaceFit::add(const Point& position, double area, uint32_t home) {
-  // A piece that was dropped has no home.
+  // The vertex is unused if its component was removed.
   if (!(area > 0) || !mesh_.is_used(home)) return;
   samples_.push_back({{static_cast<float>(position[0]), static_cast<float>(position[1]),
                        static_cast<float>(position[2])},
@@ -146,11 +148,11 @@ void SurfaceFit::group() {
   }
 }
 
-/// Moves one vertex after the other to where the samples are nearest to the planes of its
-/// triangles.
+/// Moves one vertex after the other to the position where the samples are nearest to the planes of
+/// its triangles, in the least squares sense.
 void SurfaceFit::move_vertices() {
   for (const uint32_t v : movable_) {
-    Quadric q;  // In the move.
+    Quadric q;  // As a function of the displacement.
     mesh_.for_faces(v, [&](uint32_t i) {
       const auto& f = mesh_.face(i);
       const Point &n = normals_[i], &a = mesh_.point(f[0]);

@@ -10,7 +10,7 @@
 
 namespace ck::texture {
 
-/// A mesh as the caller has it.
+/// The caller's mesh.
 struct InputMesh {
   const float* positions;
   size_t position_count, stride;
@@ -24,44 +24,46 @@ struct InputMesh {
   }
 };
 
-/// Moves the vertices of a simplified mesh to where its triangles are nearest to the surface
-/// before, in the mean of the squares (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
+/// Moves the vertices of a simplified mesh to minimize the mean squared distance of its triangles
+/// to the original surface (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
 ///
-/// Planes touch a round surface from outside, and a collapse knows only the planes around its
-/// vertex: what collapses leave is a little too small. Borders stay where they are.
+/// Planes touch a convex surface from outside, and a collapse knows only the planes around its
+/// vertex: the simplified surface is slightly too small. Boundaries are not moved.
 class SurfaceFit {
  public:
-  /// `homes` has for each vertex of `input` the vertex of `mesh` that it went into.
+  /// `homes` holds for each vertex of `input` the vertex of `mesh` that it was merged into.
   SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& homes, CollapseMesh* mesh);
 
   void run(const ck_control* control);
 
  private:
-  /// A piece of the surface before, and where on the mesh it is nearest.
+  /// A sample of the original surface and its nearest point on the mesh.
   struct Sample {
     std::array<float, 3> position;
     float area;
-    std::array<float, 3> weights;  ///< of the triangle's corners
-    uint32_t face;                 ///< at first a vertex of it
+    std::array<float, 3> weights;  ///< barycentric
+    uint32_t face;                 ///< initially the index of a vertex
   };
 
   void add(const Point& position, double area, uint32_t home);
-  /// Looks for the nearest triangle around a vertex near by, unless a sample is above its triangle.
+  /// Searches for the nearest triangle around a nearby vertex, except for samples whose projection
+  /// lies inside their triangle.
   void find_faces(bool is_first);
-  /// Puts a sample on a triangle; returns the squared distance.
+  /// Projects a sample onto a triangle; returns the squared distance.
   double place(Sample* s, uint32_t face) const;
+  /// Groups the samples by triangle and updates the normals.
   void group();
   void move_vertices();
-  /// Moves a vertex unless that turns a triangle too far.
+  /// Moves a vertex unless that rotates a triangle too far.
   void move(uint32_t v, const Point& p);
 
   CollapseMesh& mesh_;
   std::vector<Sample> samples_;
   std::vector<uint32_t> offsets_, order_;  ///< the samples of each triangle
   std::vector<Point> sides_;               ///< unit normals before the first move
-  std::vector<Point> normals_;             ///< unit normals when samples were last looked for
+  std::vector<Point> normals_;             ///< unit normals when the samples were last projected
   std::vector<uint32_t> movable_;
-  std::vector<Point> starts_;  ///< of those that are movable
+  std::vector<Point> starts_;  ///< initial positions of the movable vertices
 };
 
 }  // namespace ck::texture

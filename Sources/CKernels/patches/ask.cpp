@@ -7,7 +7,7 @@
 namespace ck::patches {
 namespace {
 
-/// Rows are asked in vectors of this many patches.
+/// Rows are evaluated in vectors of this many patches.
 constexpr size_t kLanes = 16;
 
 size_t padded(int width) { return (static_cast<size_t>(width) + kLanes - 1) / kLanes * kLanes; }

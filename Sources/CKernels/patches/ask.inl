@@ -1,5 +1,6 @@
-// What a neighbour says about a row of patches, included once for each instruction set. The
-// including file defines CK_ASK_KERNELS (the name of the table) and `gather`, and sets the target.
+// Geometric consistency of a row of patches with a neighbor; included once for each instruction
+// set. The including file defines CK_ASK_KERNELS (the name of the table) and `gather`, and sets the
+// target.
 
 namespace ck::patches {
 namespace {
@@ -21,8 +22,8 @@ CK_INLINE F16 clamped(const F16& v, float low, float high) {
   return __builtin_elementwise_min(__builtin_elementwise_max(v, F16(low)), F16(high));
 }
 
-/// −1 where the normals of two planes over the reference's pixel grid are close; they need not have
-/// unit length.
+/// −1 in lanes where the normals of two planes over the reference's pixel grid enclose a small
+/// angle; they need not have unit length.
 CK_INLINE I16 are_parallel(const Agreement& a, const F16& x, float y, const F16& w, const F16& gx,
                            const F16& gy, const F16& w2, const F16& gx2, const F16& gy2) {
   const F16 dx = a.cx - x;
@@ -34,10 +35,10 @@ CK_INLINE I16 are_parallel(const Agreement& a, const F16& x, float y, const F16&
   return (dot > 0) & (dot * dot >= lengths * a.squared_cosine);
 }
 
-/// Where a vector of the reference's patches lies in the neighbour.
+/// Projection of a vector of the reference's patches into the neighbor.
 struct Places {
   F16 x, qz, inverse_z, u, v;
-  /// The neighbour's cells, of its border for what lies outside.
+  /// The neighbor's cells, clamped to its border.
   I16 iu, iv, cell;
 };
 
@@ -60,8 +61,8 @@ CK_INLINE Places locate(const Passage& t, const Row& row, int start) {
   return p;
 }
 
-/// Fetches what `ask_vector` will need: a row of patches crosses the neighbour's rows, where the
-/// processor does not look ahead by itself.
+/// Prefetches the patches that `ask_vector` will read: a row of patches crosses the neighbor's
+/// rows, which the hardware prefetcher does not predict.
 CK_INLINE void prefetch(const Passage& t, const Row& row, int start) {
   const I16 cell = locate(t, row, start).cell;
   constexpr int kPatchesOfLine = 64 / sizeof(ck_patch);
@@ -74,7 +75,7 @@ void ask_vector(const Passage& t, const Agreement& a, const Row& row, Replies& r
   const auto [x, qz, inverse_z, u, v, iu, iv, cell] = locate(t, row, start);
   const auto width = static_cast<float>(t.width), height = static_cast<float>(t.height);
   I16 known = (w > 0) & (qz > 1e-6f) & (u >= 0) & (v >= 0) & (u < width) & (v < height);
-  // The neighbour's plane p: its inverse depth and gradient, at the very pixel.
+  // The neighbor's plane p: its inverse depth and gradient, evaluated at the projected pixel.
   F16 pw, pu, pv, cost;
   gather(pw, &t.patches->inverse_depth, cell);
   gather(pu, &t.patches->gradient_x, cell);
@@ -83,8 +84,8 @@ void ask_vector(const Passage& t, const Agreement& a, const Row& row, Replies& r
   known &= (pw > 0) & (cost < a.cost);
   pw += pu * (u - __builtin_convertvector(iu, F16) - 0.5f) +
         pv * (v - __builtin_convertvector(iv, F16) - 0.5f);
-  // A pixel goes to q / q.z at inverse depth w / q.z. On the neighbour's plane that is p · q = w,
-  // linear in the reference's inverse depth and pixel.
+  // A pixel projects to q / q.z with inverse depth w / q.z. On the neighbor's plane that gives p ·
+  // q = w, which is linear in the reference's inverse depth and pixel.
   const F16 ex = t.epipole[0] - u * t.epipole[2], ey = t.epipole[1] - v * t.epipole[2];
   const F16 slope = 1.0f - (pu * ex + pv * ey + pw * t.epipole[2]), inverse = 1.0f / slope;
   const F16 plane_w = w + (pw * qz - w) * inverse;
@@ -98,11 +99,12 @@ void ask_vector(const Passage& t, const Agreement& a, const Row& row, Replies& r
   const F16 scale = __builtin_elementwise_max(t.magnification * inverse_z, F16(1));
   const F16 difference = __builtin_elementwise_abs(plane_w - w);
   const F16 distance = motion * difference / scale;
-  const F16 ratio = pw * qz;  // times w: this depth over the neighbour's
+  const F16 ratio = pw * qz;  // times w: this depth over the neighbor's
   const I16 agrees = known & (slope > 1e-3f) & (plane_w > 0) & (difference < a.depth * w) &
                      (distance < a.reprojection) &
                      are_parallel(a, x, y, w, gx, gy, plane_w, plane_x, plane_y);
-  // Where the parallax is small, being behind means little.
+  // With little parallax a depth difference is not significant; hence the condition on the
+  // disparity.
   const I16 sees_through =
       known & (distance > 2 * a.reprojection) & (ratio < w * (1 - a.contradiction));
   const I16 kind = (agrees & int32_t{kAgrees}) | (sees_through & int32_t{kSeesThrough});

@@ -8,7 +8,8 @@
 namespace ck::patches {
 namespace {
 
-/// The largest motion in a source, in pixels, with the inverse depth of the view's centre.
+/// The largest rate, over all sources, at which a projected pixel moves with inverse depth (pixels
+/// per unit of inverse depth), evaluated at the center of the view and of the inverse depth range.
 float largest_motion(const Comparison& c) {
   const float x = 0.5f * c.width, y = 0.5f * c.height, w = 0.5f * (c.minimum_w + c.maximum_w);
   float largest = 0;
@@ -25,6 +26,7 @@ float largest_motion(const Comparison& c) {
   return largest;
 }
 
+/// The image of a view and its successive halves, the full resolution first.
 std::vector<Image> pyramid(const ck_patch_view& view, int levels) {
   std::vector<Image> images = {image_of(view)};
   for (int level = 1; level < levels; ++level) images.push_back(half(images.back()));
@@ -50,7 +52,7 @@ Comparison Pyramids::compare(int level, const DepthRange& range, float margin,
   c.luma = image.luma.data();
   c.bilateral_contrast = options.bilateral_contrast;
   c.is_frontal = options.is_frontal != 0;
-  // Averaging 2 × 2 pixels halves the noise.
+  // Averaging 2 × 2 pixels halves the standard deviation of the noise.
   const double noise = reference_.noise * scale;
   c.noise_variance = static_cast<float>(noise * noise);
   c.minimum_w = range.lowest / margin;
@@ -68,7 +70,7 @@ Comparison Pyramids::compare(int level, const DepthRange& range, float margin,
 
 void check_views(const ck_patch_view& reference, size_t source_count) {
   require(source_count >= 1 && source_count <= kMaxSources, "1 to 8 sources are needed");
-  require(std::min(reference.width, reference.height) >= 16, "the view is too small");
+  require(std::min(reference.width, reference.height) >= 16, "the view is smaller than 16 pixels");
 }
 
 }  // namespace ck::patches

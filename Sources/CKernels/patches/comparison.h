@@ -7,7 +7,7 @@
 
 namespace ck::patches {
 
-/// The inverse depths that some patches have.
+/// The range of inverse depths of a set of patches.
 struct DepthRange {
   float lowest = 0, highest = 0;
 
@@ -20,24 +20,26 @@ struct DepthRange {
   bool is_empty() const { return !(highest > 0); }
 };
 
-/// The photos of a reference and its sources at all resolutions, the finest first.
+/// Image pyramids of a reference and its sources, the full resolution first.
 class Pyramids {
  public:
   Pyramids(const ck_patch_view& reference, const ck_patch_view* sources, size_t count, int levels);
 
-  /// All that scoring the reference's patches takes at one level, for inverse depths up to `margin`
-  /// times beyond the range. Valid as long as the pyramids.
+  /// The input for scoring the reference's patches at one level, for inverse depths from the lower
+  /// end of the range divided by `margin` to its upper end times `margin`. Valid as long as the
+  /// pyramids exist.
   Comparison compare(int level, const DepthRange& range, float margin,
                      const ck_patch_options& options) const;
 
  private:
   const ck_patch_view& reference_;
   const ck_patch_view* sources_;
-  /// Of the reference, then of the sources.
+  /// By view and level: the reference, then the sources.
   std::vector<std::vector<Image>> images_;
 };
 
-/// Throws where patches can't be made of such a view or with so many sources.
+/// Throws if patches cannot be reconstructed from a view of this size or with this number of
+/// sources.
 void check_views(const ck_patch_view& reference, size_t source_count);
 
 }  // namespace ck::patches

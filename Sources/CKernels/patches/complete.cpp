@@ -11,14 +11,14 @@
 namespace ck::patches {
 namespace {
 
-/// Where the patches of one view go in another.
+/// Maps the patches of one view into another.
 class Transfer {
  public:
   Transfer(const ck_patch_map& from, const ck_patch_map& to)
       : there_(from.view, to), back_(to.view, from) {}
 
-  /// The cell of the other view that shows a patch, and the patch's plane over its pixels; false
-  /// where the view doesn't show it or sees its back.
+  /// Computes the cell of the other view that shows a patch, and the patch's plane over that view's
+  /// pixels; false if the patch is outside the view or back-facing.
   bool carry(const ck_patch& p, int x, int y, int& cell_x, int& cell_y, Plane& plane) const {
     float q[3];
     for (int i = 0; i < 3; ++i) {
@@ -33,8 +33,8 @@ class Transfer {
     }
     cell_x = static_cast<int>(u);
     cell_y = static_cast<int>(v);
-    // Inverse depth is linear over the pixels of both views: differentiate where one goes to the
-    // other, as in ask.inl.
+    // Inverse depth is linear over the pixels of both views: differentiate the mapping from one to
+    // the other, as in geometric_consistency.inl.
     const float at_x = x + 0.5f, at_y = y + 0.5f;
     const auto along = [&](const float* d) {
       return p.gradient_x * (d[0] - at_x * d[2]) + p.gradient_y * (d[1] - at_y * d[2]) +
@@ -53,7 +53,8 @@ class Transfer {
   Passage there_, back_;
 };
 
-/// The accepted patches of neighbours at the rejected cells that show them; the nearest wins.
+/// The accepted patches of neighbors, mapped to the rejected cells of the reference; of several at
+/// a cell, the nearest to the camera.
 std::vector<Plane> offers_across(const ck_patch_map& reference, const ck_patch_map* neighbors,
                                  size_t count) {
   const size_t width = static_cast<size_t>(reference.view.width);
@@ -76,8 +77,8 @@ std::vector<Plane> offers_across(const ck_patch_map& reference, const ck_patch_m
   return offers;
 }
 
-/// Grows the accepted patches of a view into its rejected cells, and makes those beside an edge of
-/// the surface anew, of the texels that lie on their side of it.
+/// Propagates the accepted patches of a view into its rejected cells, and re-estimates those next
+/// to depth discontinuities from the texels on their side of the edge.
 class Completion {
  public:
   Completion(const ck_patch_map& reference, const Comparison& comparison,
@@ -94,8 +95,8 @@ class Completion {
     mark_edges();
   }
 
-  /// Visits the rejected cells that have an offer or a good cell before them; forward the good ones
-  /// at edges, too.
+  /// Visits the rejected cells that have a proposal or an accepted cell before them in the sweep; a
+  /// forward sweep also visits the accepted cells at edges.
   void sweep(bool is_forward, const ck_control* control, double from, double to) {
     const int back = is_forward ? -1 : 1;
     Wavefront(grid_.width, grid_.height, is_forward)
@@ -112,7 +113,7 @@ class Completion {
   Grid& grid() { return grid_; }
 
  private:
-  /// The best that was found for a cell.
+  /// The best patch found so far for a cell.
   struct Found {
     Plane plane;
     float cost = kNoPatch;
@@ -131,8 +132,8 @@ class Completion {
     const int back = is_forward ? -1 : 1;
     Found found[kWaveSize];
     for (int i = 0; i < count; ++i) {
-      // A rejected patch has to be beaten; a good one at an edge, made of texels of both sides, has
-      // not.
+      // A new patch must have a lower cost than a rejected patch, but not than an accepted one at
+      // an edge: that was estimated from texels of both sides.
       if (!is_good(cells[i])) found[i].cost = grid_.costs[grid_.index(cells[i].x, cells[i].y)];
     }
     attempt(cells, count, found, [&](const Cell& cell) {
@@ -150,11 +151,11 @@ class Completion {
     }
   }
 
-  /// Optimises each cell's patch from the plane `propose(const Cell&)`, unless that is where the
-  /// best one came from.
+  /// Optimizes each cell's patch starting from the plane `propose(const Cell&)`, unless the current
+  /// best one was obtained from there.
   template <typename Propose>
   void attempt(const Cell* cells, int count, Found* found, const Propose& propose) {
-    constexpr float kSame = 0.4f;  // pixels; Gauss–Newton gets there by itself
+    constexpr float kSame = 0.4f;  // pixels; within reach of Gauss–Newton
     Cell tried[kWaveSize];
     Plane planes[kWaveSize];
     float support[kWaveSize][kTexels];
@@ -176,12 +177,13 @@ class Completion {
     }
   }
 
-  /// How far two planes at a pixel are from each other, in pixels of a source.
+  /// Disparity between two planes at a pixel, in pixels of a source.
   float distance(const Plane& a, const Plane& b) const {
     return std::fabs(a.w - b.w) * comparison_.motion;
   }
 
-  /// Marks the good cells that have a good patch of another surface near by.
+  /// Marks the accepted cells with a depth discontinuity to an accepted cell two pixels away
+  /// diagonally.
   void mark_edges() {
     constexpr int kNear[4][2] = {{-2, -2}, {2, -2}, {-2, 2}, {2, 2}};
     for (int y = kMargin; y < grid_.height - kMargin; ++y) {
@@ -195,15 +197,15 @@ class Completion {
     }
   }
 
-  /// True where neither of two patches continues the other, (dx, dy) away from it. A single one
-  /// that does not is tilted by noise.
+  /// True if neither of two patches, (dx, dy) apart, continues the other. If only one of them does
+  /// not, it is tilted by noise.
   bool are_apart(const Plane& here, const Plane& there, int dx, int dy) const {
     const auto x = static_cast<float>(dx), y = static_cast<float>(dy);
     return distance(here.at(x, y), there) > kApart && distance(there.at(-x, -y), here) > kApart;
   }
 
-  /// How much each texel of a patch belongs to its surface: little where a good patch lies on
-  /// another one, one half where nothing is known.
+  /// Support weight of each texel of a patch: how likely it belongs to the same surface. Small
+  /// where an accepted patch lies on another surface, 0.5 where no patch is accepted.
   void weigh(const Cell& at, const Plane& plane, float* weights) const {
     for (const int dy : kTexelOffsets) {
       for (const int dx : kTexelOffsets) {
@@ -215,7 +217,7 @@ class Completion {
     }
   }
 
-  /// Pixels of a source between the patches of two surfaces.
+  /// Disparity between patches of two different surfaces, in pixels of a source.
   static constexpr float kApart = 1;
 
   const Comparison& comparison_;
@@ -223,7 +225,7 @@ class Completion {
   const int steps_;
   Grid grid_;
   std::vector<uint8_t> is_good_;
-  /// Good patches beside another surface, to be made anew.
+  /// Accepted patches next to another surface, to be re-estimated.
   std::vector<uint8_t> is_edge_;
   PatchOptimiser optimiser_;
 };
@@ -262,8 +264,9 @@ ck_status ck_patches_complete(ck_patch* completed, const ck_patch_map* reference
     ck::require(completed && reference && reference->states && options &&
                     (neighbors || neighbor_count == 0),
                 "missing argument");
-    ck::require(neighbor_count <= kMaxSources, "at most 8 neighbours");
-    for (size_t i = 0; i < neighbor_count; ++i) ck::require(neighbors[i].states, "no states");
+    ck::require(neighbor_count <= kMaxSources, "at most 8 neighbors");
+    for (size_t i = 0; i < neighbor_count; ++i)
+      ck::require(neighbors[i].states, "a neighbor has no filter states");
     complete(completed, *reference, neighbors, neighbor_count, *options, control);
   });
 }

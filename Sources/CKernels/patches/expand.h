@@ -5,25 +5,25 @@
 
 namespace ck::patches {
 
-/// What a sweep does at each pixel besides trying its neighbours' planes.
+/// What a propagation sweep does at each pixel in addition to testing its neighbors' planes.
 struct Sweep {
-  /// From the top left to the bottom right, or back.
+  /// True: from top left to bottom right; false: the reverse.
   bool is_forward = true;
-  /// Random planes tried around the current one.
+  /// Number of random perturbations of the current plane to test.
   int perturbations = 0;
-  /// Gauss–Newton steps.
+  /// Number of Gauss–Newton steps.
   int refinement_steps = 0;
-  /// The grid holds a coarser level's patches, to be kept where they are better.
+  /// The grid holds patches of a coarser level, which are kept where they are better.
   bool may_inherit = false;
   uint32_t seed = 0;
 };
 
-/// Expands patches over the grid: each pixel tries the planes of the two neighbours that the sweep
-/// has passed, and optimises what it keeps.
+/// Propagates patches over the grid: each pixel tests the planes of the two neighbors that the
+/// sweep has visited, and optimizes the best one.
 void expand(Grid& grid, const Comparison& comparison, const Kernels& kernels, const Sweep& sweep,
             const ck_control* control, double progress_from, double progress_to);
 
-/// The patches of the next finer level, offered by the coarser one; not scored.
+/// Upsamples the patches of a coarser level to twice the resolution; the result is not scored.
 Grid refine_grid(const Grid& coarse, int width, int height);
 
 }  // namespace ck::patches

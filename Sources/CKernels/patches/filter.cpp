@@ -8,18 +8,18 @@
 namespace ck::patches {
 namespace {
 
-/// Other views that must agree with a patch of this cost.
+/// Number of other views that must be consistent with a patch of this cost.
 ///
-/// Where texture is weak the correlation says little, and one more view must agree instead. Where
-/// there are few other views, all but one need not agree.
+/// Where texture is weak the correlation is less reliable, and one more view is required. With few
+/// other views, all but one suffice.
 int required_views(int neighbors, const ck_patch& patch, const ck_patch_filter_options& options) {
   const int regular = std::min(options.minimum_agreeing, std::max(1, neighbors - 1));
   return patch.cost < options.photometric_threshold ? regular : regular + 1;
 }
 
-/// The logarithm of a patch's side in steps of a quarter octave, from 1 on.
+/// The logarithm of a patch's side length in steps of a quarter octave, 1…255.
 ///
-/// A property of the patch alone, so that any two views order theirs alike.
+/// Depends on the patch alone, so that any two views rank their patches consistently.
 uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int y) {
   const auto fx = static_cast<float>(view.fx), fy = static_cast<float>(view.fy);
   const float dx = x + 0.5f - static_cast<float>(view.cx),
@@ -29,12 +29,12 @@ uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int
   const float normal = nx * nx + ny * ny + nz * nz;
   const float ray = dx * dx / (fx * fx) + dy * dy / (fy * fy) + 1;
   const float cosine = std::max(0.1f, p.inverse_depth / std::sqrt(normal * ray));
-  // The side is 1 / (w · fx · sqrt(cosine)); four steps an octave, 1 in the middle.
+  // The side is 1 / (w · fx · sqrt(cosine)); four steps per octave, centered on 128.
   const float steps = -4 * std::log2(p.inverse_depth * fx) - 2 * std::log2(cosine);
   return static_cast<uint8_t>(std::clamp(std::floor(steps) + 128, 1.0f, 255.0f));
 }
 
-/// Counts a neighbour's replies. The arrays are apart, which lets the compiler take many at a time.
+/// Accumulates the results of one neighbor. Separate arrays let the compiler vectorize the loop.
 void count(const uint8_t* __restrict kinds, size_t n, uint8_t bit, uint8_t* __restrict agreeing,
            uint8_t* __restrict contradicting, uint8_t* __restrict visibility) {
   for (size_t x = 0; x < n; ++x) {
@@ -45,7 +45,8 @@ void count(const uint8_t* __restrict kinds, size_t n, uint8_t bit, uint8_t* __re
   }
 }
 
-/// Keeps patches that enough other views confirm and that no more views see through.
+/// Accepts patches that enough other views are consistent with, unless more than half as many
+/// report a free-space violation.
 class VisibilityFilter {
  public:
   VisibilityFilter(const ck_patch_map& reference, const ck_patch_map* neighbors, size_t count,
@@ -106,8 +107,8 @@ class VisibilityFilter {
   std::vector<uint8_t> agreeing_, contradicting_, visibility_;
 };
 
-/// Removes patches at the border of the accepted ones that look like the rejected pixels around
-/// them: a plain background beside an outline borrows the outline's depth.
+/// Removes accepted boundary patches that resemble the rejected pixels around them: foreground
+/// fattening, where a textureless background next to an outline gets the outline's depth.
 class Fringe {
  public:
   explicit Fringe(float contrast) {
@@ -134,9 +135,10 @@ class Fringe {
   }
 
  private:
+  /// Radius of the square window in pixels.
   static constexpr int kRadius = 3;
 
-  /// How many pixels of the columns around a row are rejected.
+  /// Number of rejected pixels per column within the radius of a row.
   static void count_rejected(std::vector<int32_t>& result, const uint8_t* row, int width) {
     std::fill(result.begin(), result.end(), 0);
     for (int dy = -kRadius; dy <= kRadius; ++dy) {
@@ -145,7 +147,7 @@ class Fringe {
     }
   }
 
-  /// The pixel looks more like the rejected pixels around it than like the accepted ones.
+  /// Whether the pixel is more similar to the rejected pixels around it than to the accepted ones.
   bool is_fringe(const std::vector<uint8_t>& states, const ck_patch_view& view, size_t cell) const {
     const int luma = view.luma[cell];
     int32_t balance = 0;
@@ -159,10 +161,12 @@ class Fringe {
     return balance < 0;
   }
 
+  /// Similarity by difference in gray levels, 0…65536: 1 / (1 + (difference / contrast)²).
   int32_t likeness_[256];
 };
 
-/// Removes connected patches that are few; neighbours connect where their depths do.
+/// Removes small connected components; adjacent patches are connected if their inverse depths
+/// differ by at most 2 %.
 void remove_islands(uint8_t* states, const ck_patch_map& map, int minimum) {
   const int w = map.view.width, h = map.view.height;
   std::vector<uint8_t> visited(static_cast<size_t>(w) * h, 0);
@@ -198,7 +202,7 @@ ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch
     using namespace ck::patches;
     ck::require(states && reference && options && (neighbors || neighbor_count == 0),
                 "missing argument");
-    ck::require(!visibility || neighbor_count <= kMaxSources, "at most 8 neighbours");
+    ck::require(!visibility || neighbor_count <= kMaxSources, "at most 8 neighbors");
     VisibilityFilter(*reference, neighbors, neighbor_count, *options)
         .run(states, visibility, control);
     const Fringe fringe(options->fringe_contrast);

@@ -10,23 +10,23 @@ namespace {
 
 constexpr size_t kMaxPhotos = sizeof(ck_fused_patch::photos) / sizeof(uint16_t);
 
-/// A view's word on the surface behind a pixel of the reference.
+/// A view's estimate of the surface behind a pixel of the reference.
 struct Estimate {
-  /// Inverse depth on the pixel's ray.
+  /// Inverse depth on the pixel's viewing ray.
   float w = 0;
-  /// In the reference's camera frame, away from the camera.
+  /// In the reference's camera frame, pointing away from the camera.
   float normal[3] = {};
   float weight = 0;
 };
 
-/// What several views say about the surface behind one pixel, patches counting the more the better
-/// their photos agree.
+/// Estimates of several views for the surface behind one pixel, weighted by how well their photos
+/// correlate.
 struct Group {
   Estimate sum;
   int count = 0;
   int color[3] = {};
   float cost = 0;
-  /// Which neighbours agree.
+  /// Indices of the consistent neighbors.
   std::vector<size_t> neighbors;
 
   void clear() {
@@ -37,10 +37,10 @@ struct Group {
     neighbors.clear();
   }
 
-  /// Takes a view's patch in.
+  /// Adds the patch of a view.
   void add(const ck_patch_map& map, size_t cell, const Estimate& estimate) {
     const float c = map.patches[cell].cost;
-    constexpr float kPerfect = 0.05f;  // a cost below which patches are as good as each other
+    constexpr float kPerfect = 0.05f;  // matching cost below which patches are equally good
     const float weight = 1 / (kPerfect + c);
     sum.w += weight * estimate.w;
     for (int i = 0; i < 3; ++i) sum.normal[i] += weight * estimate.normal[i];
@@ -62,7 +62,7 @@ class Fusion {
         ask_(ask_function(options.instructions)),
         row_(reference.view.width) {
     for (size_t i = 0; i < count; ++i) neighbors_.push_back(&neighbors[i]);
-    // In order of photos, whatever order they come in.
+    // Sorted by photo, so that the result does not depend on the order of the input.
     std::sort(neighbors_.begin(), neighbors_.end(),
               [](const auto* a, const auto* b) { return a->photo < b->photo; });
     for (const ck_patch_map* map : neighbors_) {
@@ -90,6 +90,7 @@ class Fusion {
   }
 
  private:
+  /// Converts a plane at a pixel to an estimate of weight 1 with a unit normal.
   Estimate estimate(int x, int y, float w, float gx, float gy) const {
     const float nx = gx * agreement_.fx, ny = gy * agreement_.fy;
     const float nz = w + gx * (agreement_.cx - static_cast<float>(x)) +
@@ -98,7 +99,8 @@ class Fusion {
     return {w, {nx * scale, ny * scale, nz * scale}, 1};
   }
 
-  /// Collects the accepted patches that agree with one; false where the point is another view's.
+  /// Collects the accepted patches that are consistent with one of the reference; false if the
+  /// point belongs to another view (smaller footprint, or equal footprint and lower photo).
   bool collect(int x, int y) {
     const size_t cell = static_cast<size_t>(y) * reference_.view.width + x;
     group_.clear();
@@ -118,7 +120,7 @@ class Fusion {
     return true;
   }
 
-  /// False where no neighbour sees the fused plane from the front.
+  /// Computes the fused patch; false if no neighbor sees it from the front.
   bool fuse(ck_fused_patch& result, int x, int y) const {
     result = {};
     const Estimate& sum = group_.sum;
@@ -143,7 +145,7 @@ class Fusion {
     return result.photo_count > 1;
   }
 
-  /// The reference and the neighbours that agree and see the plane from the front.
+  /// Lists the reference and the consistent neighbors that see the plane from the front.
   void list_photos(ck_fused_patch& result) const {
     const auto add = [&](int photo) {
       if (result.photo_count < kMaxPhotos) {

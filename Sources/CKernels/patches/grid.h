@@ -4,28 +4,29 @@
 
 namespace ck::patches {
 
-/// A plane over the pixel grid: inverse depth at a pixel's centre and its gradient.
+/// A plane over the pixel grid: inverse depth at a pixel center and its gradient per pixel.
 struct Plane {
   float w = 0, gx = 0, gy = 0;
 
-  /// The same plane seen from the pixel (dx, dy) away.
+  /// The same plane, evaluated at the pixel (dx, dy) away.
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
-/// The least that a patch of weak texture costs: nothing grows from it into holes.
+/// Lower bound of the cost of a weakly textured patch; patches of this cost are not propagated into
+/// holes.
 constexpr float kWeakCost = 0.4f;
 
-/// All sources, a bit each.
+/// Bit mask of all sources.
 constexpr uint8_t kAllSources = 0xff;
 
-/// The most pixels that are optimised at once: enough to hide what each waits for, few enough for
-/// the nearest cache.
+/// Number of pixels optimized together: enough to hide memory latency, few enough for the
+/// first-level cache.
 constexpr int kWaveSize = 8;
 
-/// The cost of no patch.
+/// The cost where there is no patch: the largest possible 1 − ZNCC.
 constexpr float kNoPatch = 2;
 
-/// A pixel of a grid.
+/// Coordinates of a pixel of a grid.
 struct Cell {
   int x, y;
 };
@@ -34,9 +35,10 @@ struct Cell {
 struct Grid {
   int width = 0, height = 0;
   std::vector<Plane> planes;
-  /// The mean of the best two sources' 1 − ZNCC.
+  /// 1 − ZNCC, averaged over the two best sources.
   std::vector<float> costs;
-  /// The sources that a patch is compared with, a bit each; cells with none stay as they are.
+  /// Bit mask of the sources that each patch is compared with; cells without sources are not
+  /// modified.
   std::vector<uint8_t> sources;
 
   Grid() = default;
@@ -49,93 +51,98 @@ struct Grid {
 
   size_t index(int x, int y) const { return static_cast<size_t>(y) * width + x; }
 
-  /// The plane of the cell (dx, dy) away, seen from this one; no plane where that has none.
+  /// The plane of the cell (dx, dy) away, evaluated at this one; no plane if that cell has none.
   Plane plane_from(const Cell& cell, int dx, int dy) const {
     const Plane& plane = planes[index(cell.x + dx, cell.y + dy)];
     return plane.w > 0 ? plane.at(static_cast<float>(-dx), static_cast<float>(-dy)) : Plane();
   }
 
+  /// Loads planes and costs from patches.
   void read(const ck_patch* patches);
+  /// Stores planes and costs as patches.
   void write(ck_patch* patches) const;
 };
 
-/// All that scoring a patch of one reference needs at one resolution.
+/// The input for scoring the patches of one reference at one resolution.
 struct Comparison {
   int width = 0, height = 0;
   const uint8_t* luma = nullptr;
   Warps warps;
   float bilateral_contrast = 6;
-  /// Planes have no gradient.
+  /// Fronto-parallel patches: planes have no gradient.
   bool is_frontal = false;
-  /// Variance of the photos' noise.
+  /// Variance of the luma noise in gray levels squared.
   float noise_variance = 1;
-  /// Inverse depths between which a patch may lie.
+  /// Bounds of a patch's inverse depth.
   float minimum_w = 0, maximum_w = 0;
-  /// Pixels by which a source moves, at most, with inverse depth.
+  /// Largest rate at which a projected pixel moves with inverse depth, in pixels of a source per
+  /// unit of inverse depth.
   float motion = 0;
-  /// Focal lengths and principal point, to bound the slant.
+  /// Focal lengths and principal point in pixels, to limit the slant.
   float fx = 1, fy = 1, cx = 0, cy = 0;
 };
 
-/// The reference's 16 texels, normalised, once for all planes tried at a pixel.
+/// The normalized 16 texels of the reference, computed once for all planes tested at a pixel.
 struct alignas(64) ReferencePatch {
-  /// weight · (grey − mean) / deviation; sums to 0.
+  /// weight · (gray − mean) / deviation; sums to 0.
   float weighted[kTexels];
   float weight[kTexels];
-  /// (grey − mean) / deviation.
+  /// (gray − mean) / deviation.
   float value[kTexels];
-  /// Gradient in units of the deviation a pixel.
+  /// Image gradient per pixel, divided by the deviation.
   float gradient_x[kTexels], gradient_y[kTexels];
-  /// deviation / sqrt(variance + noise): what weak texture takes off the correlation.
+  /// deviation / sqrt(variance + noise variance), in 0…1: attenuates the correlation of weak
+  /// texture.
   float confidence;
 };
 
-/// What the sources show where a plane puts the patch: computed with the score, used by the step.
+/// Source samples under a plane: computed by `score`, used by `step`.
 ///
-/// Sources stand in eight slots, four a group; a vector holds a row of four texels for each of a
-/// group.
+/// Sources are arranged in eight slots, four per group; a vector holds a row of four texels for
+/// each source of a group.
 struct alignas(64) Samples {
-  /// Grey values by row.
+  /// Gray values by group and row.
   float values[2][4][16];
   float mean[8], inverse_deviation[8];
-  /// Motion of the patch with inverse depth, in pixels of the reference.
+  /// Derivative of the patch's position with respect to inverse depth, in pixels of the reference.
   float motion_x[8], motion_y[8];
   int group_count = 0;
-  /// The slots of the sources that see the patch well, a bit each: they move it.
+  /// Bit mask of the slots whose sources see the patch unoccluded; only these contribute to `step`.
   unsigned voters = 0;
 };
 
-/// A plane to be scored for a pixel, and its cost: the mean of the best two sources' 1 − ZNCC.
+/// A plane to score at a pixel, and its cost: 1 − ZNCC, averaged over the two best sources.
 struct Trial {
   const ReferencePatch* patch;
   Samples* samples;
   Plane plane;
   Cell cell;
-  /// A bit mask of the sources to compare with.
+  /// Bit mask of the sources to compare with.
   unsigned sources;
   float cost;
 };
 
 /// The inner loops, compiled for each instruction set.
 struct Kernels {
-  /// `support` says how much each texel counts besides, null for all alike.
+  /// Normalizes the reference texels. `support` holds an additional weight per texel, or null for
+  /// uniform weights.
   void (*prepare)(ReferencePatch& patch, const Comparison& comparison, const Cell& cell,
                   const float* support);
   /// Scores at most `kWaveSize` planes of different pixels.
   void (*score)(const Comparison& comparison, Trial* trials, int count);
-  /// One Gauss–Newton step on inverse depth and gradient over the voters, which were scored at
-  /// `plane`. False where they do not determine one.
+  /// One Gauss–Newton step on inverse depth and gradient over the visible slots, which were scored
+  /// at `plane`. False if they do not determine a step.
   bool (*step)(const ReferencePatch& patch, const Samples& samples, const Plane& plane,
                Plane& result);
 };
 
-/// The kernels for the instructions. Throws where the processor lacks them.
+/// The kernels of an instruction set. Throws if the processor does not support it.
 const Kernels& kernels(ck_instructions instructions);
 const Kernels& portable_kernels();
 const Kernels& avx2_kernels();
 const Kernels& avx512_kernels();
 
-/// True when the plane faces the camera by more than a grazing angle and lies within the bounds.
+/// True if the plane is within the inverse depth bounds and its angle of incidence is below 80°.
 inline bool is_plausible(const Comparison& c, int x, int y, const Plane& p) {
   if (!(p.w >= c.minimum_w && p.w <= c.maximum_w)) return false;
   const float rx = (x + 0.5f - c.cx) / c.fx, ry = (y + 0.5f - c.cy) / c.fy;

@@ -6,12 +6,15 @@
 #include "ck_patches.h"
 
 float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height) {
+  // Pixels outside kBlack…kWhite are under- or overexposed and show no noise.
   constexpr int kBins = 256, kBlack = 4, kWhite = 251;
+  // Bounds of the result in gray levels: the standard deviation of rounding (1 / √12), and 8.
   constexpr float kRounding = 0.29f, kLargest = 8;
-  // Few photos have no texture anywhere: what is found counts some of it.
+  // Few photos have regions without any texture: this factor corrects for the texture in the
+  // quantile.
   constexpr float kShare = 0.6f;
-  // The tenth of a normal distribution that is nearest to 0 lies within 0.1257 deviations; the
-  // mask's gain is 6.
+  // 10 % of a normal distribution lie within ±0.1257 standard deviations; the gain of Immerkær's
+  // mask for white noise is 6.
   constexpr float kQuantile = 0.1f, kDeviation = 6 * 0.1257f;
   std::array<size_t, kBins> counts{};
   size_t total = 0;
@@ -31,7 +34,7 @@ float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height) {
   int bin = 0;
   while (bin + 1 < kBins && below + counts[bin] <= wanted) below += counts[bin++];
   const float part = counts[bin] ? static_cast<float>(wanted - below) / counts[bin] : 0;
-  // Bin 0 holds half as wide an interval as the others.
+  // Bin 0 covers half the interval of the other bins.
   const float edge = bin == 0 ? 0.5f * part : bin - 0.5f + part;
   return std::clamp(kShare * edge / kDeviation, kRounding, kLargest);
 }

@@ -7,7 +7,7 @@
 namespace ck::patches {
 
 float PatchOptimiser::motion(const Plane& from, const Plane& to) const {
-  constexpr float kReach = 2;  // the patch's outermost texels
+  constexpr float kReach = 2;  // offset of the patch's outermost texels, in pixels
   const float slope = std::fabs(to.gx - from.gx) + std::fabs(to.gy - from.gy);
   return (std::fabs(to.w - from.w) + kReach * slope) * comparison_.motion;
 }
@@ -70,7 +70,7 @@ void PatchOptimiser::run(Trials& trials) {
 }
 
 void PatchOptimiser::offer_each(const Plane* planes) {
-  constexpr float kSame = 0.4f;  // Gauss–Newton gets there by itself.
+  constexpr float kSame = 0.4f;  // Pixels; within reach of Gauss–Newton.
   Trials trials;
   for (int i = 0; i < count_; ++i) {
     const Candidate& pixel = pixels_[i];
@@ -80,8 +80,8 @@ void PatchOptimiser::offer_each(const Plane* planes) {
 }
 
 void PatchOptimiser::settle() {
-  constexpr float kDistinct = 0.95f;  // deviation over noise of about 3
-  constexpr float kMargin = 0.1f;
+  constexpr float kDistinct = 0.95f;  // confidence at a signal-to-noise ratio of about 3
+  constexpr float kMargin = 0.1f;     // required difference in 1 − ZNCC
   for (int i = 0; i < count_; ++i) {
     Candidate& pixel = pixels_[i];
     const auto& inherited = pixel.inherited;
@@ -127,7 +127,7 @@ void PatchOptimiser::perturb(int count, uint32_t seed) {
 }
 
 void PatchOptimiser::refine(int steps, bool only_new) {
-  constexpr float kClose = 0.2f;  // So near the optimum a step need not be verified.
+  constexpr float kClose = 0.2f;  // Pixels; shorter steps are accepted without verification.
   Trials moving;
   for (int i = 0; i < count_; ++i) {
     if (pixels_[i].is_new || !only_new) moving.pixels[moving.count++] = i;

@@ -12,40 +12,40 @@ struct Candidate {
   Plane plane;
   float cost;
   unsigned sources;
-  /// What the grid held before.
+  /// The plane and cost of the grid before the optimization.
   struct {
     Plane plane;
     float cost;
   } inherited;
   ReferencePatch reference;
   Samples samples[2];
-  /// Which of the two belongs to the best plane.
+  /// Index of the samples that belong to the best plane.
   int current;
-  /// Of the perturbations.
+  /// Generator of the perturbations.
   Random random{0};
-  /// A plane was taken that the grid did not hold.
+  /// The best plane differs from the one in the grid.
   bool is_new;
 
-  /// No plane so far can be seen in any source.
+  /// No plane tested so far is visible in any source.
   bool is_empty() const { return !(plane.w > 0) || cost >= kNoPatch; }
 };
 
-/// Optimises the patches of a wave's pixels photometrically: holds the best plane of each so far
-/// and tries others, a plane for each pixel at a time.
+/// Photometric optimization of the patches of a wave: keeps the best plane of each pixel and tests
+/// candidate planes, one per pixel at a time.
 class PatchOptimiser {
  public:
   PatchOptimiser(Grid& grid, const Comparison& comparison, const Kernels& kernels)
       : grid_(grid), comparison_(comparison), kernels_(kernels) {}
 
-  /// Takes up the pixels and scores the planes that the grid holds.
+  /// Starts with the given pixels and scores the planes of the grid.
   void start(const Cell* cells, int count);
 
-  /// Takes up the pixels and scores a plane of each. `support` says how much the texels count, null
-  /// for all alike.
+  /// Starts with the given pixels and scores one plane for each. `support` holds the weights of the
+  /// texels, or null for uniform weights.
   void start(const Cell* cells, const Plane* planes, const float (*support)[kTexels], int count);
 
-  /// Offers each pixel the plane `propose(const Cell&)`, unless that is the best one so far but for
-  /// a fraction of a pixel. A plane without inverse depth is no offer.
+  /// Tests the plane `propose(const Cell&)` at each pixel, unless it differs from the best one by
+  /// only a fraction of a pixel. A plane without inverse depth is skipped.
   template <typename Propose>
   void offer_different(const Propose& propose) {
     Plane planes[kWaveSize];
@@ -53,14 +53,14 @@ class PatchOptimiser {
     offer_each(planes);
   }
 
-  /// Tries random planes around the best ones, ever closer to them.
+  /// Tests random perturbations of the best planes with decreasing range.
   void perturb(int count, uint32_t seed);
 
-  /// Takes Gauss–Newton steps as long as the cost falls; at wish only from new planes.
+  /// Takes Gauss–Newton steps as long as the cost falls; optionally only from new planes.
   void refine(int steps, bool only_new);
 
-  /// Where texture hardly stands out from noise, takes back the patch that the grid held if it cost
-  /// less: that of the coarser level, whose patches are wider and whose noise is lower.
+  /// Reverts to the inherited patch of the coarser level where texture is close to the noise level
+  /// and the inherited cost is lower: coarser patches cover a larger area and have less noise.
   void settle();
 
   /// Writes the patches of the pixels to the grid.
@@ -70,24 +70,25 @@ class PatchOptimiser {
   const Candidate* end() const { return pixels_ + count_; }
 
  private:
-  /// Planes to be scored, at most one a pixel.
+  /// Planes to score, at most one per pixel.
   struct Trials {
     Trial trials[kWaveSize];
-    /// Whose they are.
+    /// Indices of their pixels.
     int pixels[kWaveSize];
     int count = 0;
   };
 
-  /// Offers a plane to each pixel; see `offer_different`.
+  /// Tests a plane at each pixel; see `offer_different`.
   void offer_each(const Plane* planes);
 
   /// Adds a plane for the pixel if it is plausible.
   void add(Trials& trials, int pixel, const Plane& plane);
 
-  /// Scores the planes and takes those that cost less; leaves the pixels for which that is so.
+  /// Scores the planes and accepts those with a lower cost; keeps only the accepted trials.
   void run(Trials& trials);
 
-  /// Pixels of a source by which a change of plane moves the patch's texels, at most.
+  /// Upper bound on the displacement of the patch's texels in a source between two planes, in
+  /// pixels.
   float motion(const Plane& from, const Plane& to) const;
 
   Grid& grid_;

@@ -10,7 +10,8 @@
 namespace ck::patches {
 namespace {
 
-/// The levels that leave the coarsest grid a useful size.
+/// The number of pyramid levels, such that the shorter side of the coarsest one has at least about
+/// 32 pixels.
 int level_count(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,
                 int wanted) {
   int side = std::min(reference.width, reference.height);
@@ -20,7 +21,7 @@ int level_count(const ck_patch_view& reference, const ck_patch_view* sources, si
   return levels;
 }
 
-/// Seeds, expands and optimises, the coarsest level first.
+/// Seeds, propagates and optimizes patches, coarse to fine.
 Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,
                  const ck_patch_seed* seeds, size_t seed_count, const ck_patch_options& options,
                  const ck_control* control) {

@@ -8,7 +8,7 @@
 namespace ck::patches {
 namespace {
 
-/// What coarse patches say about the finer ones that take their place.
+/// Initializes finer patches from filtered coarse ones.
 class Parents {
  public:
   explicit Parents(const ck_patch_map& map) : map_(map), grid_(map.view.width, map.view.height) {
@@ -16,7 +16,7 @@ class Parents {
     for (const Plane& plane : grid_.planes) range_.include(plane.w);
   }
 
-  /// The finer patches, with the sources that each is to be compared with.
+  /// The finer patches, each with the sources to compare with.
   Grid children(int width, int height) const {
     Grid fine = refine_grid(grid_, width, height);
     for (int y = 0; y < height; y += 2) {
@@ -34,12 +34,13 @@ class Parents {
   const DepthRange& range() const { return range_; }
 
  private:
-  /// The neighbours that agree with the accepted patches around, for only they see the surface; all
-  /// of them where those are too few to tell. None where the filter rejected all patches around and
-  /// none of them looks promising: nothing that would stand can grow from those.
+  /// The neighbors that are consistent with the accepted patches around, because only they see the
+  /// surface; all neighbors if there are fewer than three. None if the filter rejected all patches
+  /// around and none of them has a low cost: nothing that would pass the filter can grow from
+  /// these.
   uint8_t sources_at(int x, int y) const {
-    constexpr float kPromising = 0.3f;
-    constexpr int kEnough = 3;
+    constexpr float kPromising = 0.3f;  // cost, 1 − ZNCC
+    constexpr int kEnough = 3;          // sources
     bool is_promising = false;
     unsigned agreeing = 0;
     for (int j = std::max(0, y - 1); j <= std::min(grid_.height - 1, y + 1); ++j) {
@@ -96,7 +97,7 @@ ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
     check_views(*reference, source_count);
     ck::require(
         coarse->view.width == reference->width / 2 && coarse->view.height == reference->height / 2,
-        "the coarse patches are not of half the resolution");
+        "the coarse patches do not have half the resolution");
     refine(*reference, sources, source_count, *coarse, *options, control).write(patches);
   });
 }

@@ -1,5 +1,6 @@
-// The inner loops of patch stereo, included once for each instruction set. The including file
-// defines CK_PATCH_KERNELS (the name of the table) and `gather`, and sets the target.
+// The inner loops of patch-based multi-view stereo, included once for each instruction set. The
+// including file defines CK_PATCH_KERNELS (the name of the table) and `gather`, and sets the
+// target.
 
 namespace ck::patches {
 namespace {
@@ -11,7 +12,7 @@ constexpr int kSlots = 4;
 constexpr int kRows = 4;
 const F16 kDx = {-2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2};
 
-/// A Gaussian of two pixels: what is near the centre says most about it.
+/// Spatial weights: a Gaussian with a standard deviation of two pixels.
 const F16 kProximity = {0.368f, 0.535f, 0.535f, 0.368f, 0.535f, 0.779f, 0.779f, 0.535f,
                         0.535f, 0.779f, 0.779f, 0.535f, 0.368f, 0.535f, 0.535f, 0.368f};
 
@@ -39,12 +40,13 @@ CK_INLINE void store8(float* p, const F8& v) { __builtin_memcpy(p, &v, sizeof v)
 
 CK_INLINE F8 absolute(const F8& v) { return __builtin_elementwise_abs(v); }
 
-/// Where a patch lies in each source: its centre and the affine map of the offsets.
+/// Projection of a patch into each source: its center and the affine map of the texel offsets.
 struct Footprints {
   F8 u, v, ax, ay, bx, by;
-  /// Motion of the patch with inverse depth, in pixels of the reference.
+  /// Derivative of the patch's position with respect to inverse depth, in pixels of the reference.
   F8 motion_x, motion_y;
-  /// −1 where the patch lies in the source, is not turned over and keeps about its size.
+  /// −1 where the patch lies within the source, is not mirrored and its area changes by a factor of
+  /// 0.1…8.
   I8 is_valid;
 };
 
@@ -75,14 +77,14 @@ CK_INLINE void locate(const Warps& t, int x, int y, const Plane& p, Footprints& 
   f.motion_y = (f.ax * dv - f.ay * du) * inverse_area;
 }
 
-/// A row of four values, once for each source.
+/// A row of four values, repeated for each source.
 CK_INLINE F16 row(const float* values, int j) {
   F4 v;
   __builtin_memcpy(&v, values + 4 * j, sizeof v);
   return __builtin_shufflevector(v, v, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3);
 }
 
-/// Of each source the sum of its four lanes.
+/// The sum of the four lanes of each source.
 CK_INLINE F4 sum_by_source(const F16& v) {
   const F8 pairs = v.even + v.odd;
   return pairs.even + pairs.odd;
@@ -103,9 +105,10 @@ CK_INLINE F4 fold(const F16& v) {
 
 CK_INLINE float sum(const F4& v) { return (v.x + v.z) + (v.y + v.w); }
 
-/// Which sources the slots of two groups hold, as indices of lanes; free slots repeat the first.
+/// By bit mask: the sources in the slots of two groups, as lane indices; free slots repeat the
+/// first source.
 ///
-/// Made by the compiler: code of this file must not run before the processor is known.
+/// Evaluated at compile time: code of this file must not run before the processor is known.
 struct Slots {
   uint8_t sources[256][kMaxSources] = {};
   constexpr Slots() {
@@ -126,7 +129,7 @@ struct Sources {
   int count;
 };
 
-/// The patch in four sources.
+/// The projection of a patch into four sources.
 struct Quad {
   F16 u, v, bx, by;
   I16 offset, stride;
@@ -147,7 +150,7 @@ CK_INLINE Quad quad(const Warps& t, const Footprints& f, const uint8_t* sources)
   return q;
 }
 
-/// What the sources show at the texels of a patch, and where between four pixels each lies.
+/// Packed source pixels at the texels of a patch, and the subpixel position of each texel.
 struct Texels {
   I16 words[kRows];
   F16 ru[kRows], rv[kRows];
@@ -164,7 +167,7 @@ CK_INLINE void fetch(const Warps& t, const Quad& q, Texels& texels) {
   }
 }
 
-/// The grey values of four sources at a row of texels, bilinearly.
+/// Bilinear gray values of four sources at a row of texels.
 CK_INLINE F16 sample(const Texels& texels, int j) {
   const I16 word = texels.words[j];
   const F16 p00 = __builtin_convertvector(word & 255, F16);
@@ -175,7 +178,8 @@ CK_INLINE F16 sample(const Texels& texels, int j) {
   return upper + texels.rv[j] * (lower - upper);
 }
 
-/// Four rows of eight pixels: of each those three before a pixel, itself twice and three after it.
+/// Four rows of eight bytes: the three pixels before a pixel, the pixel itself twice, and three
+/// after it.
 typedef uint8_t B32 __attribute__((ext_vector_type(32)));
 
 CK_INLINE B32 rows_around(const uint8_t* pixel, ptrdiff_t width, const int (&rows)[kRows]) {
@@ -199,11 +203,10 @@ CK_INLINE F16 texels_of(const B32& v) {
       F16);
 }
 
-/// Those before them, and after them.
+/// The texels one pixel to the left.
 CK_INLINE F16 texels_before(const B32& v) {
   return __builtin_convertvector(
-      __builtin_shufflevector(v, v, 0, 1, 4, 5, 8, 9, 12, 13, 16, 17, 20, 21, 24, 25, 28, 29),
-      F16);
+      __builtin_shufflevector(v, v, 0, 1, 4, 5, 8, 9, 12, 13, 16, 17, 20, 21, 24, 25, 28, 29), F16);
 }
 
 CK_INLINE F16 texels_after(const B32& v) {
@@ -234,7 +237,7 @@ void prepare(ReferencePatch& patch, const Comparison& c, const Cell& cell, const
   store(patch.gradient_y, 0.5f * (texels_of(below) - texels_of(above)) * scale);
 }
 
-/// The two lowest of some costs.
+/// The two lowest costs.
 struct Lowest {
   float first = kNoPatch, second = kNoPatch;
 };
@@ -245,12 +248,12 @@ CK_INLINE Lowest lowest(const F4& c) {
   return {std::min(low, low2), std::min(std::max(low, low2), std::min(high, high2))};
 }
 
-/// Four of the sources of a trial, which are sampled together.
+/// Up to four sources of a trial that are sampled together.
 struct Group {
   int trial, index;
 };
 
-/// Weighted sums over the patch in each slot.
+/// Weighted moments of the patch in each slot.
 struct Moments {
   F4 mean[2], square[2], covariance[2];
 };
@@ -275,33 +278,32 @@ CK_INLINE void measure(const ReferencePatch& patch, const Texels& texels, int g,
   moments.covariance[g] = sum_by_source(covariance);
 }
 
-/// The trial's cost, and who votes.
+/// Computes the trial's cost and the visible slots.
 CK_INLINE void conclude(const Comparison& c, Trial& trial, int count, const Moments& moments) {
   const F8 mean = join(moments.mean), square = join(moments.square);
   const F8 variance = __builtin_elementwise_max(square - mean * mean, F8(0)) + c.noise_variance;
   const F8 inverse_deviation = 1.0f / __builtin_elementwise_sqrt(variance);
-  const F8 cost =
-      1.0f - join(moments.covariance) * inverse_deviation * trial.patch->confidence;
-  // Free slots cost as much as no patch, those of a free group even more.
+  const F8 cost = 1.0f - join(moments.covariance) * inverse_deviation * trial.patch->confidence;
+  // A free slot has the cost of no patch; the slots of an unused group have infinite cost.
   F8 free = kNoPatch;
   free.hi = count > kSlots ? kNoPatch : std::numeric_limits<float>::infinity();
   const I8 slot = {0, 1, 2, 3, 4, 5, 6, 7};
   const F8 costs = slot < count ? cost : free;
   const Lowest one = lowest(costs.lo), more = lowest(costs.hi);
   const float first = std::min(one.first, more.first);
-  const float second =
-      std::min(std::max(one.first, more.first), std::min(one.second, more.second));
+  const float second = std::min(std::max(one.first, more.first), std::min(one.second, more.second));
   trial.cost = c.warps.count == 1 ? first : 0.5f * (first + second);
   Samples& samples = *trial.samples;
   store8(samples.mean, mean);
   store8(samples.inverse_deviation, inverse_deviation);
-  // Those that see the patch much worse than the best one, for what is in front of it, don't vote.
+  // Sources with a much higher cost than the best one are occluded and do not contribute to the
+  // step.
   samples.voters = mask(costs < std::min(1.0f, 1.5f * first + 0.05f));
   samples.group_count = (count + kSlots - 1) / kSlots;
 }
 
-/// Does each step for all planes before the next, so that the processor always has planes to work on
-/// while one waits for its texels or for a quotient.
+/// Processes all planes phase by phase, so that the processor has independent work while texel
+/// loads and divisions are pending.
 void score(const Comparison& c, Trial* trials, int count) {
   Footprints footprints[kWaveSize];
   Sources sources[kWaveSize];
@@ -362,7 +364,7 @@ bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plan
   const float h00 = sum(h), h01 = sum(h * dx), h11 = sum(h * dx * dx);
   const float h02 = sum(hy), h12 = sum(hy * dx), h22 = sum(fold(squares_yy));
   const float b0 = -sum(b), b1 = -sum(b * dx), b2 = -sum(fold(products_y));
-  // Levenberg's damping keeps weak directions where they are.
+  // Levenberg damping: poorly determined directions do not change.
   const float damping = 1e-3f * (h00 + h11 + h22) + 1e-20f;
   const float a00 = h00 + damping, a11 = h11 + damping, a22 = h22 + damping;
   const float c00 = a11 * a22 - h12 * h12, c01 = h02 * h12 - h01 * a22, c02 = h01 * h12 - h02 * a11;

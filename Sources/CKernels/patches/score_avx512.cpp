@@ -22,7 +22,7 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
   __builtin_memcpy(&out, &lanes, sizeof lanes);
 }
 
-/// The lanes of eight sources that go to 16 lanes, four each of four sources.
+/// Permutation of eight sources to 16 lanes, four for each of four sources.
 using Lanes = __m512i;
 
 inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) {

@@ -14,7 +14,7 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
   for (int i = 0; i < 16; ++i) out[i] = static_cast<int32_t>(base[index[i]]);
 }
 
-/// The lanes of eight sources that go to 16 lanes, four each of four sources.
+/// Permutation of eight sources to 16 lanes, four for each of four sources.
 using Lanes = const uint8_t*;
 
 inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) { return sources; }

@@ -16,7 +16,7 @@ struct Vertex {
 
 using Face = std::array<Vertex, 3>;
 
-/// The seeds inside the grid, one a pixel: the nearest to the camera.
+/// The seeds inside the grid, at most one per pixel: the nearest to the camera.
 std::vector<Vertex> vertices_of(const Grid& grid, const ck_patch_seed* seeds, size_t count,
                                 double scale) {
   std::vector<Vertex> all;
@@ -39,6 +39,7 @@ std::vector<Vertex> vertices_of(const Grid& grid, const ck_patch_seed* seeds, si
   return all;
 }
 
+/// The Delaunay triangulation of the vertices.
 std::vector<Face> triangulate(const Grid& grid, const std::vector<Vertex>& vertices) {
   cv::Subdiv2D subdivision(cv::Rect(0, 0, grid.width + 1, grid.height + 1));
   std::unordered_map<int, Vertex> by_id;
@@ -65,6 +66,7 @@ float cross(const Vertex& a, const Vertex& b, float x, float y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
+/// Writes the plane of a triangle to the pixels it covers.
 void fill(Grid& grid, const Comparison& comparison, const Face& f) {
   const float area = cross(f[0], f[1], f[2].x, f[2].y);
   if (std::fabs(area) < 1e-3f) return;

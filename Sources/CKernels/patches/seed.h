@@ -4,9 +4,10 @@
 
 namespace ck::patches {
 
-/// Lays the planes of the seeds' Delaunay triangles over the grid.
+/// Initializes the grid with the planes of the seeds' Delaunay triangles.
 ///
-/// `scale` takes the reference's pixels to the grid's. Pixels outside all triangles stay empty.
+/// `scale` maps pixels of the reference to those of the grid. Pixels outside all triangles stay
+/// empty.
 void seed(Grid& grid, const Comparison& comparison, const ck_patch_seed* seeds, size_t count,
           double scale);
 

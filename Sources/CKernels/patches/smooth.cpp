@@ -6,26 +6,28 @@
 namespace ck::patches {
 namespace {
 
-/// The information from which on patches stay as they are.
+/// Information (inverse disparity variance, in pixels⁻² up to a factor) above which patches are not
+/// smoothed.
 constexpr float kSufficient = 1.5f;
-/// What a patch says for itself, over what its neighbours say about it.
+/// Weight of a patch's current estimate relative to those of its neighbors.
 constexpr float kOwn = 0.1f;
-/// Deviations beyond which a patch is of another surface.
+/// Disparity difference in standard deviations above which a patch belongs to another surface.
 constexpr float kFar = 5;
-/// Averages, each of patches twice as far apart as the one before.
+/// Number of averaging passes; the spacing of the averaged patches doubles with each.
 constexpr int kPasses = 4;
 
-/// Of the window that tells texture.
+/// Radius in pixels of the window in which texture is measured.
 constexpr int kRadius = 2;
 
-/// How well texture tells disparity: the inverse of its variance in pixels, up to a factor. The
-/// energy of the photo's gradient around the patch over that of what the patch doesn't explain.
+/// The Fisher information of the texture about disparity: the inverse of its variance in pixels
+/// squared, up to a factor. The energy of the image gradient around the patch divided by that of
+/// the residual that the patch does not explain.
 class Information {
  public:
   Information(const Grid& grid, const uint8_t* luma)
       : grid_(grid), luma_(luma), energy_(grid.width), grey_(grid.width), square_(grid.width) {}
 
-  /// Zero where there is no patch, and at the border.
+  /// Computes a row; zero where there is no patch, and at the border.
   void read(float* result, int y) {
     const int w = grid_.width;
     std::fill(result, result + w, 0.0f);
@@ -42,9 +44,10 @@ class Information {
       }
       constexpr float kTexel = 1.0f / ((2 * kRadius + 1) * (2 * kRadius + 1));
       const float mean = grey * kTexel, variance = square * kTexel - mean * mean;
-      // Photos are rarely better than a grey level, for rounding and compression.
+      // Noise variance in gray levels squared: at least one, because of rounding and compression,
+      // plus the unexplained variance.
       const float noise = 1 + 2 * std::min(1.0f, costs[x]) * variance;
-      constexpr float kLeast = 0.05f;
+      constexpr float kLeast = 0.05f;  // lower bound of the information
       const float information = kLeast + 0.25f * kTexel * energy / noise;
       result[x] = planes[x].w > 0 && costs[x] < kNoPatch ? information : 0;
     }
@@ -72,10 +75,10 @@ class Information {
   std::vector<int32_t> energy_, grey_, square_;
 };
 
-/// Patches that are smoothed together.
+/// Number of patches that are smoothed together.
 constexpr int kBlock = 32;
 
-/// A row of patches by component, with room for neighbours that are not there on both sides.
+/// A row of patches as a structure of arrays, with padding for missing neighbors on both sides.
 struct Row {
   static constexpr int kPadding = 1 << (kPasses - 1);
 
@@ -96,19 +99,20 @@ struct Row {
   std::vector<float> w, gx, gy, information;
 };
 
-/// Corrections of a block of patches.
+/// Weighted sums of the corrections of a block of patches.
 struct Sums {
   float weight[kBlock], w[kBlock], gx[kBlock], gy[kBlock];
 };
 
-/// Adds what the patches (dx, dy) away say, which `there` holds, to those of `here` from `x` on.
+/// Adds the corrections that the patches (dx, dy) away, stored in `there`, imply for those of
+/// `here` from `x` on.
 void add(Sums& sums, const Row& here, const Row& there, int x, int dx, float dy, float scale) {
   const float *w0 = &here.w[x], *gx0 = &here.gx[x], *gy0 = &here.gy[x], *i0 = &here.information[x];
   const float *w1 = &there.w[x + dx], *gx1 = &there.gx[x + dx], *gy1 = &there.gy[x + dx],
               *i1 = &there.information[x + dx];
   const float half_x = 0.5f * dx, half_y = 0.5f * dy;
   for (int i = 0; i < kBlock; ++i) {
-    // The mean of the gradients at both ends carries a quadric over exactly.
+    // Extrapolating with the mean of both gradients is exact for a quadric.
     const float w = w1[i] - w0[i] - half_x * (gx0[i] + gx1[i]) - half_y * (gy0[i] + gy1[i]);
     const float far = std::max(0.0f, 1 - w * w * scale * std::min(i0[i], i1[i]));
     const float weight = far * far * i1[i];
@@ -119,7 +123,7 @@ void add(Sums& sums, const Row& here, const Row& there, int x, int dx, float dy,
   }
 }
 
-/// Averages each patch with the four that are `reach` away.
+/// Averages each patch with the four patches at distance `reach`.
 class Pass {
  public:
   Pass(Grid& grid, const std::vector<float>& information, int reach, float scale)
@@ -142,14 +146,13 @@ class Pass {
   }
 
  private:
-  /// Rows above the first are empty: theirs are the places that are not yet read.
+  /// Rows above the first one are empty: their slots have not been filled yet.
   Row& row(int y) {
     const int count = 2 * reach_ + 1;
     return rows_[static_cast<size_t>((y + count) % count)];
   }
 
-  /// The parts of a block's planes that their neighbours determine; false where none is more than
-  /// 0.
+  /// The smoothing strength of each patch of a block, 0…1; false if all are 0.
   static bool weigh(const float* information, float* shares) {
     float most = 0;
     for (int i = 0; i < kBlock; ++i) {

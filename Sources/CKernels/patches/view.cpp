@@ -41,6 +41,7 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
+/// The camera matrix K of a view reduced to `scale` of its size.
 Matrix calibration(const ck_patch_view& view, double scale) {
   Matrix k = Matrix::Identity();
   k(0, 0) = view.fx * scale;
@@ -60,7 +61,7 @@ PixelTransfer::PixelTransfer(const ck_patch_view& from, const ck_patch_view& to,
   const Matrix k_to = calibration(to, scale);
   const Matrix homography = k_to * rotation * calibration(from, scale).inverse();
   const Eigen::Vector3d shift = k_to * translation;
-  // Pixel (0, 0) has its centre at (0.5, 0.5).
+  // Pixel (0, 0) has its center at (0.5, 0.5).
   const Eigen::Vector3d origin = homography * Eigen::Vector3d(0.5, 0.5, 1);
   for (int i = 0; i < 3; ++i) {
     column0[i] = static_cast<float>(homography(i, 0));

@@ -8,15 +8,15 @@
 
 namespace ck::patches {
 
-/// Views that a reference is compared with at most.
+/// Largest number of source views of a reference.
 constexpr int kMaxSources = 8;
-/// Texels of a patch: 4 × 4 pixels of the reference at these offsets.
+/// Number of texels of a patch: 4 × 4 pixels of the reference at these offsets.
 constexpr int kTexels = 16;
 constexpr int kTexelOffsets[4] = {-2, -1, 1, 2};
-/// Pixels at the border that have no patch: the largest offset plus one for gradients.
+/// Width in pixels of the image border without patches: the largest offset plus one for gradients.
 constexpr int kMargin = 3;
 
-/// One resolution of a view's photo.
+/// The luma of a view at one resolution.
 struct Image {
   int width = 0, height = 0;
   std::vector<uint8_t> luma;
@@ -24,39 +24,40 @@ struct Image {
   size_t pixel_count() const { return static_cast<size_t>(width) * height; }
 };
 
-/// The view's photo as it is.
+/// The luma of a view at full resolution.
 Image image_of(const ck_patch_view& view);
 
 /// Halves both sides by averaging 2 × 2 pixels.
 Image half(const Image& image);
 
-/// Writes a word for each pixel: itself, its right, lower and diagonal neighbour, so that a
-/// bilinear sample is one gather.
+/// Packs each pixel with its right, lower and diagonal neighbors into a word, so that a bilinear
+/// sample takes one gather.
 void pack(uint32_t* texels, const Image& image);
 
-/// Where the pixels of one view and their inverse depths w go in another, both reduced to `scale`
-/// of their size: q = base + x · column0 + y · column1 + w · epipole, (u, v) = q.xy / q.z.
+/// Maps the pixels of one view and their inverse depths w into another, both reduced to `scale` of
+/// their size: q = base + x · column0 + y · column1 + w · epipole, (u, v) = q.xy / q.z.
 struct PixelTransfer {
   PixelTransfer(const ck_patch_view& from, const ck_patch_view& to, double scale);
 
   float column0[3], column1[3], base[3], epipole[3];
 };
 
-/// Where the reference's pixels go in its sources, a lane a source; see `PixelTransfer`.
+/// The mapping of the reference's pixels into its sources, one lane per source; see
+/// `PixelTransfer`.
 ///
-/// Lanes without source are zero, which no pixel projects to.
+/// Lanes without source are zero and therefore never valid.
 struct alignas(32) Warps {
   int count = 0;
   float column0[3][kMaxSources] = {}, column1[3][kMaxSources] = {};
   float base[3][kMaxSources] = {}, epipole[3][kMaxSources] = {};
-  /// Largest coordinates that can be sampled.
+  /// Largest pixel coordinates that can be sampled.
   float limit_u[kMaxSources] = {}, limit_v[kMaxSources] = {};
-  /// Where a source's packed pixels begin in `texels`, and its width.
+  /// Start of a source's packed pixels in `texels`, and its width.
   int offset[kMaxSources] = {}, stride[kMaxSources] = {};
   std::vector<uint32_t> texels;
 };
 
-/// Appends a source to the reference's, both reduced to `scale` of their size.
+/// Appends a source, with both views reduced to `scale` of their size.
 void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_view& source,
                 double scale, const Image& image);
 

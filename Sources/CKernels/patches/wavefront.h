@@ -7,17 +7,17 @@
 
 namespace ck::patches {
 
-/// Sweeps over the cells of a grid such that each comes after the one beside it and the one above
-/// it: from the top left to the bottom right, or back.
+/// Sweeps over the cells of a grid such that each comes after its left and upper neighbors: from
+/// top left to bottom right, or the reverse.
 ///
-/// Cells of an antidiagonal need nothing of one another. They are visited together, in waves, so
-/// that the processor finds work in one where it would wait for another:
+/// Cells on an antidiagonal are independent of one another. They are visited together, in waves, so
+/// that the processor can work on one while another waits for memory:
 ///
 ///     row 0   · · · 3 4        wave 4 visits the cells marked 4,
 ///     row 1   · · 3 4          after those marked 3
 ///     row 2   · 3 4
 ///
-/// A band of rows is as high as a wave is long; the next begins when it is done.
+/// A band has as many rows as a wave has cells; the next band starts after it is complete.
 class Wavefront {
  public:
   Wavefront(int width, int height, bool is_forward)

@@ -9,21 +9,24 @@
 namespace ck {
 namespace {
 
-/// Samples along a side of the window that is compared: the template without its border.
+/// Samples per side of the comparison window: the template without its border.
 constexpr int kSide = CK_TEMPLATE_SIDE - 2;
+/// Number of samples of the comparison window.
 constexpr int kCount = kSide * kSide;
+/// Largest number of iterations of a search.
 constexpr int kIterations = 15;
-/// A search has settled when its step is shorter than this, in pixels.
+/// Step length in pixels below which a search has converged.
 constexpr double kSettled = 0.003;
+/// Stored template samples per gray level.
 constexpr float kSampleScale = 64;
-/// Least standard deviation of the luma in a template that holds texture.
+/// Smallest standard deviation of the luma, in gray levels, of a template with texture.
 constexpr float kMinimumDeviation = 2.5f;
-/// Least ratio of the eigenvalues of its structure tensor.
+/// Smallest ratio of the eigenvalues of its structure tensor.
 constexpr float kMinimumIsotropy = 0.03f;
 
 using Window = std::array<float, kCount>;
 
-/// Gaussian weights of the window, which sum to one.
+/// Gaussian weights of the window, with a sum of one.
 Window window_weights() {
   Window weights;
   const float sigma = 0.5f * (kSide / 2 + 1);
@@ -56,7 +59,7 @@ float normalise(Window& values) {
   return deviation;
 }
 
-/// Removes from a derivative what gain and offset explain.
+/// Projects the effect of gain and offset out of a derivative.
 void project_out(Window& derivative, const Window& unit) {
   float mean = 0;
   for (int k = 0; k < kCount; ++k) mean += kWeights[k] * derivative[k];
@@ -65,7 +68,7 @@ void project_out(Window& derivative, const Window& unit) {
   for (int k = 0; k < kCount; ++k) derivative[k] -= share * unit[k];
 }
 
-/// A template, normalised, with its derivatives by sample and the normal equations' matrix.
+/// A normalized template with its derivatives per sample and the matrix of the normal equations.
 struct Template {
   Window unit, dx, dy;
   float deviation = 0, xx = 0, xy = 0, yy = 0;
@@ -93,6 +96,7 @@ struct Template {
   }
 };
 
+/// Locates one template; a ZNCC of −1 means that the search failed.
 ck_template_find search(const LumaPyramid& image, const Template& model,
                         const ck_template_search& s, double max_shift) {
   const ck_template_find nothing{s.x, s.y, -1};
@@ -167,7 +171,7 @@ ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t heigh
     for (size_t i = 0; i < count; ++i) {
       const ck_template_search& s = searches[i];
       ck::require(s.index >= 0 && static_cast<size_t>(s.index) < template_count,
-                  "a search names a template that isn't there");
+                  "a search refers to a template that does not exist");
       const uint16_t* stored = samples + static_cast<size_t>(s.index) * CK_TEMPLATE_SAMPLES;
       float values[CK_TEMPLATE_SAMPLES];
       for (int k = 0; k < CK_TEMPLATE_SAMPLES; ++k) values[k] = stored[k] / ck::kSampleScale;

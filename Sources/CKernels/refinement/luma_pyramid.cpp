@@ -19,7 +19,7 @@ inline Float4 load(const uint8_t* pixels) {
   return __builtin_convertvector(bytes, Float4);
 }
 
-/// Weights of four neighbours (Keys, "Cubic convolution interpolation", 1981).
+/// Weights of four adjacent pixels (Keys, "Cubic convolution interpolation", 1981).
 inline Float4 cubic_weights(float t) {
   return Float4{((-0.5f * t + 1) * t - 0.5f) * t, (1.5f * t - 2.5f) * t * t + 1,
                 ((-1.5f * t + 2) * t + 0.5f) * t, (0.5f * t - 0.5f) * t * t};
@@ -72,7 +72,7 @@ bool LumaPyramid::sample_grid(int level, double x, double y, double ax, double a
                               double by, int side, float* values) const {
   const Level& image = levels_[static_cast<size_t>(level)];
   const double factor = 1.0 / (1 << level), half = (side - 1) / 2.0;
-  // From the corner of the whole image to the centre of this level's first pixel.
+  // From the corner of the full image to the center of this level's first pixel.
   const double cx = x * factor - 0.5, cy = y * factor - 0.5;
   ax *= factor, ay *= factor, bx *= factor, by *= factor;
   const double reach_x = half * (std::abs(ax) + std::abs(bx));

@@ -6,17 +6,18 @@
 
 namespace ck {
 
-/// The luma of an image and its halves, sampled by cubic interpolation.
+/// A luma pyramid, sampled by cubic interpolation.
 ///
-/// Positions are pixels of the whole image from the corner of its top-left pixel, at every level.
+/// Positions are in pixels of the full image, from the corner of its top-left pixel, at every
+/// level.
 class LumaPyramid {
  public:
   LumaPyramid(const uint8_t* pixels, int width, int height, int channels, size_t stride);
 
-  /// The level whose pixels are at most `spacing` pixels wide.
+  /// The coarsest level whose pixels are at most `spacing` pixels of the full image wide.
   int level_for(double spacing) const;
 
-  /// Samples a grid of `side` × `side` points about (x, y); false where it leaves the image. One
+  /// Samples a grid of `side` × `side` points centered at (x, y); false if it leaves the image. One
   /// step along a row of the grid is (ax, ay) pixels, one along a column (bx, by).
   bool sample_grid(int level, double x, double y, double ax, double ay, double bx, double by,
                    int side, float* values) const;

@@ -13,7 +13,7 @@ using Matrix3 = Eigen::Matrix3d;
 /// A real root of c3 x³ + c2 x² + c1 x + c0 by Newton's method within a bracket.
 double real_cubic_root(double c3, double c2, double c1, double c0) {
   const double a = c2 / c3, b = c1 / c3, c = c0 / c3;
-  // Cauchy's bound encloses all roots; on either side of the inflection there is at least one.
+  // Cauchy's bound encloses all roots; on each side of the inflection point there is at least one.
   const double bound = 1 + std::max({std::abs(a), std::abs(b), std::abs(c)});
   const double inflection = -a / 3;
   const double value = ((inflection + a) * inflection + b) * inflection + c;
@@ -33,7 +33,7 @@ double real_cubic_root(double c3, double c2, double c1, double c0) {
   return x;
 }
 
-/// The matrices of Λᵀ M Λ = |Pi − Pj|² for the three pairs of rays, and those distances.
+/// The matrices of Λᵀ M Λ = |Pi − Pj|² for the three pairs of rays, and the squared distances.
 struct Constraints {
   std::array<Matrix3, 3> matrices;
   Vector3 squares;
@@ -70,7 +70,8 @@ void polish(const Constraints& constraints, Vector3& depths) {
   }
 }
 
-/// The depths on the plane w · Λ = 0 that fulfil the homogeneous `conic` and the constraints' sum.
+/// The depths on the plane w · Λ = 0 that satisfy the homogeneous `conic` and the sum of the
+/// constraints.
 int depths_on_plane(const Vector3& w, const Matrix3& conic, const Constraints& constraints,
                     std::array<Vector3, 4>& depths, int count) {
   if (!(w.norm() > 0)) return count;
@@ -82,7 +83,8 @@ int depths_on_plane(const Vector3& w, const Matrix3& conic, const Constraints& c
   if (!(scale > 0) || discriminant < -1e-12 * scale * scale) return count;
   const double root = std::sqrt(std::max(0.0, discriminant));
   const double q = -(b + (b < 0 ? -root : root));
-  // Roots of a α² + 2 b α β + c β² as (α : β), stable for any of the coefficients near zero.
+  // Roots of a α² + 2 b α β + c β² as (α : β); numerically stable if any of the coefficients is
+  // near zero.
   const Vector2 roots[2] = {{q, a}, {c, q}};
   const Matrix3 sum = constraints.matrices[0] + constraints.matrices[1] + constraints.matrices[2];
   for (const Vector2& ratio : roots) {
@@ -116,13 +118,14 @@ bool pose_of(const std::array<Vector3, 3>& rays, const std::array<Vector3, 3>& p
   return pose.rotation.allFinite() && pose.translation.allFinite();
 }
 
-/// A degenerate conic D0 of the pencil that the distance equations span, and another conic of it.
+/// A degenerate conic D0 of the pencil spanned by the distance equations, and another conic of the
+/// pencil.
 bool degenerate_conic(const Constraints& constraints, Matrix3& degenerate, Matrix3& other) {
   const auto& [m12, m13, m23] = constraints.matrices;
   const Vector3 a = constraints.squares / constraints.squares.maxCoeff();
   const Matrix3 d1 = m12 * a[2] - m23 * a[0];
   const Matrix3 d2 = m13 * a[2] - m23 * a[1];
-  // det(d1 + γ d2) as a polynomial in γ; at its root the conic falls apart into two planes.
+  // det(d1 + γ d2) as a polynomial in γ; at its root the conic degenerates into two planes.
   auto mixed = [](const Matrix3& x, const Matrix3& y, const Matrix3& z) {
     return x.col(0).dot(y.col(1).cross(z.col(2)));
   };
@@ -130,7 +133,7 @@ bool degenerate_conic(const Constraints& constraints, Matrix3& degenerate, Matri
   const double c1 = mixed(d2, d1, d1) + mixed(d1, d2, d1) + mixed(d1, d1, d2);
   const double c2 = mixed(d1, d2, d2) + mixed(d2, d1, d2) + mixed(d2, d2, d1);
   const double largest = std::max({std::abs(c0), std::abs(c1), std::abs(c2), std::abs(c3)});
-  // The roles of d1 and d2 swap where that makes the cubic better conditioned.
+  // Swap d1 and d2 if that makes the cubic better conditioned.
   const bool swap = std::abs(c3) < std::abs(c0);
   if (!(std::abs(swap ? c0 : c3) > 1e-14 * largest)) return false;
   const double gamma = swap ? real_cubic_root(c0, c1, c2, c3) : real_cubic_root(c3, c2, c1, c0);
@@ -150,7 +153,8 @@ int p3p(const std::array<Vector3, 3>& rays, const std::array<Vector3, 3>& points
   Matrix3 degenerate, other;
   if (!degenerate_conic(constraints, degenerate, other)) return 0;
 
-  // The eigenvalue nearest zero is the degenerate one; the others need opposite signs.
+  // The eigenvalue nearest to zero belongs to the degenerate direction; the others need opposite
+  // signs.
   const Eigen::SelfAdjointEigenSolver<Matrix3> eigen(degenerate);
   if (eigen.info() != Eigen::Success) return 0;
   const double low = eigen.eigenvalues()[0], high = eigen.eigenvalues()[2];

@@ -6,7 +6,7 @@
 
 namespace ck {
 
-/// All poses that see three points along three unit rays; returns how many.
+/// All poses that project three points onto three unit rays; returns their number.
 int p3p(const std::array<Vector3, 3>& rays, const std::array<Vector3, 3>& points,
         std::array<Pose, 4>& poses);
 

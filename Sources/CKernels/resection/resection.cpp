@@ -12,6 +12,7 @@
 namespace ck {
 namespace {
 
+/// The 2D–3D correspondences of a photo.
 struct Resection {
   const ck_camera_model& camera;
   std::vector<Vector3> points;
@@ -22,7 +23,7 @@ struct Resection {
 
   size_t size() const { return points.size(); }
 
-  /// The squared reprojection error; infinite behind the camera.
+  /// The squared reprojection error in pixels squared; infinite behind the camera.
   double square_error(const Pose& pose, size_t i) const {
     const Vector3 p = pose * points[i];
     if (!(p.z() > 1e-9)) return std::numeric_limits<double>::infinity();
@@ -45,6 +46,7 @@ struct Resection {
     return count;
   }
 
+  /// Draws three correspondences and computes their poses; false if there are none.
   bool sample(Random& random, std::array<Pose, 4>& poses, int& found) const {
     const auto draw = [&] { return static_cast<size_t>(random.next() % size()); };
     size_t index[3];
@@ -62,7 +64,8 @@ struct Resection {
     return found > 0;
   }
 
-  /// Normal equations over the points within the limit, errors weighted by a Huber loss.
+  /// Normal equations over the points within the error limit, weighted by a Huber loss. Returns the
+  /// truncated cost.
   double normal_equations(const Pose& pose, double huber, Eigen::Matrix<double, 6, 6>& h,
                           Eigen::Matrix<double, 6, 1>& g) const {
     h.setZero();
@@ -128,7 +131,7 @@ struct Resection {
   }
 };
 
-/// Hypotheses after which the best is found with the wanted probability.
+/// Number of hypotheses for the required probability of an outlier-free sample.
 int needed_iterations(double inlier_ratio, double confidence) {
   const double miss = 1 - inlier_ratio * inlier_ratio * inlier_ratio;
   if (miss <= 0) return 1;
@@ -141,7 +144,7 @@ bool search(const Resection& problem, const ck_resection_options& options,
             const ck_control* control, Pose& best) {
   Random random(options.seed);
   double best_score = std::numeric_limits<double>::infinity();
-  // A hypothesis of three points is never exact: the bound on iterations gets a floor.
+  // A minimal sample is never exact, so the number of iterations has a lower bound.
   const int least = std::min(options.max_iterations, 30);
   int limit = options.max_iterations;
   std::array<Pose, 4> poses;
@@ -178,7 +181,8 @@ ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const
     using namespace ck;
     require(pose && inliers && inlier_count && pixels && points && camera && options,
             "resection needs pixels, points and a camera");
-    require(options->max_error > 0 && options->max_iterations > 0, "resection options invalid");
+    require(options->max_error > 0 && options->max_iterations > 0,
+            "a resection option is out of range");
     *inlier_count = 0;
     if (count < 4) throw Degenerate("resection needs at least four points");
     Resection problem{*camera, {}, {}, {}, options->max_error * options->max_error};
@@ -193,7 +197,8 @@ ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const
               "resection needs finite points and pixels");
     }
     Pose best;
-    if (!search(problem, *options, control, best)) throw Degenerate("no pose sees the points");
+    if (!search(problem, *options, control, best))
+      throw Degenerate("no pose agrees with the points");
     best = problem.refine(best, 20, std::min(1.0, options->max_error));
     for (size_t i = 0; i < count; ++i) {
       inliers[i] = problem.square_error(best, i) <= problem.max_square;

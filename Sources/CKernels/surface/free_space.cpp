@@ -11,7 +11,7 @@
 
 namespace {
 
-/// The cells that the rays of one photo cross, a bit each.
+/// The cells that the rays of one photo cross, as a bit set.
 class Crossed {
  public:
   explicit Crossed(const ck_free_space_grid& grid) : grid_(grid) {
@@ -19,8 +19,8 @@ class Crossed {
     words_.assign((cells + 63) / 64, 0);
   }
 
-  /// Marks the cells between `from` and the place `clearance` before `to` (Amanatides and Woo, "A
-  /// Fast Voxel Traversal Algorithm", Eurographics 1987).
+  /// Marks the cells between `from` and the point at distance `clearance` before `to` (Amanatides
+  /// and Woo, "A Fast Voxel Traversal Algorithm", Eurographics 1987).
   void cast(const float* from, const float* to, double clearance) {
     std::array<double, 3> start, direction;
     double length = 0;
@@ -30,13 +30,14 @@ class Crossed {
       length += direction[i] * direction[i];
     }
     length = std::sqrt(length);
-    // Along the ray, 1 is the point.
+    // Ray parameter: 0 is the camera center, 1 the point.
     double enter = 0, leave = 1 - clearance / (grid_.cell_size * length);
     if (!std::isfinite(leave)) return;
     for (int i = 0; i < 3; ++i) clip(start[i], direction[i], grid_.size[i], enter, leave);
     if (enter < leave) walk(start, direction, enter, leave);
   }
 
+  /// Increments the saturating counts of the marked cells.
   void add_to(uint8_t* counts) const {
     for (size_t w = 0; w < words_.size(); ++w) {
       for (uint64_t rest = words_[w]; rest; rest &= rest - 1) {
@@ -47,7 +48,7 @@ class Crossed {
   }
 
  private:
-  /// Shortens the ray to what lies in the grid along one axis.
+  /// Clips the ray to the grid along one axis.
   static void clip(double start, double direction, int size, double& enter, double& leave) {
     if (direction == 0) {
       if (start < 0 || start >= size) leave = enter;
@@ -91,13 +92,13 @@ class Crossed {
   std::vector<uint64_t> words_;
 };
 
-/// The points that each photo sees.
+/// The indices of the points that each photo sees.
 std::vector<std::vector<uint32_t>> points_of_photos(const uint32_t* offsets, const uint16_t* photos,
                                                     size_t point_count, size_t photo_count) {
   std::vector<std::vector<uint32_t>> points(photo_count);
   for (size_t i = 0; i < point_count; ++i) {
     for (uint32_t k = offsets[i]; k < offsets[i + 1]; ++k) {
-      ck::require(photos[k] < photo_count, "a point names a photo that does not exist");
+      ck::require(photos[k] < photo_count, "a point refers to a photo that does not exist");
       points[photos[k]].push_back(static_cast<uint32_t>(i));
     }
   }
@@ -112,10 +113,10 @@ ck_status ck_free_space(const ck_free_space_grid* grid, const float* points, siz
                         const ck_control* control, uint8_t* counts) {
   return ck::guarded([&] {
     ck::require(grid && counts, "null pointer");
-    ck::require(grid->cell_size > 0, "the cells need a size");
+    ck::require(grid->cell_size > 0, "the cell size must be positive");
     size_t cells = 1;
     for (int size : grid->size) {
-      ck::require(size > 0 && size <= 4096, "1 to 4096 cells a side");
+      ck::require(size > 0 && size <= 4096, "the grid must have 1 to 4096 cells per side");
       cells *= static_cast<size_t>(size);
     }
     std::fill(counts, counts + cells, 0);

@@ -12,9 +12,10 @@
 
 namespace {
 
+/// Queries per unit of work.
 constexpr size_t kChunk = 4096;
 
-/// The finite points and where each of them stands in the input.
+/// The finite points and their indices in the input.
 struct FinitePoints {
   Eigen::MatrixXd matrix;
   std::vector<int32_t> indices;

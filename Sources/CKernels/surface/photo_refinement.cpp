@@ -9,7 +9,8 @@
 
 namespace ck::surface {
 
-/// Sorts the directed edges; those of a closed surface come once in each direction.
+/// Sorts the directed edges; on a closed surface each occurs once per adjacent triangle, hence
+/// twice.
 void RefinedMesh::find_neighbours() {
   std::vector<uint64_t> edges;
   edges.reserve(6 * triangles.size());
@@ -46,8 +47,8 @@ void RefinedMesh::find_normals() {
 
 namespace {
 
-/// As many views as there are threads, fewer where they are large: a pixel takes some hundred bytes
-/// while it is compared.
+/// The number of views to compare concurrently: one per thread, fewer for large views, because the
+/// comparison takes a few hundred bytes per pixel.
 size_t views_at_once(const std::vector<RefinementView>& views, const ck_control* control) {
   constexpr size_t kMostPixels = 24'000'000;
   size_t largest = 1;
@@ -55,7 +56,7 @@ size_t views_at_once(const std::vector<RefinementView>& views, const ck_control*
   return std::clamp<size_t>(kMostPixels / largest, 1, static_cast<size_t>(thread_count(control)));
 }
 
-/// Compares the views, several at once as there are threads, and adds what they say in their order.
+/// Compares the views, several concurrently, and accumulates their evidence in a fixed order.
 VertexEvidence gather(const RefinedMesh& mesh, const std::vector<RefinementView>& views,
                       const ck_photo_refinement_options& options, const ck_control* control,
                       double done, double share) {
@@ -116,13 +117,13 @@ ck_status ck_photo_refinement_create(const float* positions, size_t stride, size
     for (size_t i = 0; i < position_count; ++i) {
       const auto p = ck::texture::vec_at(positions, stride, i);
       ck::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
-                  "a mesh has a vertex that is not finite");
+                  "a mesh vertex is not finite");
       mesh.positions.push_back(p);
     }
     for (size_t t = 0; t < triangle_count; ++t) {
       const uint32_t* v = triangles + 3 * t;
       ck::require(std::max({v[0], v[1], v[2]}) < position_count,
-                  "a triangle names a vertex that isn't there");
+                  "a triangle refers to a vertex that does not exist");
       mesh.triangles.push_back({v[0], v[1], v[2]});
     }
     mesh.find_neighbours();

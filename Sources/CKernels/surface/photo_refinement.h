@@ -13,57 +13,61 @@ namespace ck::surface {
 
 using texture::Vec3;
 
-/// A mesh with what the steps of the refinement ask of it.
+/// A mesh with the connectivity and normals that the refinement uses.
 struct RefinedMesh {
   std::vector<Vec3> positions;
   /// Unit normals at the vertices.
   std::vector<Vec3> normals;
   std::vector<std::array<uint32_t, 3>> triangles;
-  /// The vertices beside vertex v are `neighbours[offsets[v]..<offsets[v + 1]]`, in ascending
-  /// order.
+  /// The neighbors of vertex v are `neighbours[offsets[v]..<offsets[v + 1]]`, in ascending order.
   std::vector<uint32_t> offsets, neighbours;
-  /// Whether a vertex lies at an edge that doesn't have two triangles.
+  /// Whether a vertex has an edge that is not shared by exactly two triangles.
   std::vector<uint8_t> is_border;
+  /// Mean edge length in world units.
   double mean_edge = 0;
 
+  /// Fills `offsets`, `neighbours`, `is_border` and `mean_edge`.
   void find_neighbours();
+  /// Computes the area-weighted vertex normals.
   void find_normals();
+  /// The normal of a triangle, with twice its area as length.
   Vec3 doubled_area(const std::array<uint32_t, 3>& t) const {
     const Vec3 a = positions[t[0]];
     return texture::cross(positions[t[1]] - a, positions[t[2]] - a);
   }
 };
 
-/// A photo, and how near the surface is.
+/// A photo with the depth of the surface in it.
 struct RefinementView {
-  /// Pixels a side that share a depth.
+  /// Side in pixels of the squares that share a depth.
   static constexpr int kShrink = 2;
 
   ck_pinhole pinhole;
   texture::Projection projection;
   std::vector<uint8_t> luminance;
-  /// The least depth of the surface around each square of pixels; 0 outside the mask, infinity
+  /// The smallest depth of the surface around each square of pixels; 0 outside the mask, infinity
   /// where there is no surface.
   std::vector<float> nearest;
-  /// The views it is compared with.
+  /// Indices of the views to compare with.
   std::vector<uint32_t> partners;
 
   RefinementView(const ck_pinhole& view, const uint8_t* rgb, const uint8_t* mask);
 
-  /// Draws the surface and keeps the least depths.
+  /// Renders the surface and stores the smallest depths.
   void find_depths(const RefinedMesh& mesh);
-  /// x, y in pixels and depth.
+  /// x and y in pixels, and depth.
   Vec3 project(Vec3 p) const;
-  /// Whether nothing lies before a point with this projection, `margin` pixels from the rim.
+  /// Whether a point with this projection is at least `margin` pixels from the image border and not
+  /// occluded.
   bool sees(Vec3 projected, float margin) const;
-  /// The length at a depth that a pixel shows.
+  /// The side of a pixel at a depth, in world units.
   float footprint(float depth) const { return depth / static_cast<float>(pinhole.focal[0]); }
 
  private:
   size_t shrunk_width() const { return static_cast<size_t>(pinhole.width / kShrink + 1); }
 };
 
-/// The part of an image that shows the surface, with the triangle at each pixel.
+/// The rendered surface within its bounding rectangle: triangle index and depth per pixel.
 struct SurfaceImage {
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
@@ -71,12 +75,13 @@ struct SurfaceImage {
   std::vector<uint32_t> triangles;
   std::vector<float> depths;
 
-  /// Draws the mesh into an image of the view, each side divided by `shrink`.
+  /// Renders the mesh into an image of the view with each side divided by `shrink`.
   SurfaceImage(const RefinedMesh& mesh, const RefinementView& view, int shrink);
 };
 
-/// What a view and its partners say about one of its pixels: the sum of squared slopes of their
-/// differences, and of the slopes times the differences, along the normal.
+/// Photometric evidence at a pixel of a view: the sum of squared slopes of its differences to the
+/// partners (with respect to a displacement along the normal), and the sum of slopes times
+/// differences, negated: the terms of a Gauss–Newton step.
 struct PixelEvidence {
   uint32_t triangle;
   std::array<float, 3> weights;
@@ -84,22 +89,22 @@ struct PixelEvidence {
   float pull;
 };
 
-/// The same for each vertex, and the length that pixels show in the mean.
+/// The same per vertex, and the mean side of a pixel on the surface in world units.
 struct VertexEvidence {
   std::vector<double> slope2, pull;
   double footprint = 0;
 };
 
-/// Chooses for each view those that see the same at a good angle.
+/// Selects for each view at most `count` partners that see the same surface at a suitable angle.
 void choose_partners(const RefinedMesh& mesh, int count, std::vector<RefinementView>* views);
 
-/// Compares a view with its partners by way of the surface.
+/// Compares a view with its partners, which are warped into it by the surface.
 std::vector<PixelEvidence> compare(const RefinedMesh& mesh,
                                    const std::vector<RefinementView>& views, size_t index,
                                    const ck_photo_refinement_options& options);
 
-/// Moves the vertices to the least sum of the photos' differences and of bending; returns which of
-/// them the photos determine.
+/// Moves the vertices to minimize the photometric differences plus the bending energy; returns
+/// which vertices the photos constrain.
 std::vector<uint8_t> move_vertices(const VertexEvidence& evidence, float smoothness,
                                    const ck_control* control, RefinedMesh* mesh);
 

@@ -9,20 +9,21 @@ namespace {
 
 using texture::dot;
 
-/// Surface that a view sees at a smaller cosine isn't compared.
+/// Surface seen at a smaller cosine is not compared.
 constexpr float kMinimumCosine = 0.25f;
-/// The correlation from which on a window counts in full.
+/// Correlation from which a window has full weight.
 constexpr float kGoodCorrelation = 0.9f;
-/// Differences beyond this, in standard deviations of the window, count less (Huber).
+/// Threshold of the Huber weights, in standard deviations of the window.
 constexpr float kLargeDifference = 1;
-/// Samples of an image reach so many pixels around a position.
+/// Image border in pixels that interpolation needs around a position.
 constexpr float kMargin = 3;
-/// Vertices that choose the partners of the views, about.
+/// Approximate number of vertices that are sampled to select partners.
 constexpr size_t kSamples = 20000;
-/// The angle between two views, in degrees, from which on disparities tell enough, and how slowly
-/// views turn too different beyond it.
+/// Triangulation angle in degrees from which the depth is well determined, and the standard
+/// deviation in degrees of the decrease of the weight beyond it, where views become too dissimilar.
 constexpr float kGoodAngle = 15, kAngleSpread = 20;
 
+/// Weight of a pair of views by the cosine of their triangulation angle.
 float angle_weight(float cosine) {
   const float degrees = std::acos(std::clamp(cosine, -1.0f, 1.0f)) * 57.29578f;
   if (degrees < kGoodAngle) return degrees / kGoodAngle;
@@ -30,7 +31,7 @@ float angle_weight(float cosine) {
   return std::exp(-excess * excess / 2);
 }
 
-/// Replaces all values by their sums over squares of `radius` around them.
+/// Replaces all values by their sums over the squares that extend `radius` around them.
 void sum_squares(int width, int height, int radius, std::vector<float>* values) {
   const auto w = static_cast<size_t>(width), h = static_cast<size_t>(height);
   const auto r = static_cast<size_t>(radius);
@@ -58,8 +59,8 @@ void sum_squares(int width, int height, int radius, std::vector<float>* values) 
   }
 }
 
-/// The weights of four neighbouring values at `t` between the second and the third, and their
-/// slopes (Catmull–Rom).
+/// Interpolation weights of four adjacent values at `t` between the second and the third, and the
+/// weights of the derivative (Catmull–Rom).
 struct Cubic {
   float weights[4], slopes[4];
 
@@ -76,7 +77,7 @@ struct Cubic {
   }
 };
 
-/// Luminance at a pixel position (x and y), and its slopes along x and y.
+/// Luminance at a pixel position (x), and its derivatives along x and y (y, z).
 Vec3 sample(const RefinementView& view, float x, float y) {
   x -= 0.5f;
   y -= 0.5f;
@@ -97,7 +98,7 @@ Vec3 sample(const RefinementView& view, float x, float y) {
   return result;
 }
 
-/// One view and those it is compared with.
+/// The comparison of one view with its partners.
 class Comparison {
  public:
   Comparison(const RefinedMesh& mesh, const RefinementView& view,
@@ -126,7 +127,7 @@ class Comparison {
     }
   }
 
-  /// What was found, without the pixels that no partner says anything about.
+  /// The evidence of the pixels that at least one partner constrains.
   std::vector<PixelEvidence> result() const {
     std::vector<PixelEvidence> found;
     for (const PixelEvidence& e : evidence_) {
@@ -138,8 +139,8 @@ class Comparison {
  private:
   enum { kCount, kOwn, kOther, kSlope, kOwn2, kOther2, kBoth, kSums };
 
-  /// Finds the point that a pixel shows and how it moves along the pixel's ray while the surface
-  /// moves along its normal by 1.
+  /// Computes the surface point of a pixel and its displacement along the viewing ray per unit of
+  /// displacement of the surface along its normal.
   PixelEvidence locate(size_t i) {
     PixelEvidence e = {image_.triangles[i], {}, 0, 0};
     if (e.triangle == SurfaceImage::kNone) return e;
@@ -174,7 +175,8 @@ class Comparison {
     return e;
   }
 
-  /// Draws the partner's photo as this view would show it, and how it changes with the surface.
+  /// Warps the partner's photo into this view, with its derivative with respect to the surface
+  /// displacement.
   void warp(const RefinementView& partner) {
     valid_.assign(evidence_.size(), 0);
     other_.assign(evidence_.size(), 0);
@@ -202,8 +204,8 @@ class Comparison {
     }
   }
 
-  /// The difference of what stands out from the two windows around a pixel, each in its own
-  /// standard deviations, and its slope.
+  /// Adds the evidence of a pixel: the difference of the two luminances, each normalized by the
+  /// mean and standard deviation of its window, and its derivative.
   void judge(size_t i) {
     const float n = 1 / sums_[kCount][i];
     const float own_mean = sums_[kOwn][i] * n, other_mean = sums_[kOther][i] * n;
@@ -232,7 +234,7 @@ class Comparison {
   std::vector<PixelEvidence> evidence_;
   std::vector<Vec3> points_, moves_;
   /// By pixel: this view's luminance, whether the partner sees the point, its luminance there, and
-  /// the slope of that.
+  /// the derivative of the latter.
   std::vector<float> own_, valid_, other_, slope_;
   std::array<std::vector<float>, kSums> sums_;
 };

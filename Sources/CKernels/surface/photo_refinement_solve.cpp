@@ -9,22 +9,26 @@ namespace {
 
 using texture::dot;
 
-/// A vertex moves where it has more than this share of the evidence that is usual, and bends as
-/// freely as others from the larger share on.
+/// Fractions of the median evidence: a vertex with less than the first is not moved; from the
+/// second on its bending term has full weight.
 constexpr double kLeastShare = 0.01, kGoodShare = 0.1;
-/// Smoothness gives way where the surface around a vertex bends more than so many of its edges'
-/// length in the mean: at a crease, but not at one vertex that stands out.
+/// Mean bending around a vertex, relative to the mean edge length, at which the smoothness weight
+/// is halved: reduces smoothing at creases, but not at a single outlier.
 constexpr double kCrease = 0.02;
-/// A round moves a vertex by so many pixels' lengths at most.
+/// Largest displacement of a vertex per round, in pixel footprints.
 constexpr float kLongestStep = 0.5f;
-/// The cosine by which a triangle may turn in a round.
+/// Cosine of the largest rotation of a triangle's normal per round.
 constexpr float kMinimumCosine = 0.5f;
+/// Conjugate gradient iterations.
 constexpr int kIterations = 40;
+/// Relative reduction of the squared preconditioned residual at which conjugate gradients stop.
 constexpr double kReduction = 1e-6;
+/// Units of parallel work.
 constexpr size_t kBlocks = 64;
 
-/// The moves along the normals that make photos' differences and bending least: a sparse linear
-/// system, solved by conjugate gradients. Lengths are in pixels.
+/// Solves for the displacements along the normals that minimize the photometric differences plus
+/// the bending energy: a sparse linear system, solved by conjugate gradients. Lengths are in pixel
+/// footprints.
 class System {
  public:
   System(const RefinedMesh& mesh, const VertexEvidence& evidence, float smoothness,
@@ -40,7 +44,7 @@ class System {
     const double unit = evidence.footprint;
     const double usual = usual_evidence(evidence) * unit * unit;
     if (!(usual > 0)) return;
-    // Bending of one shape shrinks with the square of the edges.
+    // The bending of a given shape decreases with the square of the edge length.
     const double relative = unit / mesh.mean_edge;
     const double weight = smoothness * usual * relative * relative * relative * relative;
     const double crease = kCrease * mesh.mean_edge / unit;
@@ -61,8 +65,7 @@ class System {
     for (size_t v = 0; v < size_; ++v) pull_[v] = is_movable[v] ? pull_[v] - scratch_[v] : 0;
   }
 
-  /// Conjugate gradients with the diagonal as preconditioner; sums run in the order of the
-  /// vertices.
+  /// Conjugate gradients with a diagonal preconditioner; sums are taken in vertex order.
   std::vector<float> solve(const ck_control* control) {
     std::vector<float> moves(size_, 0), rest = pull_, scaled(size_), image(size_);
     const auto precondition = [&] {
@@ -102,6 +105,7 @@ class System {
   std::vector<uint8_t> is_movable;
 
  private:
+  /// The median of the positive evidence; 0 if there is none.
   static double usual_evidence(const VertexEvidence& evidence) {
     std::vector<double> some;
     for (double value : evidence.slope2) {
@@ -113,7 +117,7 @@ class System {
     return *middle;
   }
 
-  /// How far the mean of its neighbours lies above a vertex.
+  /// The height of the mean of its neighbors above a vertex, along the normal.
   double bend_at(size_t v) const {
     Vec3 sum;
     const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
@@ -124,6 +128,7 @@ class System {
     return dot(mesh_.normals[v], sum) / static_cast<float>(end - first);
   }
 
+  /// The mean over a vertex and its neighbors.
   double mean_around(size_t v, const std::vector<float>& values) const {
     double sum = values[v];
     const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
@@ -140,7 +145,7 @@ class System {
     });
   }
 
-  /// What moves change of the weighted bends.
+  /// The change of the weighted bending under the given displacements.
   void bend(const std::vector<float>& moves, std::vector<float>* result) const {
     for_all([&](size_t v) {
       (*result)[v] = 0;
@@ -155,7 +160,7 @@ class System {
     });
   }
 
-  /// The transposed of the unweighted bends.
+  /// Applies the transpose of the unweighted bending operator.
   void transpose(const std::vector<float>& bends, std::vector<float>* result) const {
     for_all([&](size_t v) {
       float sum = -bends[v];
@@ -168,6 +173,7 @@ class System {
     });
   }
 
+  /// Multiplies by the system matrix.
   void apply(const std::vector<float>& moves, std::vector<float>* result) {
     bend(moves, &scratch_);
     transpose(scratch_, result);
@@ -185,7 +191,7 @@ class System {
   std::vector<float> diagonal_, bending_, pull_, scratch_;
 };
 
-/// Moves vertices along their normals without turning triangles over.
+/// Moves vertices along their normals without flipping triangles.
 class Move {
  public:
   Move(const std::vector<float>& lengths, RefinedMesh* mesh)
@@ -196,13 +202,13 @@ class Move {
     for (uint32_t v = 0; v < lengths_.size(); ++v) place(v);
   }
 
-  /// Moves the corners of triangles that turn too far by the same length, since the triangles are
-  /// narrow; what turns even so stays.
+  /// Gives the corners of triangles that rotate too far the same displacement, because the
+  /// triangles are narrow; those that still rotate too far are not moved.
   void straighten() {
     for (int pass = 0; pass < kPasses; ++pass) {
       for_turned([&](const std::array<uint32_t, 3>& t) {
         const float mean = (lengths_[t[0]] + lengths_[t[1]] + lengths_[t[2]]) / 3;
-        // Those that may not move have no length and keep it.
+        // Fixed vertices have displacement 0 and keep it.
         for (uint32_t v : t) set(v, lengths_[v] == 0 ? 0 : mean);
       });
     }

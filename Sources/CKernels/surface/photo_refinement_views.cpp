@@ -7,10 +7,10 @@ namespace ck::surface {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-/// Pixels' lengths that a point may lie behind what is drawn and still count as seen.
+/// Depth tolerance of the occlusion test, in pixel footprints.
 constexpr float kTolerance = 5;
 
-/// Calls `visit(x, y, depth)` for all pixels whose centre lies in the triangle `p` (x, y, 1 /
+/// Calls `visit(x, y, depth)` for all pixels whose center lies in the triangle `p` (x, y, 1 /
 /// depth).
 template <typename Visit>
 void rasterize(const std::array<Vec3, 3>& p, int width, int height, Visit&& visit) {
@@ -30,13 +30,14 @@ void rasterize(const std::array<Vec3, 3>& p, int width, int height, Visit&& visi
       const float dx = static_cast<float>(x) + 0.5f - a.x, dy = static_cast<float>(y) + 0.5f - a.y;
       const float w1 = (dx * (c.y - a.y) - dy * (c.x - a.x)) * inverse;
       const float w2 = ((b.x - a.x) * dy - (b.y - a.y) * dx) * inverse;
-      // A little more than the triangle, so that no pixel falls between two.
+      // A tolerance, so that no pixel falls between two triangles.
       if (w1 < -1e-5f || w2 < -1e-5f || w1 + w2 > 1 + 1e-5f) continue;
       visit(x, y, 1 / (a.z + w1 * (b.z - a.z) + w2 * (c.z - a.z)));
     }
   }
 }
 
+/// The projections of all vertices as x, y in shrunk pixels and 1 / depth.
 std::vector<Vec3> project_all(const RefinedMesh& mesh, const RefinementView& view, int shrink) {
   std::vector<Vec3> projected(mesh.positions.size());
   const float scale = 1.0f / static_cast<float>(shrink);

@@ -24,7 +24,7 @@ struct ck_surface {
 
 namespace {
 
-/// What the solver's thread and its caller share; outlives whichever ends first.
+/// State shared by the solver's thread and its caller; outlives whichever ends first.
 struct Job {
   open3d::geometry::PointCloud cloud;
   ck_poisson_options options;
@@ -36,7 +36,8 @@ struct Job {
 };
 
 void solve(Job& job) {
-  // With more threads the accumulation order, and with it the surface, differs between runs.
+  // With several threads the accumulation order, and therefore the surface, would differ between
+  // runs.
   const int threads = 1;
   auto [mesh, densities] = open3d::geometry::TriangleMesh::CreateFromPointCloudPoisson(
       job.cloud, static_cast<size_t>(job.options.depth), 0, static_cast<float>(job.options.scale),
@@ -59,8 +60,8 @@ void run(const std::shared_ptr<Job>& job) {
   job->finished.notify_all();
 }
 
-/// How far the solver is, which has no progress of its own: what it usually takes is gone through
-/// evenly to four fifths, and nears its end from there on.
+/// Estimated progress of the solver, which reports none: linear in the expected duration up to 80
+/// %, then asymptotically approaching 1.
 double fraction(double seconds, int depth, size_t points) {
   const double usual =
       3.4 * std::pow(2.4, depth - 8) * std::pow(1e-5 * static_cast<double>(points), 0.25);
@@ -68,7 +69,7 @@ double fraction(double seconds, int depth, size_t points) {
   return share < 0.8 ? share : 1 - 0.2 * std::exp(4 - 5 * share);
 }
 
-/// Waits for the job.
+/// Waits for the job and reports progress; on cancellation detaches the worker.
 void await(Job& job, std::thread& worker, const ck_control* control) {
   const auto start = std::chrono::steady_clock::now();
   std::unique_lock<std::mutex> lock(job.mutex);

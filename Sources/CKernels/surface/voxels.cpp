@@ -11,9 +11,10 @@
 
 namespace {
 
-/// Level, x, y, z.
+/// Grid cell: level, x, y, z.
 using Cell = std::array<int32_t, 4>;
 
+/// The cell coordinate of a value, clamped to ±1e9.
 int32_t coordinate(float value, double size) {
   const double limit = 1e9;
   return static_cast<int32_t>(std::min(limit, std::max(-limit, std::floor(value / size))));
@@ -30,7 +31,8 @@ std::vector<Cell> cells_of(const ck::StridedPoints& points, double size, const i
   return cells;
 }
 
-/// The distinct cells in order; `numbers` receives each finite point's.
+/// The distinct cells in lexicographic order; `numbers` receives the cell index of each finite
+/// point, −1 for others.
 std::vector<Cell> number(const ck::StridedPoints& points, const std::vector<Cell>& cells,
                          int32_t* numbers, const ck_control* control) {
   std::vector<uint32_t> order;
@@ -60,7 +62,7 @@ struct UnionFind {
     return i;
   }
 
-  /// The lower number stays the root.
+  /// The lower index becomes the root.
   void join(int32_t a, int32_t b) {
     a = root(a);
     b = root(b);
@@ -68,7 +70,7 @@ struct UnionFind {
   }
 };
 
-/// Joins each cell with those of its 26 neighbours that come later in the order.
+/// Unites each cell with those of its 26 neighbors that come later in the order.
 ///
 /// For each of the rows (dx, dy) a cursor follows the sorted cells, so that no search is needed.
 std::vector<int32_t> join_cells(const std::vector<Cell>& cells, size_t* count,

@@ -6,7 +6,8 @@
 namespace ck::texture {
 namespace {
 
-/// Gives every texel whose centre lies in a triangle to it; the first triangle keeps it.
+/// Assigns every texel whose center lies in a triangle to it; of several triangles the first one
+/// keeps it.
 void rasterize(ck_atlas& atlas) {
   const auto side = static_cast<float>(atlas.side);
   for (size_t f = 0; f < atlas.corners.size() / 6; ++f) {
@@ -36,7 +37,7 @@ void rasterize(ck_atlas& atlas) {
   }
 }
 
-/// Lets charts grow by one texel into free space.
+/// Grows charts by one texel into free space.
 void grow(ck_atlas& atlas) {
   const std::vector<int32_t> before = atlas.faces;
   const int side = atlas.side;

@@ -12,7 +12,8 @@
 
 namespace ck::texture {
 
-/// From texels to a triangle's barycentric coordinates: affine, so it continues outside.
+/// Maps texels to a triangle's barycentric coordinates; affine, so it extrapolates outside the
+/// triangle.
 struct TexelMap {
   Vec2 origin;
   Vec2 w1, w2;
@@ -34,7 +35,8 @@ struct TexelMap {
     return {1 - b - c, b, c};
   }
 
-  /// The same, kept within the triangle: what varies along a thin one must not run away beside it.
+  /// The weights clamped to the triangle: attributes that vary along a thin triangle must not be
+  /// extrapolated into its gutter.
   static Vec3 clamped(Vec3 w) {
     w = {std::max(0.0f, w.x), std::max(0.0f, w.y), std::max(0.0f, w.z)};
     return w * (1 / (w.x + w.y + w.z));
@@ -43,14 +45,15 @@ struct TexelMap {
 
 }  // namespace ck::texture
 
+/// One atlas page during texturing.
 struct ck_atlas {
   const ck_ray_scene& scene;
   int side;
-  /// Corners' texel coordinates, 6 floats a triangle.
+  /// Texel coordinates of the corners, 6 floats per triangle.
   std::vector<float> corners;
   /// The triangle of each texel, −1 for none.
   std::vector<int32_t> faces;
-  /// Three channels a texel, in 1/64 of a gray level.
+  /// Three channels per texel, in 1/64 of a gray level.
   std::vector<int16_t> colors;
   size_t covered = 0;
   size_t overlaps = 0;
@@ -60,7 +63,7 @@ struct ck_atlas {
     return static_cast<size_t>(y) * static_cast<size_t>(side) + static_cast<size_t>(x);
   }
 
-  /// Calls `visit(x, y, texel)` for the texels of a triangle, the gutter included.
+  /// Calls `visit(x, y, texel)` for the texels of a triangle, including the gutter.
   template <typename Visit>
   void for_each_texel(size_t face, Visit&& visit) const {
     const float* c = corners.data() + 6 * face;
@@ -95,8 +98,8 @@ void for_each_face(const ck_atlas& atlas, const ck_control* control, Body&& body
   });
 }
 
-/// Fills the texels that belong to no triangle from the nearest that do: averages of the covered
-/// ones, coarse to fine, so that smaller copies of the texture (mip-maps) find no other colour.
+/// Fills the texels that belong to no triangle by push-pull: averages of the covered texels from
+/// fine to coarse, then coarse to fine, so that mip levels of the texture contain no other color.
 void fill_uncovered(const std::vector<int32_t>& faces, int side, int channels,
                     const ck_control* control, uint8_t* pixels);
 

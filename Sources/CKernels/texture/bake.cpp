@@ -7,7 +7,7 @@
 namespace ck::texture {
 namespace {
 
-/// A unit vector as three bytes; flat (0, 0, 1) is 128, 128, 255.
+/// Encodes a unit vector as three bytes; the flat normal (0, 0, 1) is 128, 128, 255.
 void encode(Vec3 n, uint8_t* pixel) {
   const auto byte = [](float v) {
     return static_cast<uint8_t>(std::clamp(std::lround(127.5f * v + 127.5f), 0L, 255L));
@@ -19,6 +19,7 @@ void encode(Vec3 n, uint8_t* pixel) {
 
 Vec3 at(const float* p) { return {p[0], p[1], p[2]}; }
 
+/// The interpolated normal of the dense surface at a hit.
 Vec3 dense_normal(const ck_bake_source& source, const Hit& hit) {
   const auto& t = source.dense->triangles[hit.triangle];
   const auto n = [&](size_t i) {
@@ -27,6 +28,7 @@ Vec3 dense_normal(const ck_bake_source& source, const Hit& hit) {
   return normalized(n(0) * (1 - hit.u - hit.v) + n(1) * hit.u + n(2) * hit.v);
 }
 
+/// Bakes the texels of one triangle.
 class FaceBaker {
  public:
   FaceBaker(const ck_atlas& atlas, const ck_bake_source& source, size_t face)
@@ -80,10 +82,10 @@ BasePoint base_point(const ck_atlas& atlas, const ck_bake_source& source, size_t
 bool find_dense(const ck_bake_source& source, const BasePoint& base, DensePoint* point) {
   bool found = false;
   const float reach = source.maximum_distance;
-  // From outside inwards: the first surface that is met is the one that is seen.
+  // One ray outwards and one inwards along the normal; the nearer hit wins.
   for (const float sign : {1.0f, -1.0f}) {
     Hit hit;
-    // A little overlap, so that a surface at distance 0 isn't missed by both.
+    // The rays overlap slightly, so that a surface at distance 0 is not missed by both.
     const Vec3 origin = base.position - base.normal * (sign * reach * 1e-3f);
     if (!intersect(*source.dense, origin, base.normal * sign, 0, reach, &hit)) continue;
     if (dot(source.dense->face_normals[hit.triangle], base.normal) <= 0.1f) continue;

@@ -4,24 +4,24 @@
 
 namespace ck::texture {
 
-/// The dense surface as a place on the simplified one sees it.
+/// The point of the dense surface that corresponds to a point of the simplified one.
 struct DensePoint {
   Vec3 position, normal;
-  /// How far it is above the place, along the place's normal.
+  /// Signed distance from the base point along its normal.
   float height = 0;
 };
 
-/// A place on the simplified surface.
+/// A point on the simplified surface.
 struct BasePoint {
   Vec3 position, normal;
 };
 
-/// The place that the weights of a triangle's corners say.
+/// The point of a triangle with the given barycentric weights.
 BasePoint base_point(const ck_atlas& atlas, const ck_bake_source& source, size_t face,
                      Vec3 weights);
 
-/// The dense surface's point nearest along the normal, inwards or outwards, that faces the same
-/// way; false where there is none within the source's reach.
+/// The nearest point of the dense surface along the normal, inwards or outwards, that faces the
+/// same way; false if there is none within `maximum_distance`.
 bool find_dense(const ck_bake_source& source, const BasePoint& base, DensePoint* point);
 
 }  // namespace ck::texture

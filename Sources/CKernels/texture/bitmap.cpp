@@ -5,7 +5,7 @@
 namespace ck::texture {
 namespace {
 
-/// `to |= from << shift` over rows of words; what is shifted out at the end is lost.
+/// `to |= from << shift` over rows of words; bits shifted out at the end are lost.
 void or_up(uint64_t* to, const uint64_t* from, int words, int shift) {
   const int skip = shift / Bitmap::kWord, bits = shift % Bitmap::kWord;
   for (int w = words - 1; w >= skip; --w) {
@@ -15,9 +15,10 @@ void or_up(uint64_t* to, const uint64_t* from, int words, int shift) {
   }
 }
 
-/// Sets all texels up to `reach` to the right of one that is set.
+/// Sets all texels up to `reach` to the right of a texel that is set.
 void spread(uint64_t* row, int words, int reach) {
-  // Doubled each time; in place from the end, so each word still reads what was before.
+  // The distance doubles each time; processed from the end in place, so each word still reads the
+  // old values.
   for (int done = 0; done < reach;) {
     const int shift = std::min(done + 1, reach - done);
     or_up(row, row, words, shift);
@@ -34,7 +35,7 @@ void Bitmap::add(const Bitmap& other, int x, int y) {
     for (int w = 0; w < other.words_; ++w) {
       if (!from[w]) continue;
       const int start = x + w * kWord;
-      // Floor division, also left of the edge.
+      // Floor division, also for negative positions.
       const int word = start >= 0 ? start / kWord : -((kWord - 1 - start) / kWord);
       const int shift = start - word * kWord;
       if (word >= 0 && word < words_) to[word] |= from[w] << shift;

@@ -6,8 +6,8 @@
 
 namespace ck::texture {
 
-/// A black and white picture, 64 texels a word. Each row ends with a spare word that stays zero, so
-/// that 64 texels can be read from any place.
+/// A binary image with 64 texels per word. Each row ends with a spare word that stays zero, so that
+/// 64 texels can be read from any position.
 class Bitmap {
  public:
   static constexpr int kWord = 64;
@@ -48,22 +48,21 @@ class Bitmap {
     r[last] |= tail;
   }
 
-  /// 64 texels of a row from `x` on, which is within the row.
+  /// 64 texels of a row starting at `x`, which is within the row.
   uint64_t window(int x, int y) const {
     const uint64_t* r = row(y) + x / kWord;
     const int shift = x % kWord;
     return shift ? r[0] >> shift | r[1] << (kWord - shift) : r[0];
   }
 
-  /// Sets what `other` has set, moved right and down by x and y, which may be negative; what comes
-  /// to lie outside is left out.
+  /// Sets the texels of `other` translated by x and y, which may be negative; texels outside are
+  /// ignored.
   void add(const Bitmap& other, int x, int y);
 
-  /// With every texel at most `reach` columns and rows from one that is set; `reach` larger on each
-  /// side.
+  /// Dilated by a square of `reach` texels; the result is larger by `reach` on each side.
   Bitmap dilated(int reach) const;
 
-  /// Turned by 90° from x to y.
+  /// Rotated by 90° from x to y.
   Bitmap turned() const;
 
   /// The length of the longest run of texels of a row that are not set.

@@ -6,12 +6,13 @@
 namespace ck::texture {
 namespace {
 
-/// What area lost to foreshortening costs, in borders as long as a typical chart is wide.
+/// Cost of area lost to foreshortening, relative to boundary length in units of a typical chart's
+/// width.
 constexpr float kStretchCost = 6;
-/// Rounds over the borders, at most.
+/// Largest number of rounds over the boundaries.
 constexpr int kPasses = 4;
 
-/// A cluster's area, the larger the more an axis foreshortens it.
+/// A cluster's area, weighted by its foreshortening along an axis.
 float stretched_area(const Cluster& c, Vec3 axis) {
   const float along = dot(c.normal_sum, axis);
   return c.area * (c.area / std::max(along, 0.05f * c.area));
@@ -39,7 +40,7 @@ void ChartBorders::shorten() {
   }
 }
 
-/// False when nothing has moved.
+/// One round over all clusters; false if none has moved.
 bool ChartBorders::pass() {
   bool has_changed = false;
   for (uint32_t i = 0; i < graph_.clusters.size(); ++i) {
@@ -51,7 +52,7 @@ bool ChartBorders::pass() {
   return has_changed;
 }
 
-/// The chart that a cluster had better belong to; its own, if that is it.
+/// The chart that a cluster should belong to; its current chart if moving it brings no gain.
 uint32_t ChartBorders::better_chart(uint32_t cluster) {
   const uint32_t own = charts_[cluster];
   list_charts_around(cluster);
@@ -70,6 +71,7 @@ uint32_t ChartBorders::better_chart(uint32_t cluster) {
   return best;
 }
 
+/// Collects the adjacent charts of a cluster with the lengths of the common boundaries.
 void ChartBorders::list_charts_around(uint32_t cluster) {
   around_.clear();
   inside_ = 0;
@@ -89,13 +91,13 @@ void ChartBorders::list_charts_around(uint32_t cluster) {
   }
 }
 
-/// Whether the rest of the chart would not hang together around a cluster.
+/// Whether moving a cluster would disconnect the rest of its chart locally.
 bool ChartBorders::cuts(uint32_t cluster) {
   ring_.clear();
   for (const Neighbor& n : graph_.neighbors_of(cluster)) {
     if (charts_[n.cluster] == charts_[cluster]) ring_.push_back(n.cluster);
   }
-  // The first `reached` of the ring hang together.
+  // The first `reached` clusters of the ring are connected.
   size_t reached = std::min<size_t>(1, ring_.size());
   for (size_t k = 0; k < reached; ++k) {
     for (const Neighbor& n : graph_.neighbors_of(ring_[k])) {

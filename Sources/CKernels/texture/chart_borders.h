@@ -7,17 +7,18 @@
 
 namespace ck::texture {
 
-/// Whether all normals of a cluster are at a larger cosine to an axis.
+/// Whether all normals of a cluster have a larger cosine to an axis.
 bool fits(const Cluster& cluster, Vec3 axis, float least_cosine);
 
-/// Moves the clusters along the charts' borders where that makes these shorter.
+/// Moves clusters along chart boundaries to neighboring charts where that shortens the boundaries.
 class ChartBorders {
  public:
-  /// `charts` has the chart of each cluster, `axes` that of each chart. `typical_length`: how wide
-  /// a chart is, about.
+  /// `charts` holds the chart of each cluster, `axes` the axis of each chart; `typical_length` is
+  /// the typical width of a chart.
   ChartBorders(const ClusterGraph& graph, const std::vector<Vec3>& axes, double typical_length,
                float maximum_angle, std::vector<uint32_t>* charts);
 
+  /// Runs rounds until nothing moves.
   void shorten();
 
  private:
@@ -30,8 +31,8 @@ class ChartBorders {
   const std::vector<Vec3>& axes_;
   const float typical_length_, least_cosine_;
   std::vector<uint32_t>& charts_;
-  /// Used again and again: the other charts around a cluster and the length of its border with them
-  /// and with its own, and the neighbours in its own.
+  /// Reused buffers: the other charts around a cluster with the lengths of the common boundaries,
+  /// the length of its boundary within the current chart, and its neighbors in the current chart.
   std::vector<Neighbor> around_;
   float inside_ = 0;
   std::vector<uint32_t> ring_;

@@ -17,7 +17,8 @@ ClusterGraph graph_of(const ChartMesh& mesh) {
     c.cone = {mesh.normals[t], 0};
     c.axis = mesh.normals[t];
   }
-  // Triangles that share several edges are neighbours once, as `edges` are sorted.
+  // As `edges` are sorted, the neighbors of each triangle are in ascending order; several common
+  // edges of two triangles are merged on contraction.
   graph.starts.assign(count + 1, 0);
   for (const DualEdge& e : mesh.edges) {
     ++graph.starts[e.a + 1];
@@ -37,7 +38,7 @@ ClusterGraph ClusterGraph::contracted(std::vector<uint32_t> targets, bool keeps_
   const auto count = static_cast<uint32_t>(clusters.size());
   parents = std::move(targets);
   ClusterGraph result;
-  // The clusters that stay keep their order; `members` lists what goes into each, itself first.
+  // Targets keep their order; `members` lists the clusters merged into each, the target first.
   std::vector<uint32_t> ids(count), member_starts(1, 0);
   for (uint32_t i = 0; i < count; ++i) {
     if (parents[i] == i) ids[i] = static_cast<uint32_t>(result.clusters.size());
@@ -82,7 +83,7 @@ ClusterGraph ClusterGraph::contracted(std::vector<uint32_t> targets, bool keeps_
         }
       }
     }
-    // Each inner border was counted from both sides.
+    // Each inner boundary was counted from both sides.
     cluster.perimeter = std::max(0.0f, cluster.perimeter - inner);
     std::sort(list.begin(), list.end(), [](const Neighbor& a, const Neighbor& b) {
       return a.cluster != b.cluster ? a.cluster < b.cluster : a.length < b.length;

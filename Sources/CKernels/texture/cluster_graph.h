@@ -7,24 +7,25 @@
 
 namespace ck::texture {
 
-/// Triangles that hang together.
+/// A connected set of triangles.
 struct Cluster {
   Vec3 normal_sum;
   float area = 0;
   float perimeter = 0;
-  /// Holds all normals.
+  /// Contains all normals.
   Cone cone;
-  /// The direction to project along.
+  /// The projection direction.
   Vec3 axis;
 };
 
+/// An adjacent cluster.
 struct Neighbor {
   uint32_t cluster;
-  /// Of the common border.
+  /// Length of the common boundary.
   float length;
 };
 
-/// Clusters and which of them touch.
+/// Clusters and their adjacency.
 struct ClusterGraph {
   struct Range {
     const Neighbor *first, *last;
@@ -33,25 +34,25 @@ struct ClusterGraph {
   };
 
   std::vector<Cluster> clusters;
-  /// The neighbours of cluster i are those from starts[i] to starts[i + 1], in ascending order.
+  /// The neighbors of cluster i are those from starts[i] to starts[i + 1], in ascending order.
   std::vector<uint32_t> starts;
   std::vector<Neighbor> neighbors;
-  /// The cluster of the contracted graph that holds each.
+  /// The cluster of the contracted graph that contains each cluster.
   std::vector<uint32_t> parents;
 
   Range neighbors_of(uint32_t cluster) const {
     return {neighbors.data() + starts[cluster], neighbors.data() + starts[cluster + 1]};
   }
 
-  /// The graph in which each cluster is one with the cluster that `targets` names, which names
-  /// itself; fills `parents`. `keeps_axes`: those of the targets.
+  /// The graph in which each cluster is merged into its target; a target has itself as target.
+  /// Fills `parents`. With `keeps_axes` the axes of the targets are kept.
   ClusterGraph contracted(std::vector<uint32_t> targets, bool keeps_axes = false);
 };
 
-/// Each triangle a cluster.
+/// The graph with one cluster per triangle.
 ClusterGraph graph_of(const ChartMesh& mesh);
 
-/// The angle of the smallest cone around two cones.
+/// The half-angle of the smallest cone around two cones.
 float joined_angle(const Cone& a, const Cone& b);
 
 }  // namespace ck::texture

@@ -13,10 +13,11 @@
 namespace ck::texture {
 namespace {
 
-/// What a cluster costs per area however even and round it is: so small ones merge first.
+/// Cost of a cluster per area that does not depend on its flatness or compactness, so that small
+/// clusters merge first.
 constexpr float kPlainCost = 0.02f;
 
-/// Mixes two numbers: the order of pairs that cost the same.
+/// Hash of two numbers: the tie-breaking order of pairs with equal cost.
 uint64_t scrambled(uint32_t a, uint32_t b) {
   uint64_t z = (static_cast<uint64_t>(a) << 32 | b) + 0x9e3779b97f4a7c15;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
@@ -24,7 +25,7 @@ uint64_t scrambled(uint32_t a, uint32_t b) {
   return z ^ (z >> 31);
 }
 
-/// Merges clusters in rounds: in each, those pairs that are each other's cheapest neighbour.
+/// Merges clusters in rounds: in each round all pairs that are each other's cheapest neighbor.
 class Clustering {
  public:
   Clustering(const ChartMesh& mesh, const ck_chart_options& options)
@@ -49,12 +50,12 @@ class Clustering {
   }
 
  private:
-  /// Negative where the two may not be merged.
+  /// The cost of merging two clusters; negative if it is not permitted.
   float cost(const Cluster& a, const Cluster& b, float shared) const {
     if (joined_angle(a.cone, b.cone) > options_.maximum_angle) return -1;
     const float area = a.area + b.area;
     if (!(area > 0)) return 0;
-    // How uneven the normals are, how ragged the outline; small ones first.
+    // Spread of the normals times raggedness of the outline, with small clusters first.
     const float unevenness = std::max(0.0f, 1 - length(a.normal_sum + b.normal_sum) / area);
     const float perimeter = std::max(0.0f, a.perimeter + b.perimeter - 2 * shared);
     const float raggedness = perimeter * perimeter / (12.566f * area);
@@ -88,7 +89,7 @@ class Clustering {
     return has_merged;
   }
 
-  /// Each cluster's target: of two that are each other's cheapest, the first.
+  /// The merge target of each cluster: of two that are each other's cheapest, the first.
   static std::vector<uint32_t> paired(const std::vector<uint32_t>& best,
                                       const std::vector<float>& costs) {
     std::vector<uint32_t> parents(best.size());
@@ -105,7 +106,8 @@ class Clustering {
       }
     }
     if (pairs * kFewestPairs >= waiting.size()) return parents;
-    // Along a slope of costs hardly any are each other's cheapest; there the cheapest go first.
+    // Along a gradient of costs hardly any two are each other's cheapest; there the cheapest merge
+    // first.
     std::sort(waiting.begin(), waiting.end(), [&](uint32_t a, uint32_t b) {
       return costs[a] != costs[b] ? costs[a] < costs[b] : a < b;
     });
@@ -121,7 +123,8 @@ class Clustering {
     return parents;
   }
 
-  /// Joins small clusters to the neighbour with the longest border that they don't fold.
+  /// Merges small clusters with the neighbor with the longest common boundary that this does not
+  /// fold.
   bool absorb_small() {
     const ClusterGraph& graph = levels_.back();
     const size_t count = graph.clusters.size();
@@ -159,7 +162,7 @@ class Clustering {
     return true;
   }
 
-  /// Joins what the moves left of small charts, looking at each of their triangles.
+  /// Merges charts that the refinement left small, with a test of each of their triangles.
   void absorb_remains() {
     std::vector<uint32_t> first(axes_.size(), UINT32_MAX), targets(charts_.size());
     for (uint32_t t = 0; t < charts_.size(); ++t) {
@@ -182,6 +185,7 @@ class Clustering {
     for (const Cluster& c : levels_.back().clusters) axes_.push_back(c.axis);
   }
 
+  /// Groups the triangles by chart.
   void list_faces() {
     starts_.assign(levels_.back().clusters.size() + 1, 0);
     for (const uint32_t chart : charts_) ++starts_[chart + 1];
@@ -191,7 +195,7 @@ class Clustering {
     for (uint32_t t = 0; t < charts_.size(); ++t) faces_[next[charts_[t]]++] = t;
   }
 
-  /// Projects charts along their mean normal where that shows all triangles as well.
+  /// Projects charts along their mean normal where all triangles face it as well.
   void center_axes() {
     std::vector<Vec3> sums(axes_.size());
     std::vector<float> least(axes_.size(), 1), least_before(axes_.size(), 1);
@@ -210,8 +214,8 @@ class Clustering {
     }
   }
 
-  /// Moves what lies along the charts' borders where that makes them shorter, from large pieces to
-  /// single triangles (after Karypis and Kumar, SIAM J. Sci. Comput. 1998).
+  /// Multilevel refinement of the chart boundaries, from large clusters to single triangles (after
+  /// Karypis and Kumar, SIAM J. Sci. Comput. 1998).
   void refine(const ck_control* control) {
     axes_.clear();
     for (const Cluster& c : levels_.back().clusters) {
@@ -232,7 +236,7 @@ class Clustering {
     }
   }
 
-  /// Whether all of a small cluster faces an axis well enough to be joined to its chart.
+  /// Whether all of a small cluster faces an axis well enough to be merged into its chart.
   bool may_join(uint32_t cluster, Vec3 axis) const {
     if (!is_exact_) return fits(levels_.back().clusters[cluster], axis, kAbsorbedCosine);
     return std::all_of(
@@ -241,21 +245,21 @@ class Clustering {
         });
   }
 
-  /// The least cosine between the axis of a chart and the triangles of what is joined to it.
+  /// Smallest cosine between the axis of a chart and the normals of the triangles merged into it.
   static constexpr float kAbsorbedCosine = 0.4f;
-  /// One pair for so many clusters without is enough for a round.
+  /// If there are fewer pairs than one per this number of unpaired clusters, more pairs are formed.
   static constexpr size_t kFewestPairs = 16;
 
   const ChartMesh& mesh_;
   const ck_chart_options& options_;
   double total_area_ = 0;
   std::vector<ClusterGraph> levels_;
-  /// The chart of each cluster of the last level, and the charts' directions.
+  /// The chart of each cluster of the last level, and the projection directions of the charts.
   std::vector<uint32_t> charts_;
   std::vector<Vec3> axes_;
-  /// Whether small clusters are looked at triangle by triangle.
+  /// Whether small clusters are tested triangle by triangle.
   bool is_exact_ = false;
-  /// The triangles of each chart: those from starts_[i] to starts_[i + 1].
+  /// The triangles of each chart: `faces_` from starts_[i] to starts_[i + 1].
   std::vector<uint32_t> starts_, faces_;
 };
 

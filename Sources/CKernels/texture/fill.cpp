@@ -7,13 +7,14 @@
 namespace ck::texture {
 namespace {
 
+/// A level of the image pyramid with its coverage.
 struct Level {
   int side = 0;
   std::vector<uint8_t> pixels;
   std::vector<uint8_t> covered;
 };
 
-/// The level of half the side: averages of the covered pixels.
+/// The next coarser level: averages of the covered pixels.
 Level halved(const uint8_t* pixels, const std::vector<uint8_t>& covered, int side, int channels) {
   Level half;
   half.side = (side + 1) / 2;
@@ -45,6 +46,7 @@ Level halved(const uint8_t* pixels, const std::vector<uint8_t>& covered, int sid
   return half;
 }
 
+/// Fills the uncovered pixels from the next coarser level.
 void fill_from(const Level& half, const std::vector<uint8_t>& covered, int side, int channels,
                uint8_t* pixels) {
   const auto c_count = static_cast<size_t>(channels);

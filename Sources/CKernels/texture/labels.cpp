@@ -13,13 +13,14 @@ namespace {
 struct Arc {
   uint32_t to;
   float weight;
-  /// Where the messages that arrive at this arc's source over it start.
+  /// Index of the first message that arrives at this arc's source.
   uint32_t incoming;
-  /// Where the messages that leave over it start.
+  /// Index of the first message that leaves this arc's source.
   uint32_t outgoing;
 };
 
-/// Sequential tree-reweighted message passing for a Potts model with a label set at each node.
+/// Sequential tree-reweighted message passing (TRW-S) for a Potts model with a separate label set
+/// at each node.
 class TreeReweighted {
  public:
   TreeReweighted(size_t node_count, const uint32_t* offsets, const int32_t* labels,
@@ -34,6 +35,7 @@ class TreeReweighted {
     }
   }
 
+  /// One pass over the nodes in ascending or descending order.
   void pass(bool forward) {
     for (size_t k = 0; k < count_; ++k) {
       const auto i = static_cast<uint32_t>(forward ? k : count_ - 1 - k);
@@ -45,7 +47,8 @@ class TreeReweighted {
     }
   }
 
-  /// Fixes the nodes one after the other, given those before and the messages of those after.
+  /// Assigns labels node by node, given the labels of the previous nodes and the messages of the
+  /// following ones.
   void decide(int32_t* choices) {
     for (uint32_t i = 0; i < count_; ++i) {
       choices[i] = -1;
@@ -77,7 +80,8 @@ class TreeReweighted {
              edges[2 * e] != edges[2 * e + 1];
     };
     for (size_t e = 0; e < edge_count; ++e) {
-      require(edges[2 * e] < count_ && edges[2 * e + 1] < count_, "an edge names no node");
+      require(edges[2 * e] < count_ && edges[2 * e + 1] < count_,
+              "an edge refers to a node that does not exist");
       if (!used(e)) continue;
       ++first_[edges[2 * e] + 1];
       ++first_[edges[2 * e + 1] + 1];
@@ -97,7 +101,7 @@ class TreeReweighted {
     messages_.assign(total, 0);
   }
 
-  /// The node's cost plus all that arrives at it.
+  /// The node's costs plus all incoming messages.
   void gather(uint32_t i) {
     belief_.assign(costs_ + offsets_[i], costs_ + offsets_[i + 1]);
     for (uint32_t a = first_[i]; a < first_[i + 1]; ++a) {

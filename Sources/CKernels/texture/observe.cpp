@@ -26,7 +26,7 @@ std::vector<float> luminance_of(const uint8_t* rgb, size_t pixels) {
   return gray;
 }
 
-/// Calls `visit(x, y, w1, w2)` for all pixels whose centre lies in the triangle.
+/// Calls `visit(x, y, w1, w2)` for all pixels whose center lies in the triangle.
 template <typename Visit>
 void rasterize(const std::array<Vec2, 3>& p, int width, int height, Visit&& visit) {
   const float doubled = cross(p[1] - p[0], p[2] - p[0]);
@@ -48,12 +48,12 @@ void rasterize(const std::array<Vec2, 3>& p, int width, int height, Visit&& visi
   }
 }
 
-/// A small depth buffer that knows the nearest and the farthest depth around each pixel.
+/// A depth buffer at reduced resolution with the smallest and the largest depth around each pixel.
 struct DepthRange {
   static constexpr int kShrink = 2;
   int width, height;
   std::vector<float> nearest;
-  /// `kFar` where some pixel around shows no surface.
+  /// `kFar` if any pixel around shows no surface.
   std::vector<float> farthest;
 
   DepthRange(const ck_ray_scene& scene, const std::vector<Corner>& corners, const ck_pinhole& view,
@@ -76,7 +76,7 @@ struct DepthRange {
     spread(&farthest, radius, [](float a, float b) { return std::max(a, b); });
   }
 
-  /// The place in the buffers of a pixel of the view.
+  /// Index into the buffers of a pixel of the view.
   size_t at(Vec2 pixel) const {
     return index(std::clamp(static_cast<int>(pixel.x) / kShrink, 0, width - 1),
                  std::clamp(static_cast<int>(pixel.y) / kShrink, 0, height - 1));
@@ -87,7 +87,7 @@ struct DepthRange {
     return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
   }
 
-  /// Gives each pixel the extreme of the square of `radius` around it, rows first.
+  /// Replaces each pixel by the extreme of the square that extends `radius` around it, rows first.
   template <typename Extreme>
   void spread(std::vector<float>* values, int radius, Extreme&& extreme) const {
     for (const bool along_rows : {true, false}) {
@@ -106,6 +106,7 @@ struct DepthRange {
   }
 };
 
+/// Measures the triangles of a scene in one view.
 class Observer {
  public:
   Observer(const ck_ray_scene& scene, const ck_pinhole& view, const uint8_t* rgb,
@@ -162,8 +163,8 @@ class Observer {
            c.pixel.y <= static_cast<float>(view_.height) - margin;
   }
 
-  /// Whether a corner or the middle would take colour from where the mask says that the surface
-  /// isn't seen: colours are interpolated between four pixels.
+  /// Whether a corner or the centroid would take color from masked pixels: colors are interpolated
+  /// between four pixels.
   bool is_masked(const std::array<Corner, 3>& c) const {
     if (!mask_) return false;
     const Vec2 middle = (c[0].pixel + c[1].pixel + c[2].pixel) * (1.0f / 3);
@@ -184,13 +185,14 @@ class Observer {
   bool is_hidden(size_t t, Vec3 centroid, float distance) const {
     const float near = std::min(0.5f, 2e-4f * scene_.diagonal / distance);
     for (int i = 0; i < 4; ++i) {
-      // Corners are moved inwards, so that the neighbours' edges don't decide.
+      // Corners are moved inwards, so that adjacent triangles do not occlude them.
       const Vec3 p = i == 3 ? centroid : centroid + (scene_.corner(t, i) - centroid) * 0.95f;
       if (is_occluded(scene_, p, projection_.center - p, near, 1)) return true;
     }
     return false;
   }
 
+  /// Sets `clearance` and `interior` from the depths and the mask around the corners.
   void look_around(const std::array<Corner, 3>& corners, float cosine,
                    ck_face_observation* result) const {
     result->clearance = result->interior = 1;
@@ -198,7 +200,7 @@ class Observer {
     for (const Corner& c : corners) {
       const float pixel = c.depth / static_cast<float>(view_.focal[0]);
       const float reach = static_cast<float>((radius_ + 1) * DepthRange::kShrink) * pixel;
-      // The surface itself may rise and fall that much.
+      // Depth variation that the slope of the surface itself explains.
       const float tolerance = reach * (2 * slope + 2) + 0.004f * scene_.diagonal;
       const size_t place = depths_.at(c.pixel);
       if (depths_.nearest[place] < c.depth - tolerance) result->clearance = 0;
@@ -207,6 +209,7 @@ class Observer {
     }
   }
 
+  /// Averages color and luminance gradient over the triangle.
   void measure(const std::array<Vec2, 3>& p, ck_face_observation* result) const {
     Vec3 sum;
     float gradient = 0;

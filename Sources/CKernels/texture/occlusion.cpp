@@ -9,12 +9,13 @@
 namespace ck::texture {
 namespace {
 
-/// Texels share their rays: each of a square of so many a side casts its own part of one set.
+/// Texels of a square with this many texels per side share a set of rays: each casts a different
+/// part of it.
 constexpr size_t kSquare = 4;
 constexpr size_t kParts = kSquare * kSquare;
 
-/// Directions of the upper hemisphere, denser at the top as the cosine: a Fibonacci spiral on the
-/// disc, lifted onto the sphere. Every 16th of them from any of the first 16 on go all around, too.
+/// Cosine-weighted directions of the upper hemisphere: a Fibonacci spiral on the disk, projected
+/// onto the sphere. Each subset of every 16th direction also covers all azimuths.
 std::vector<Vec3> cosine_directions(size_t count) {
   std::vector<Vec3> directions(count);
   for (size_t i = 0; i < count; ++i) {
@@ -27,8 +28,8 @@ std::vector<Vec3> cosine_directions(size_t count) {
   return directions;
 }
 
-/// Ambient occlusion by interleaved sampling (Keller and Heidrich, EGWR 2001): a few rays a texel,
-/// other ones at its neighbours, and the mean over as many texels as share the whole set.
+/// Ambient occlusion by interleaved sampling (Keller and Heidrich, EGWR 2001): a few rays per
+/// texel, different ones at its neighbors, and the mean over as many texels as share the whole set.
 class Openness {
  public:
   Openness(const ck_atlas& atlas, const ck_bake_source& source, size_t rays_per_texel, float reach)
@@ -74,13 +75,14 @@ class Openness {
   }
 
  private:
-  /// How far apart neighbouring texels of a face are in space, at most.
+  /// Upper bound of the distance in space between adjacent texels of a face.
   float spacing(size_t face, const TexelMap& map) const {
     const Vec3 a = atlas_.scene.corner(face, 0);
     const Vec3 b = atlas_.scene.corner(face, 1) - a, c = atlas_.scene.corner(face, 2) - a;
     return length(b * map.w1.x + c * map.w2.x) + length(b * map.w1.y + c * map.w2.y);
   }
 
+  /// The fraction of a texel's rays that are not occluded.
   float open_share(const DensePoint& point, size_t part) const {
     Vec3 u, v;
     frame_around(point.normal, &u, &v);
@@ -94,8 +96,8 @@ class Openness {
     return static_cast<float>(open) / static_cast<float>(count);
   }
 
-  /// The mean over five by five texels, those at the rim halved, so that each part of the rays has
-  /// the same weight; over those only that are neighbours in space, too.
+  /// The mean over 5 × 5 texels, with half weight on the outer rows and columns so that each part
+  /// of the rays has the same weight; only over texels that are also close in space.
   float mean_around(int x, int y) const {
     constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
     const size_t center = atlas_.index(x, y);
@@ -121,7 +123,7 @@ class Openness {
   const ck_bake_source& source_;
   float reach_, lift_;
   std::vector<Vec3> directions_;
-  /// Where each texel is on the simplified surface.
+  /// Position of each texel on the simplified surface.
   std::vector<Vec3> positions_;
   std::vector<float> open_;
   std::vector<float> spacings_;

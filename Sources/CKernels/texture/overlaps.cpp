@@ -8,6 +8,7 @@
 namespace ck::texture {
 namespace {
 
+/// Largest number of rounds of splitting overlapping charts.
 constexpr int kMaximumRounds = 6;
 
 /// The triangles of each chart, in ascending order.
@@ -18,7 +19,7 @@ std::vector<std::vector<uint32_t>> faces_by_chart(const std::vector<int32_t>& ch
   return faces;
 }
 
-/// Finds the triangles that lie on others when a chart is projected along its axis.
+/// Finds the triangles that overlap others when a chart is projected along its axis.
 class OverlapFinder {
  public:
   OverlapFinder(const ChartMesh& mesh, const std::vector<uint32_t>& faces, Vec3 axis)
@@ -34,7 +35,7 @@ class OverlapFinder {
         high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
       }
     }
-    // About 16 cells a triangle.
+    // About 16 cells per triangle.
     const float cell = std::sqrt(std::max(area, 1e-30f) / static_cast<float>(faces.size())) / 4;
     const Vec2 extent = high_ - low_;
     cell_ = std::max({cell, extent.x / 2048, extent.y / 2048, 1e-12f});
@@ -44,7 +45,7 @@ class OverlapFinder {
 
   std::vector<uint32_t> find() const {
     std::vector<uint8_t> taken(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0);
-    // What faces the plane stays, what leans is cut off.
+    // Triangles that face the plane have priority, oblique ones are split off.
     std::vector<uint32_t> order = faces_;
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
       const float da = dot(mesh_.normals[a], axis()), db = dot(mesh_.normals[b], axis());
@@ -74,7 +75,7 @@ class OverlapFinder {
     return {dot(mesh_.positions[vertex], u_), dot(mesh_.positions[vertex], v_)};
   }
 
-  /// Cells whose centre lies well inside the triangle; false when it shows its back.
+  /// Collects the cells whose center lies well inside the triangle; false if it is back-facing.
   bool collect(uint32_t face, std::vector<size_t>* cells) const {
     Vec2 p[3];
     for (size_t i = 0; i < 3; ++i) {
@@ -114,7 +115,7 @@ uint32_t root(std::vector<uint32_t>& parents, uint32_t i) {
   return i;
 }
 
-/// Splits charts into their connected components; a component keeps the axis of its chart.
+/// Splits charts into connected components; each keeps the axis of its chart.
 void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
                       std::vector<Vec3>* axes) {
   std::vector<uint32_t> parents(charts->size());
@@ -139,7 +140,7 @@ void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
   *axes = std::move(directions);
 }
 
-/// Whether the projection along the axis turns a triangle over or stands it on its edge.
+/// Whether a triangle is back-facing or almost parallel to the projection axis.
 bool leans_over(const ChartMesh& mesh, uint32_t face, Vec3 axis) {
   const Vec3 n = mesh.normals[face];
   return dot(n, n) > 0 && dot(n, axis) < 0.1f;
@@ -159,7 +160,7 @@ void separate_overlaps(const ChartMesh& mesh, std::vector<int32_t>* charts,
       int32_t spill = -1;
       for (const uint32_t f : OverlapFinder(mesh, faces[c], axis).find()) {
         const bool leans = leans_over(mesh, f, axis);
-        // What was cut off stays together for now; the last round leaves single triangles.
+        // Triangles split off stay together for now; the last round makes each a chart.
         const bool is_alone = leans || round + 1 == kMaximumRounds;
         if (is_alone || spill < 0) axes->push_back(leans ? mesh.normals[f] : axis);
         const auto last = static_cast<int32_t>(axes->size() - 1);

@@ -13,14 +13,14 @@
 namespace ck::texture {
 namespace {
 
-/// The share of the texture that charts may fill at the first try; hardly any set fills more.
+/// Fraction of the texture that charts cover in the first attempt; hardly any set covers more.
 constexpr double kHopedUsage = 0.86;
 
 struct Span {
   Vec2 low, high;
 };
 
-/// A chart's triangles in its plane.
+/// The triangles of a chart and its bounding box in its plane.
 struct Shape {
   std::vector<uint32_t> triangles;
   Span span;
@@ -67,6 +67,7 @@ void cover(const std::array<Vec2, 3>& p, Bitmap* texels) {
   }
 }
 
+/// Packs charts greedily at a given scale, largest first, and searches for the largest scale.
 class Packer {
  public:
   Packer(const float* corners, const int32_t* charts, size_t triangle_count, const float* density,
@@ -75,7 +76,7 @@ class Packer {
     margin_ = (options.padding + 1) / 2;
     for (uint32_t t = 0; t < triangle_count; ++t) {
       require(charts[t] >= 0 && static_cast<size_t>(charts[t]) < chart_count,
-              "a triangle is in no chart");
+              "a triangle does not belong to a chart");
       Shape& shape = shapes_[static_cast<size_t>(charts[t])];
       for (int i = 0; i < 3; ++i) {
         const Vec2 p = corner(t, i);
@@ -96,7 +97,7 @@ class Packer {
     });
   }
 
-  /// The largest scale, to half a percent, at which everything fits.
+  /// Packs at the largest scale, to within 0.4 %, at which everything fits.
   std::vector<ck_chart_placement> run(const ck_control* control) {
     const double texels = static_cast<double>(options_.side) * options_.side * options_.atlas_count;
     const auto scale_of = [&](double usage) {
@@ -110,7 +111,7 @@ class Packer {
     while (!try_scale(static_cast<float>(scale), control, &best)) {
       step(control, static_cast<double>(tries) / (tries + 10.0));
       if (++tries == kMaximumTries) {
-        throw Degenerate("the charts don't fit into the texture; ask for a larger one");
+        throw Degenerate("the charts don't fit into the texture; use a larger one");
       }
       too_large = scale;
       scale *= 0.97;
@@ -134,11 +135,13 @@ class Packer {
             corners_[6 * t + 2 * static_cast<uint32_t>(i) + 1]};
   }
 
+  /// Sort key by size of the bounding box.
   float bulk(size_t chart) const {
     const Vec2 e = shapes_[chart].span.high - shapes_[chart].span.low;
     return density_[chart] * (std::max(e.x, e.y) + 0.5f * std::min(e.x, e.y));
   }
 
+  /// Packs all charts at a scale; false if one does not fit.
   bool try_scale(float scale, const ck_control* control,
                  std::vector<ck_chart_placement>* placements) {
     std::vector<Sheet> sheets(static_cast<size_t>(options_.atlas_count),
@@ -150,7 +153,7 @@ class Packer {
     return true;
   }
 
-  /// Puts a chart into the first atlas that has room.
+  /// Places a chart on the first page that has room.
   bool place(size_t chart, float scale, std::vector<Sheet>* sheets,
              ck_chart_placement* placement) const {
     const float own = scale * density_[chart];
@@ -160,7 +163,7 @@ class Packer {
     if (!(extent.x < side && extent.y < side)) return false;
     std::vector<Stamp> stamps;
     stamps.emplace_back(rasterized(chart, own));
-    // More turns of small charts would only cost time.
+    // Small charts are tested in fewer rotations: more would only cost time.
     const int size = stamps[0].texels.width() * stamps[0].texels.height();
     const int turns = size <= 64 ? 1 : size <= 4096 ? 2 : 4;
     while (static_cast<int>(stamps.size()) < turns) {
@@ -171,7 +174,7 @@ class Packer {
       size_t best = stamps.size();
       int best_x = 0, best_y = 0, limit = options_.side;
       for (size_t turn = 0; turn < stamps.size(); ++turn) {
-        // The lowest top edge wins.
+        // The position with the smallest bottom row wins.
         int x = 0, y = 0;
         if (!sheet.find(stamps[turn], limit, &x, &y)) continue;
         best = turn;
@@ -185,7 +188,7 @@ class Packer {
       const auto turn = static_cast<int>(best);
       const auto width = static_cast<float>(stamp.texels.width());
       const auto height = static_cast<float>(stamp.texels.height());
-      // Where the turn takes the corner that was the stamp's origin.
+      // The position of the mask's origin corner after the rotation.
       const Vec2 origin{turn == 1 || turn == 2 ? width : 0, turn == 2 || turn == 3 ? height : 0};
       const Vec2 low = turned(span.low * own, turn);
       placement->scale = own;
@@ -198,7 +201,7 @@ class Packer {
     return false;
   }
 
-  /// The texels that a chart touches when its bounding box starts at the first.
+  /// The texels that a chart touches when its bounding box starts at the first one.
   Bitmap rasterized(size_t chart, float scale) const {
     const Shape& shape = shapes_[chart];
     const Vec2 extent = (shape.span.high - shape.span.low) * scale;
@@ -219,7 +222,7 @@ class Packer {
   std::vector<Shape> shapes_;
   std::vector<size_t> order_;
   double area_ = 0;
-  /// Free texels along the border: half the padding, as the texture may repeat.
+  /// Free texels along the page border: half the padding, because the texture may repeat.
   int margin_ = 0;
 };
 

@@ -7,6 +7,7 @@
 namespace ck::texture {
 namespace {
 
+/// Steps of the fixed-point colors per gray level.
 constexpr float kSteps = 64;
 
 int16_t quantized(float value) {
@@ -17,7 +18,8 @@ Vec3 mix(Vec3 weights, Vec3 a, Vec3 b, Vec3 c) {
   return a * weights.x + b * weights.y + c * weights.z;
 }
 
-/// Takes one triangle's colours from a photo. Homogeneous pixels are affine in texels.
+/// Samples the colors of one triangle from a photo. Homogeneous pixel coordinates are affine in
+/// texels.
 class FacePainter {
  public:
   FacePainter(const ck_atlas& atlas, const ck_pinhole& view, const Projection& projection,
@@ -29,7 +31,7 @@ class FacePainter {
     const Vec2 p = pixel(x, y), right = pixel(x + 1, y) - p, down = pixel(x, y + 1) - p;
     const float reach = std::max(std::sqrt(right.x * right.x + right.y * right.y),
                                  std::sqrt(down.x * down.x + down.y * down.y));
-    // A texel that spans several pixels averages as many samples.
+    // A texel that spans several pixels averages a corresponding number of samples.
     samples_ =
         std::isfinite(reach) ? std::clamp(static_cast<int>(std::ceil(reach - 0.25f)), 1, 4) : 1;
   }
@@ -50,7 +52,7 @@ class FacePainter {
  private:
   Vec2 pixel(float x, float y) const {
     Vec3 h = mix(map_.weights(x, y), corners_[0], corners_[1], corners_[2]);
-    // Beside a triangle seen edge on, the plane may run behind the camera.
+    // Outside a triangle seen edge-on, the plane may extend behind the camera.
     if (!(h.z > 0)) h = mix({1, 1, 1}, corners_[0], corners_[1], corners_[2]);
     return {h.x / h.z, h.y / h.z};
   }
@@ -92,7 +94,8 @@ ck_status ck_atlas_paint(ck_atlas* atlas, const ck_pinhole* view, const uint8_t*
       const size_t end = std::min(paint_count, (chunk + 1) * kChunk);
       for (size_t k = chunk * kChunk; k < end; ++k) {
         const ck_paint& paint = paints[k];
-        ck::require(paint.face < atlas->scene.triangles.size(), "a paint names no triangle");
+        ck::require(paint.face < atlas->scene.triangles.size(),
+                    "a paint entry refers to a triangle that does not exist");
         const ck::texture::TexelMap map(atlas->corners.data() +
                                         6 * static_cast<size_t>(paint.face));
         if (!map.is_valid) continue;

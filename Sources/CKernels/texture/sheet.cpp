@@ -7,7 +7,7 @@
 namespace ck::texture {
 namespace {
 
-/// How many blocks should lie across a stamp: fewer rule out little, more take longer.
+/// Smallest number of blocks across a chart mask: fewer exclude few positions, more cost time.
 constexpr int kBlocksAcross = 6;
 
 /// The longest run of set bits of a row.
@@ -35,14 +35,14 @@ Stamp::Run longest_run(const uint64_t* row, int words, int y) {
   return best;
 }
 
-/// 64 bits from `start` on of a row that ends with a zero word; `start` may lie behind it.
+/// 64 bits starting at `start` of a row that ends with a zero word; `start` may lie beyond the end.
 uint64_t window(const uint64_t* row, int words, int start) {
   const int word = start / Bitmap::kWord, shift = start % Bitmap::kWord;
   if (word >= words) return 0;
   return row[word] >> shift | row[word + 1] << 1 << (Bitmap::kWord - 1 - shift);
 }
 
-/// 0..<count in an order in which each is far from those just before.
+/// A permutation of 0..<count in which successive elements are far apart.
 std::vector<int> scattered(int count) {
   std::vector<int> order(static_cast<size_t>(count));
   int step = std::max(1, static_cast<int>(0.618f * static_cast<float>(count)));
@@ -73,7 +73,8 @@ void Stamp::find_core() {
   std::vector<Run> runs;
   std::vector<uint64_t> all(static_cast<size_t>(words));
   for (int row = 1; row * block + around < texels.height(); ++row) {
-    // A block of the sheet is hit in all places when the stamp covers this many texels around it.
+    // A block of the page is covered for every position within a block if the mask covers this many
+    // texels around it.
     std::fill(all.begin(), all.end(), ~uint64_t{0});
     for (int y = row * block - around; y <= row * block + around; ++y) {
       for (int w = 0; w < words; ++w) all[static_cast<size_t>(w)] &= texels.row(y)[w];
@@ -109,7 +110,8 @@ bool Sheet::find(const Stamp& stamp, int limit, int* found_x, int* found_y) {
   const int last_y = std::min(side_, limit) - stamp.texels.height();
   if (last_x < 0 || last_y < 0) return false;
   std::vector<uint64_t> free(static_cast<size_t>(summary.spread[0].words()));
-  // Where one as small found no place, the next won't look.
+  // The search for a tiny mask starts at the row of blocks where the previous one of its size was
+  // placed.
   const bool is_tiny = stamp.texels.width() <= kTiny && stamp.texels.height() <= kTiny;
   int none = 0;
   int& first =
@@ -124,7 +126,7 @@ bool Sheet::find(const Stamp& stamp, int limit, int* found_x, int* found_y) {
       row = std::max(0, row - 1);
       if (!may_fit(stamp, y)) continue;
       for (int x = 0; x <= last_x;) {
-        // On to the next block that may have room.
+        // Skip to the next block that may have room.
         const int block = x / summary.block;
         const uint64_t word = free[static_cast<size_t>(block / Bitmap::kWord)];
         const uint64_t rest = word >> (block % Bitmap::kWord);
@@ -147,21 +149,21 @@ bool Sheet::find(const Stamp& stamp, int limit, int* found_x, int* found_y) {
   return false;
 }
 
-/// Marks the blocks of a row in which the stamp's corner may lie; false when there are none.
+/// Marks the blocks of a row in which the mask's corner may lie; false if there are none.
 bool Sheet::candidates(const Stamp& stamp, const Summary& summary, int block_row,
                        std::vector<uint64_t>* free) const {
   for (const Stamp::Run& run : stamp.core) {
     if (summary.gaps[static_cast<size_t>(block_row + run.row)] < run.length()) return false;
   }
   const int words = summary.spread[0].words();
-  // Further to the right the stamp would stick out.
+  // Further to the right the mask would exceed the page.
   const int last = (side_ - stamp.texels.width()) / summary.block;
   for (int w = 0; w < words; ++w) {
     const int count = std::clamp(last + 1 - w * Bitmap::kWord, 0, Bitmap::kWord);
     (*free)[static_cast<size_t>(w)] = count > 0 ? ~uint64_t{0} >> (Bitmap::kWord - count) : 0;
   }
   for (const Stamp::Run& run : stamp.core) {
-    // Two overlapping powers of two make up any length.
+    // Two overlapping powers of two cover any length.
     const int level = Bitmap::kWord / 2 - 1 - __builtin_clz(static_cast<unsigned>(run.length()));
     const uint64_t* row = summary.spread[static_cast<size_t>(level)].row(block_row + run.row);
     uint64_t any = 0;
@@ -178,15 +180,16 @@ bool Sheet::candidates(const Stamp& stamp, const Summary& summary, int block_row
   return true;
 }
 
-/// Whether the rows that the stamp's widest runs come to lie on have runs as long that are free.
+/// Whether the rows under the widest runs of the mask have free runs of at least that length.
 bool Sheet::may_fit(const Stamp& stamp, int y) const {
   return std::all_of(stamp.widest.begin(), stamp.widest.end(), [&](const Stamp::Run& run) {
     return gaps_[static_cast<size_t>(y + run.row)] >= run.length();
   });
 }
 
-/// 0 where the stamp fits, else how far to the right the next place to try is. `row` is the row to
-/// try first, and receives the one that hits: that of the last place mostly hits again.
+/// 0 if the mask fits, otherwise the distance to the next position to test on the right. `row` is
+/// the row to test first, and receives the colliding row: the one of the previous position mostly
+/// collides again.
 int Sheet::collision(const Stamp& stamp, int x, int y, int* row) const {
   if (const int jump = row_collision(stamp, x, y, *row)) return jump;
   for (const int r : stamp.rows) {
@@ -198,6 +201,7 @@ int Sheet::collision(const Stamp& stamp, int x, int y, int* row) const {
   return 0;
 }
 
+/// The same for a single row.
 int Sheet::row_collision(const Stamp& stamp, int x, int y, int r) const {
   const uint64_t* row = stamp.texels.row(r);
   const uint64_t* taken = taken_.row(y + r) + x / Bitmap::kWord;
@@ -206,7 +210,7 @@ int Sheet::row_collision(const Stamp& stamp, int x, int y, int r) const {
     const uint64_t there = taken[w] >> shift | taken[w + 1] << 1 << (Bitmap::kWord - 1 - shift);
     const uint64_t hit = row[w] & there;
     if (hit == 0) continue;
-    // The rightmost texel hit must at least come free of this run of the stamp.
+    // The mask has to move until the rightmost colliding texel is clear of this run.
     const int last = Bitmap::kWord - 1 - __builtin_clzll(hit);
     const uint64_t below = ~uint64_t{0} >> (Bitmap::kWord - 1 - last);
     const uint64_t gaps = ~row[w] & below;
@@ -222,7 +226,7 @@ void Sheet::take(const Stamp& stamp, int padding, int x, int y) {
   summarize(std::max(0, y - padding), std::min(side_, y + stamp.texels.height() + padding) - 1);
 }
 
-/// Updates what is known of rows first…last.
+/// Updates the summaries of rows first…last.
 void Sheet::summarize(int first_row, int last_row) {
   for (int y = first_row; y <= last_row; ++y) {
     gaps_[static_cast<size_t>(y)] = taken_.longest_gap(y);

@@ -7,27 +7,27 @@
 
 namespace ck::texture {
 
-/// The texels of a chart at one scale and turn, and what of them a search looks at first.
+/// The texels of a chart at one scale and rotation, with precomputed data for the placement search.
 struct Stamp {
-  /// A row's texels or blocks from…to (both included).
+  /// A run of texels or blocks of a row, from…to (both included).
   struct Run {
     int row = 0, from = 0, to = -1;
     int length() const { return to - from + 1; }
   };
 
   static constexpr int kLevels = 3;
-  /// Texels a side of the blocks of a level.
+  /// Side in texels of the blocks of a level.
   static constexpr int block_side(int level) { return 4 << level; }
 
   Bitmap texels;
-  /// All rows, in the order to look at them.
+  /// All rows, in the order in which to test them.
   std::vector<int> rows;
-  /// The longest run of each quarter of the rows.
+  /// The longest run in each quarter of the rows.
   std::array<Run, 4> widest;
-  /// How coarsely to look for a place.
+  /// Resolution level of the search.
   int level = 0;
-  /// Blocks that the stamp covers wherever in a block of the sheet its corner is, a run a row; in
-  /// the order to look at them.
+  /// Blocks that the mask covers wherever in a page block its corner lies, one run per row; in the
+  /// order in which to test them.
   std::vector<Run> core;
 
   explicit Stamp(Bitmap bitmap);
@@ -36,26 +36,27 @@ struct Stamp {
   void find_core();
 };
 
-/// A square texture that fills with charts.
+/// Occupancy of a square atlas page.
 ///
-/// What is taken includes the padding around each chart, so that a new one may touch it: the space
-/// between two charts is counted once. Coarse pictures of it, a texel a block, rule out most places
-/// for most charts.
+/// Occupied texels include the padding around each chart, and a new chart may touch it: the padding
+/// between two charts is counted once. Coarser occupancy bitmaps with one bit per block exclude
+/// most positions of most charts.
 class Sheet {
  public:
   explicit Sheet(int side);
 
-  /// The first place from the top, then from the left, where the stamp is on free texels and ends
-  /// above `limit`.
+  /// The first position, from the top, then from the left, where the mask is on free texels and
+  /// ends above `limit`; false if there is none.
   bool find(const Stamp& stamp, int limit, int* x, int* y);
 
-  /// Takes the stamp's texels and those around it.
+  /// Marks the texels of a mask and the padding around them as occupied.
   void take(const Stamp& stamp, int padding, int x, int y);
 
  private:
+  /// The occupancy at one block size.
   struct Summary {
     int block;
-    /// Blocks where any texel of the 1, 2, 4… blocks from there on to the right is taken.
+    /// By level: blocks from which any of the next 1, 2, 4… blocks to the right is occupied.
     std::vector<Bitmap> spread;
     /// The longest run of free blocks of each row.
     std::vector<int> gaps;
@@ -76,7 +77,7 @@ class Sheet {
   /// The longest run of free texels of each row.
   std::vector<int> gaps_;
   std::vector<Summary> summaries_;
-  /// The row of blocks that received the last stamp of a height and width.
+  /// By height and width: the row of blocks in which the last tiny mask of that size was placed.
   static constexpr int kTiny = 16;
   std::vector<int> tried_;
 };

@@ -122,7 +122,7 @@ Matches subset(const Matches& matches, const std::vector<size_t>& indices) {
   return Matches(first.data(), second.data(), indices.size());
 }
 
-/// How many of the matches one homography explains.
+/// The number of matches that a single homography explains.
 size_t homography_support(const Matches& matches, const RansacOptions& options,
                           const ck_control* control) {
   RansacOptions quick = options;
@@ -139,10 +139,11 @@ struct Estimate {
   int iterations = 0;
 };
 
-/// Below this angle in radians, whether a point is in front of the cameras is down to noise.
+/// Triangulation angle in radians below which noise decides whether a point is in front of the
+/// cameras.
 constexpr double kSmallAngle = 1e-3;
 
-/// Keeps the inliers that lie in front of both cameras and collects their angles.
+/// Keeps the inliers in front of both cameras and collects their triangulation angles.
 void check_visibility(Estimate& estimate, const Matches& matches) {
   std::vector<size_t> visible;
   for (size_t i : estimate.inliers) {

@@ -37,7 +37,7 @@ Cubic product(const Quadratic& a, const Linear& b) {
 
 using Basis = Eigen::Matrix<double, 9, 4>;
 
-/// Four matrices (by rows) whose combinations are all solutions of the epipolar constraints.
+/// Four row-major matrices whose linear combinations are all solutions of the epipolar constraints.
 Basis null_space(const Eigen::Vector2d* first, const Eigen::Vector2d* second) {
   Eigen::Matrix<double, 9, 5> constraints;
   for (int i = 0; i < 5; ++i) {
@@ -49,7 +49,7 @@ Basis null_space(const Eigen::Vector2d* first, const Eigen::Vector2d* second) {
   return q.rightCols<4>();
 }
 
-/// det E = 0 and (E Eᵀ − ½ tr(E Eᵀ)) E = 0 in the coordinates of the null space.
+/// det E = 0 and (E Eᵀ − ½ tr(E Eᵀ)) E = 0 in coordinates of the null space.
 Eigen::Matrix<double, 10, 20> constraints(const Basis& basis) {
   auto e = [&](int r, int c) -> Linear { return basis.row(3 * r + c); };
   Quadratic square[3][3];
@@ -128,7 +128,7 @@ InZ determinant(const Hidden& h) {
   return sum;
 }
 
-/// x and y of the solution with this z: the null vector, from the best conditioned two equations.
+/// x and y of the solution for this z: the null vector of the best conditioned two equations.
 Eigen::Vector3d solve_at(const Hidden& h, double z) {
   Eigen::Matrix3d m;
   for (int r = 0; r < 3; ++r) {

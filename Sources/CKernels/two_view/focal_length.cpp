@@ -8,9 +8,10 @@
 namespace ck {
 namespace {
 
+/// Levenberg–Marquardt steps per factor.
 constexpr int kSteps = 15;
 
-/// The points as they would be with `factor` times the focal length.
+/// The points for `factor` times the focal length.
 Matches scaled(const double* first, const double* second, size_t count, double factor) {
   std::vector<double> a(first, first + 2 * count), b(second, second + 2 * count);
   for (double& v : a) v /= factor;

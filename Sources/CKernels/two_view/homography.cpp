@@ -6,7 +6,8 @@
 namespace ck {
 namespace {
 
-/// Moves the points' mean to the origin and their mean distance from it to √2.
+/// Hartley's normalization: moves the mean of the points to the origin and scales their mean
+/// distance from it to √2.
 Eigen::Matrix3d normalisation(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const auto& p : points) mean += p;
@@ -36,7 +37,7 @@ bool homography(const std::vector<Eigen::Vector2d>& first,
     normal += rows.transpose() * rows;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
-  // A second null direction: the points don't determine the homography.
+  // With a second null direction the points do not determine the homography.
   if (!(solver.eigenvalues()[1] > 1e-12 * solver.eigenvalues()[8])) return false;
   const Eigen::Matrix<double, 9, 1> h = solver.eigenvectors().col(0);
   const Eigen::Matrix3d m =

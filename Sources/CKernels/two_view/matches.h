@@ -6,7 +6,7 @@
 
 namespace ck {
 
-/// Matches as points at depth 1, structure of arrays for the scoring loops.
+/// Matches as points at depth 1, also as a structure of arrays for the scoring loops.
 struct Matches {
   std::vector<Eigen::Vector2d> first, second;
   std::vector<double> x1, y1, x2, y2;
@@ -20,7 +20,7 @@ struct Matches {
 void sampson_errors(const Eigen::Matrix3d& matrix, const Matches& matches, size_t begin, size_t end,
                     double* errors);
 
-/// Writes the squared distances of the second points from the mapped first ones.
+/// Writes the squared distances of the second points to the mapped first points (transfer error).
 void transfer_errors(const Eigen::Matrix3d& homography, const Matches& matches, size_t begin,
                      size_t end, double* errors);
 

@@ -19,7 +19,8 @@ double slope(const Coefficients& c, int degree, double x) {
   return sum;
 }
 
-/// The root between `low` and `high`, where the signs differ: Newton's method kept in the bracket.
+/// The root between `low` and `high`, where the signs differ, by Newton's method with bisection as
+/// safeguard.
 double bracketed_root(const Coefficients& c, int degree, double low, double high, double at_low) {
   double x = 0.5 * (low + high);
   for (int i = 0; i < 80; ++i) {

@@ -12,8 +12,9 @@
 
 namespace ck {
 
+/// Options of LO-RANSAC.
 struct RansacOptions {
-  /// Largest error of an inlier in the estimator's unit.
+  /// Largest error of an inlier, in the estimator's unit.
   double maximum_error;
   double confidence;
   int minimum_iterations;
@@ -31,7 +32,7 @@ struct RansacResult {
   int iterations = 0;
 };
 
-/// Score and inliers of a model; gives up once the score is above `bound`.
+/// MSAC score and number of inliers of a model; stops early once the score exceeds `bound`.
 template <class Estimator>
 std::pair<double, size_t> msac_score(const Estimator& estimator,
                                      const typename Estimator::Model& model, double limit,
@@ -53,7 +54,7 @@ std::pair<double, size_t> msac_score(const Estimator& estimator,
   return {score, inliers};
 }
 
-/// Iterations after which a sample without outliers was drawn with the confidence asked for.
+/// Number of iterations after which an outlier-free sample was drawn with the required confidence.
 inline double needed_iterations(double inlier_ratio, size_t sample_size, double confidence) {
   const double good = std::pow(inlier_ratio, static_cast<double>(sample_size));
   if (good <= 1e-12) return std::numeric_limits<double>::infinity();
@@ -61,9 +62,9 @@ inline double needed_iterations(double inlier_ratio, size_t sample_size, double 
   return std::log(1 - confidence) / std::log(1 - good);
 }
 
-/// LO-RANSAC. The estimator has a `Model`, `kSampleSize`, `size()`, `solve(sample, models)`,
-/// `errors(model, begin, end, squared)` and `refine(model, limit)`. Its data are in order of
-/// quality; samples of the first quarter of the iterations come from a prefix that grows.
+/// LO-RANSAC. The estimator provides `Model`, `kSampleSize`, `size()`, `solve(sample, models)`,
+/// `errors(model, begin, end, squared)` and `refine(model, limit)`. Its data are sorted by quality;
+/// the samples of the first quarter of the iterations come from a growing prefix (as in PROSAC).
 template <class Estimator>
 RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
                                                const RansacOptions& options,

@@ -7,7 +7,7 @@
 namespace ck {
 namespace {
 
-/// A matrix with its derivatives by the parameters around it.
+/// A matrix with its derivatives with respect to the local parameters.
 template <int N>
 struct Linearised {
   Eigen::Matrix3d matrix;
@@ -18,7 +18,7 @@ struct Linearised {
   }
 };
 
-/// Two directions orthogonal to `v`.
+/// Two unit vectors orthogonal to `v` and to each other.
 Eigen::Matrix<double, 3, 2> tangent(const Eigen::Vector3d& v) {
   int axis;
   v.cwiseAbs().minCoeff(&axis);
@@ -106,7 +106,7 @@ void accumulate(const Linearised<N>& model, const Matches& matches, double limit
     if (!(c * c < limit * limit * squared)) continue;
     const double inverse = 1 / std::sqrt(squared), residual = c * inverse;
     const double factor = residual * inverse * inverse;
-    // The derivative of the residual by the nine elements of the matrix.
+    // The derivative of the residual with respect to the nine elements of the matrix.
     Eigen::Matrix3d slope = inverse * q * p.transpose();
     slope.row(0) -= factor * mp[0] * p.transpose();
     slope.row(1) -= factor * mp[1] * p.transpose();

@@ -24,7 +24,7 @@ Eigen::Matrix3d RelativePose::essential() const {
 
 Triangulation triangulate(const RelativePose& pose, const Eigen::Vector2d& first,
                           const Eigen::Vector2d& second) {
-  // λ₂ d₂ = λ₁ R d₁ + t in the sense of least squares.
+  // Solves λ₂ d₂ = λ₁ R d₁ + t in the least squares sense.
   const Eigen::Vector3d a = (pose.rotation * first.homogeneous()).normalized();
   const Eigen::Vector3d b = second.homogeneous().normalized();
   const double cosine = a.dot(b), at = a.dot(pose.translation), bt = b.dot(pose.translation);

@@ -1,12 +1,12 @@
 import Foundation
 import SceneModel
 
-/// A photo's camera and pose, known by the photo's name.
+/// A photo's camera and pose, identified by the photo's name.
 package struct NamedCamera: Hashable, Sendable {
   package var name: String
   package var camera: Camera
   package var cameraFromWorld: RigidTransform
-  /// Whether the camera's width and height are those of the photo, and not a guess.
+  /// Whether the camera's width and height are those of the photo rather than a guess.
   package var isSizeKnown: Bool
 
   package init(
@@ -32,10 +32,10 @@ extension NamedCamera {
   }
 
   /// Reads a list of `{"name", "K", "R", "t"}`: calibration matrix, rotation and translation of
-  /// `x_camera = R x_world + t`. Photos marked as held out are left out.
+  /// `x_camera = R x_world + t`. Photos marked as held out are skipped.
   ///
-  /// Where an entry doesn't tell `"width"` and `"height"`, these are taken to be twice the principal
-  /// point.
+  /// If an entry doesn't specify `"width"` and `"height"`, they are assumed to be twice the
+  /// principal point. Throws `EvaluationError.invalidReference`.
   package static func cameras(json data: Data) throws -> [NamedCamera] {
     struct Entry: Decodable {
       var name: String
@@ -61,7 +61,7 @@ extension NamedCamera {
       entries = try JSONDecoder().decode([Entry].self, from: data)
     } catch {
       throw EvaluationError.invalidReference(
-        "it is no list of cameras with name, K, R and t")
+        "it is not a list of cameras with name, K, R and t")
     }
     return try entries.filter { $0.holdout != true }.map { entry in
       guard isMatrix(entry.K), isMatrix(entry.R), entry.t.count == 3,
@@ -70,11 +70,11 @@ extension NamedCamera {
         throw EvaluationError.invalidReference("the matrices of \(entry.name) are not 3 × 3")
       }
       guard isRotation(entry.R) else {
-        throw EvaluationError.invalidReference("R of \(entry.name) is no rotation")
+        throw EvaluationError.invalidReference("R of \(entry.name) is not a rotation")
       }
       guard entry.K[0][0] > 0, entry.K[1][1] > 0, abs(entry.K[0][1]) < 1e-3 * entry.K[0][0] else {
         throw EvaluationError.invalidReference(
-          "K of \(entry.name) has skew or a focal length that is not positive")
+          "K of \(entry.name) has skew or a non-positive focal length")
       }
       let (k, r) = (entry.K, entry.R.map { SIMD3($0[0], $0[1], $0[2]) })
       return NamedCamera(
@@ -92,9 +92,9 @@ extension NamedCamera {
   }
 }
 
-/// Why a result can't be compared.
+/// The reason why a result can't be compared.
 package enum EvaluationError: LocalizedError, Equatable, Sendable {
-  /// The end of a sentence that begins with the file's name.
+  /// The reason completes a sentence that begins with the file's name.
   case invalidReference(String)
   case noCommonPhotos
   case undeterminedAlignment(commonPhotos: Int)
@@ -103,10 +103,10 @@ package enum EvaluationError: LocalizedError, Equatable, Sendable {
   package var errorDescription: String? {
     switch self {
     case .invalidReference(let reason): "The reference can't be used: \(reason)."
-    case .noCommonPhotos: "The result and the reference have no photo of the same name."
+    case .noCommonPhotos: "The result and the reference have no photo name in common."
     case .undeterminedAlignment(let count):
-      "The result can't be aligned to the reference: \(count) common photos are too few or all on "
-        + "one line."
+      "The result can't be aligned to the reference: the \(count) common photos are too few or "
+        + "collinear."
     case .emptySurface: "There is no surface to compare."
     }
   }

@@ -1,20 +1,21 @@
 import Foundation
 import SceneModel
 
-/// How far estimated poses are from the true ones.
+/// Errors of estimated poses with respect to ground truth.
 package struct PoseErrors: Codable, Hashable, Sendable {
-  /// Photos of the reference that have a pose in the result.
+  /// Number of reference photos that have a pose in the result.
   package var registered: Int
-  /// Photos of the reference.
+  /// Number of reference photos.
   package var total: Int
-  /// Distances of camera centres after alignment, in units of the reference.
+  /// Distances between camera centers after alignment, in units of the reference.
   package var centerRMSE: Double
   package var centerMedian: Double
   package var centerMaximum: Double
+  /// Angles between rotations after alignment.
   package var rotationMeanDegrees: Double
   package var rotationMaximumDegrees: Double
-  /// Area under the recall curve of relative poses, 0…1; the error of a pair is the larger of the
-  /// angles between its rotations and between its translation directions.
+  /// Area under the recall curve of relative poses (AUC), 0…1; the error of a pair is the larger of
+  /// its rotation error and the angle between its translation directions.
   package var areaUnderCurve: [AreaUnderCurve]
 
   /// The area from 0 to a threshold, divided by the threshold.
@@ -28,11 +29,12 @@ package struct PoseErrors: Codable, Hashable, Sendable {
 }
 
 extension PoseErrors {
-  /// Compares `result` with `reference`, photos matched by name, and tells the similarity that takes
-  /// the result's frame to the reference's.
+  /// Compares `result` with `reference`, with photos matched by name. Also returns the similarity
+  /// `referenceFromResult`.
   ///
-  /// The result may have turned photos upright that the reference has as stored; the quarter turn
-  /// about the optical axis that explains the relative rotations best is applied to all.
+  /// The result may contain photos rotated upright that the reference has in stored orientation;
+  /// the quarter turn about the optical axis that best explains the relative rotations is applied
+  /// to all poses. Throws `EvaluationError`.
   package static func comparing(
     _ result: [NamedCamera], with reference: [NamedCamera]
   ) throws -> (errors: PoseErrors, alignment: SimilarityTransform) {
@@ -110,7 +112,7 @@ extension PoseErrors {
     return errors.sorted() + [Double](repeating: 180, count: all - errors.count)
   }
 
-  /// The area under the recall of sorted errors, linear between them.
+  /// The area under the recall curve of sorted errors, with linear interpolation.
   static func area(under errors: [Double], to threshold: Double) -> Double {
     guard !errors.isEmpty else { return 0 }
     var (area, lastError, lastRecall) = (0.0, 0.0, 0.0)

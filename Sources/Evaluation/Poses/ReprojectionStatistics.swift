@@ -1,19 +1,20 @@
 import SceneModel
 
-/// How well a reconstruction's points explain its keypoints, in pixels.
+/// Statistics of the reprojection errors of a reconstruction, in pixels.
 package struct ReprojectionStatistics: Codable, Hashable, Sendable {
   package var photos: Int
   package var points: Int
   package var observations: Int
-  /// Observations a point.
+  /// Mean number of observations per point.
   package var meanTrackLength: Double
   package var meanPixels: Double
   package var rootMeanSquarePixels: Double
   package var medianPixels: Double
-  /// 95 of 100 observations are better.
+  /// The 95th percentile.
   package var percentile95Pixels: Double
 
-  /// The statistics over all observations of registered photos; points behind a camera don't count.
+  /// Computes the statistics over all observations of registered photos, except of points behind
+  /// the camera.
   package init(_ reconstruction: Reconstruction) {
     var errors: [Double] = []
     for point in reconstruction.points {

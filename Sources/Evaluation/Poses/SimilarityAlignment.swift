@@ -1,15 +1,15 @@
 import Foundation
 import SceneModel
 
-/// Finds the scale, rotation and translation that bring points closest to their counterparts.
+/// Estimates the scale, rotation and translation that align points with their counterparts.
 ///
-/// The least-squares similarity of Umeyama (PAMI 1991), its rotation by Horn's unit quaternion
-/// (JOSA A 1987), which is never a reflection.
+/// The least-squares similarity of Umeyama (PAMI 1991), with the rotation from Horn's unit
+/// quaternion method (JOSA A 1987), which never yields a reflection.
 package struct SimilarityAlignment: Sendable {
   package struct Options: Codable, Hashable, Sendable {
-    /// Trials of the robust variant.
+    /// Number of samples of the robust variant.
     package var trials = 400
-    /// Inliers are this close, as a fraction of the targets' mean distance from their centre.
+    /// Inlier threshold as a fraction of the targets' mean distance from their centroid.
     package var inlierFraction = 0.02
 
     package init() {}
@@ -20,7 +20,7 @@ package struct SimilarityAlignment: Sendable {
   package init(_ options: Options = Options()) { self.options = options }
 
   /// The similarity with the least sum of squared distances; nil for fewer than three pairs and for
-  /// points on one line, which determine no rotation.
+  /// collinear points, which determine no rotation.
   package func leastSquares(
     from source: [SIMD3<Double>], to target: [SIMD3<Double>]
   ) -> SimilarityTransform? {
@@ -46,7 +46,8 @@ package struct SimilarityAlignment: Sendable {
       translation: targetCenter - scale * (rotation * sourceCenter))
   }
 
-  /// The similarity of the largest set of pairs that agree, so that a few wrong ones don't spoil it.
+  /// The least-squares similarity of the largest consensus set (RANSAC), which tolerates a few
+  /// outliers.
   package func robust(
     from source: [SIMD3<Double>], to target: [SIMD3<Double>]
   ) -> SimilarityTransform? {
@@ -82,7 +83,7 @@ package struct SimilarityAlignment: Sendable {
     points.reduce(.zero, +) / Double(max(1, points.count))
   }
 
-  /// The rotation that maximises Σ b · R a for `covariance[i] = Σ aᵢ b`; nil where several do.
+  /// The rotation that maximizes Σ b · R a for `covariance[i] = Σ aᵢ b`; nil if it is not unique.
   private static func rotation(_ s: [SIMD3<Double>]) -> Quaternion? {
     let (trace, x, y, z) = (
       s[0].x + s[1].y + s[2].z, s[1].z - s[2].y, s[2].x - s[0].z, s[0].y - s[1].x

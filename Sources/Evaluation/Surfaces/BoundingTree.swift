@@ -1,6 +1,6 @@
 import SceneModel
 
-/// What a `BoundingTree` holds.
+/// An item of a `BoundingTree`.
 protocol Boundable: Sendable {
   var bounds: (min: SIMD3<Float>, max: SIMD3<Float>) { get }
   func squaredDistance(to point: SIMD3<Float>) -> Float
@@ -12,10 +12,10 @@ extension SIMD3<Float>: Boundable {
   func squaredDistance(to point: SIMD3<Float>) -> Float { (self - point).squaredLength }
 }
 
-/// A binary tree of boxes over points or triangles that finds the nearest one.
+/// A bounding volume hierarchy over points or triangles for nearest-neighbor and ray queries.
 ///
-/// Items are sorted along the Morton curve of their centres and halved again and again, so that the
-/// tree needs no links: the children of node i are 2i + 1 and 2i + 2.
+/// Items are sorted along the Morton curve of their centers and bisected recursively. The tree is
+/// implicit: the children of node i are 2i + 1 and 2i + 2.
 struct BoundingTree<Item: Boundable>: Sendable {
   private struct Box {
     var min: SIMD3<Float>
@@ -25,7 +25,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
       (point - pointwiseMin(pointwiseMax(point, min), max)).squaredLength
     }
 
-    /// Whether the ray meets the box before `limit`; `inverse` is 1 / direction.
+    /// Whether the ray intersects the box before `limit`; `inverse` is 1 / direction.
     func meets(_ origin: SIMD3<Float>, _ inverse: SIMD3<Float>, _ limit: Float) -> Bool {
       let (a, b) = ((min - origin) * inverse, (max - origin) * inverse)
       let (near, far) = (pointwiseMin(a, b), pointwiseMax(a, b))
@@ -33,7 +33,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
     }
   }
 
-  /// Where a search goes on.
+  /// The traversal stack of a query, reusable between queries.
   struct Stack {
     fileprivate var entries: [(node: Int, distance: Float)] = []
 
@@ -44,7 +44,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
 
   private var items: [Item] = []
   private var boxes: [Box] = []
-  /// Leaves begin at this node; leaf k holds the items of `leafRange(k)`.
+  /// Index of the first leaf node; leaf k holds the items of `leafRange(k)`.
   private var firstLeaf = 0
   private var leafCount = 1
 
@@ -73,6 +73,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
     (leaf * items.count / leafCount)..<((leaf + 1) * items.count / leafCount)
   }
 
+  /// Sorts items along the Morton curve of their centers.
   private static func sorted(_ items: [Item]) -> [Item] {
     let centers = items.map { ($0.bounds.min + $0.bounds.max) / 2 }
     guard let first = centers.first else { return [] }
@@ -85,7 +86,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
     return keys.indices.sorted { (keys[$0], $0) < (keys[$1], $1) }.map { items[$0] }
   }
 
-  /// Spreads 21 bits so that two zeros follow each.
+  /// Inserts two zero bits after each of the lowest 21 bits.
   private static func spread(_ value: UInt64) -> UInt64 {
     var x = value & 0x1F_FFFF
     x = (x | x << 32) & 0x001F_0000_0000_FFFF
@@ -95,7 +96,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
     return (x | x << 2) & 0x1249_2492_4924_9249
   }
 
-  /// The distance to the nearest item, or `limit` when that is farther.
+  /// The distance to the nearest item, at most `limit`.
   func distance(to point: SIMD3<Float>, limit: Float, _ stack: inout Stack) -> Float {
     var best = limit * limit
     stack.entries.removeAll(keepingCapacity: true)
@@ -122,7 +123,7 @@ struct BoundingTree<Item: Boundable>: Sendable {
     return best.squareRoot()
   }
 
-  /// Whether `body` is true of an item whose box the ray meets before `limit`.
+  /// Whether `body` is true for any item in a leaf that the ray intersects before `limit`.
   func anyItem(
     from origin: SIMD3<Float>, direction: SIMD3<Float>, limit: Float, _ stack: inout Stack,
     _ body: (Item) -> Bool

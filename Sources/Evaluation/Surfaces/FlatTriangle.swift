@@ -1,6 +1,6 @@
 import SceneModel
 
-/// A triangle by its corners.
+/// A triangle given by its corners.
 struct FlatTriangle: Boundable {
   var a: SIMD3<Float>
   var b: SIMD3<Float>
@@ -26,7 +26,7 @@ struct FlatTriangle: Boundable {
     (closestPoint(to: point) - point).squaredLength
   }
 
-  /// By Voronoi regions (Ericson, Real-Time Collision Detection, 5.1.5).
+  /// The closest point by Voronoi regions (Ericson, Real-Time Collision Detection, 5.1.5).
   func closestPoint(to p: SIMD3<Float>) -> SIMD3<Float> {
     let (ab, ac, ap) = (b - a, c - a, p - a)
     let (d1, d2) = (ab.dot(ap), ac.dot(ap))
@@ -49,7 +49,7 @@ struct FlatTriangle: Boundable {
     return a + ab * Self.ratio(vb, sum) + ac * Self.ratio(vc, sum)
   }
 
-  /// Zero where a triangle has no extent.
+  /// a / b, or zero for degenerate triangles.
   private static func ratio(_ a: Float, _ b: Float) -> Float { b != 0 ? a / b : 0 }
 
   /// Whether the ray hits the triangle before `limit` (Möller and Trumbore, 1997).

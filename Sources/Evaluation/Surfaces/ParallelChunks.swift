@@ -2,7 +2,8 @@ import Dispatch
 import Synchronization
 import SceneModel
 
-/// Maps ranges that together are `0..<count` on some threads and joins the results in their order.
+/// Maps contiguous ranges that cover `0..<count` on multiple threads and concatenates the results
+/// in order.
 func parallelChunks<Element: Sendable>(
   _ count: Int, threads: Int, _ body: @Sendable (Range<Int>) -> [Element]
 ) -> [Element] {

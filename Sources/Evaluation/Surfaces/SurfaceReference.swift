@@ -2,7 +2,7 @@ import SceneModel
 
 /// A height below which nothing is compared.
 package struct Floor: Codable, Hashable, Sendable {
-  /// 0, 1 or 2: the axis that points up.
+  /// The axis that points up: 0, 1 or 2.
   package var axis: Int
   /// In units of the reference.
   package var height: Double
@@ -15,11 +15,11 @@ package struct Floor: Codable, Hashable, Sendable {
   func isBelow(_ point: SIMD3<Float>) -> Bool { Double(point[axis]) <= height }
 }
 
-/// A true surface, made ready to compare results with.
+/// A ground truth surface, preprocessed for comparison.
 package struct SurfaceReference: Sendable {
   let bounds: Bounds
   let tree: BoundingTree<FlatTriangle>
-  /// Points of the surface that can be asked for: enough cameras see them, above the floor.
+  /// Sample points of the surface above the floor that enough cameras see.
   let samples: [SIMD3<Float>]
 
   init(_ mesh: Mesh, _ cameras: [NamedCamera], _ options: SurfaceComparison.Options) throws {

@@ -1,11 +1,11 @@
 import SceneModel
 
-/// Spreads points over a mesh evenly by area; the same mesh gives the same points.
+/// Samples points uniformly by area on a mesh; deterministic.
 package struct SurfaceSampling: Sendable {
   package init() {}
 
-  /// `count` points: one in each of `count` equal parts of the running area, placed in its triangle
-  /// by a low-discrepancy sequence.
+  /// Returns `count` points: one in each of `count` equal parts of the cumulative area, positioned
+  /// in its triangle by a low-discrepancy sequence.
   package func run(_ mesh: Mesh, count: Int) -> [SIMD3<Float>] {
     let triangles = mesh.triangles.map { FlatTriangle($0, of: mesh) }
     var areas: [Double] = []
@@ -20,7 +20,7 @@ package struct SurfaceSampling: Sendable {
     var points: [SIMD3<Float>] = []
     points.reserveCapacity(count)
     var index = 0
-    // The plastic number's sequence (Roberts 2018), a generalisation of the golden ratio.
+    // The sequence of the plastic number (Roberts 2018), a generalization of the golden ratio.
     let steps = SIMD2(0.754_877_666_246_692_7, 0.569_840_290_998_053_2)
     var place = SIMD2(0.5, 0.5)
     for sample in 0..<count {

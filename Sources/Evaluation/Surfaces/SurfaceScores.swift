@@ -1,28 +1,29 @@
 import Foundation
 import SceneModel
 
-/// How close a surface or cloud is to the true one, in units of the reference.
+/// The distance of a surface or cloud from ground truth, in units of the reference.
 package struct SurfaceScores: Codable, Hashable, Sendable {
-  /// The scores at one distance; all from 0 to 1.
+  /// The scores at one distance threshold, from 0 to 1.
   package struct AtThreshold: Codable, Hashable, Sendable {
+    /// Distance in units of the reference.
     package var threshold: Double
-    /// The part of the result that is this close to the reference (accuracy).
+    /// The fraction of the result within this distance of the reference (accuracy).
     package var precision: Double
-    /// The part of the reference that is this close to the result (completeness).
+    /// The fraction of the reference within this distance of the result (completeness).
     package var recall: Double
-    /// The harmonic mean of both.
+    /// The harmonic mean of precision and recall.
     package var fScore: Double
   }
 
-  /// Samples of the result and of the reference that were compared.
+  /// Number of compared samples of the result and of the reference.
   package var resultSamples: Int
   package var referenceSamples: Int
   package var thresholds: [AtThreshold]
-  /// Mean distance of the result from the reference, and the other way round; distances beyond
-  /// `maximumDistance` count as that.
+  /// Mean distance from the result to the reference, and from the reference to the result;
+  /// distances are truncated at `maximumDistance`.
   package var accuracy: Double
   package var completeness: Double
-  /// The mean of both.
+  /// The mean of accuracy and completeness (Chamfer distance).
   package var chamfer: Double
   package var maximumDistance: Double
 }
@@ -30,23 +31,23 @@ package struct SurfaceScores: Codable, Hashable, Sendable {
 /// Compares a mesh or cloud with a reference mesh (Knapitsch et al., Tanks and Temples, 2017).
 package struct SurfaceComparison: Sendable {
   package struct Options: Codable, Hashable, Sendable {
-    /// Distances of precision, recall and F-score, in units of the reference.
+    /// Distance thresholds of precision, recall and F-score, in units of the reference.
     package var thresholds = [0.0005, 0.001, 0.002]
-    /// Longer distances count as this, in units of the reference.
+    /// Distances are truncated at this value, in units of the reference.
     package var maximumDistance = 0.02
-    /// Samples on the result.
+    /// Number of samples on the result.
     package var resultSamples = 1_000_000
-    /// Samples on the reference.
+    /// Number of samples on the reference.
     package var referenceSamples = 200_000
-    /// Parts of the result farther than this outside the reference's box are ignored, in units of
-    /// the reference: the table that an object stands on is no fault.
+    /// Parts of the result farther than this outside the reference's bounding box are ignored, in
+    /// units of the reference: the table that an object stands on is not an error.
     package var margin = 0.01
-    /// Parts of the result and of the reference below this are ignored: what a surface that stands
-    /// on something looks like where it touches can't be seen.
+    /// Parts of the result and of the reference below this are ignored: the contact area of a
+    /// supported object is not visible.
     package var floor: Floor?
-    /// Parts of the reference that fewer cameras see are ignored.
+    /// Parts of the reference visible to fewer cameras are ignored.
     package var minimumViews = 3
-    /// Threads; results do not depend on it.
+    /// Number of threads; results are independent of it.
     package var threadCount = 1
 
     package init() {}
@@ -56,14 +57,15 @@ package struct SurfaceComparison: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// What to compare results with. Cameras of the reference, when given, limit it to what they see.
+  /// Prepares a reference. Its cameras, if given, limit it to the visible parts.
   package func reference(
     _ mesh: Mesh, cameras: [NamedCamera] = []
   ) throws -> SurfaceReference {
     try SurfaceReference(mesh, cameras, options)
   }
 
-  /// Scores `result` after `alignment` against `reference`.
+  /// Scores the mesh `result`, transformed by `alignment`, against `reference`. Throws
+  /// `EvaluationError.emptySurface`.
   package func run(
     _ result: Mesh, _ alignment: SimilarityTransform, reference: SurfaceReference
   ) throws -> SurfaceScores {
@@ -75,14 +77,14 @@ package struct SurfaceComparison: Sendable {
     return try scores(samples, tree, reference)
   }
 
-  /// Scores the points of a cloud as they are, or their means in voxels with this side. A cloud
-  /// that repeats what is easy to see looks better than it is until it is averaged.
+  /// Scores the points of a cloud directly, or after downsampling with the given voxel size.
+  /// Without it, a cloud with many points on easily visible parts scores too well.
   package func run(
     _ result: PointCloud, _ alignment: SimilarityTransform, reference: SurfaceReference,
     voxel: Double? = nil
   ) throws -> SurfaceScores {
     guard result.count > 0 else { throw EvaluationError.emptySurface }
-    // What is farther away changes no distance.
+    // Points that are farther away don't affect any distance.
     let reach = SIMD3<Float>(repeating: Float(max(options.margin, options.maximumDistance)))
     var points = transformed(result.positions, alignment).filter {
       reference.bounds.contains($0, margin: reach)

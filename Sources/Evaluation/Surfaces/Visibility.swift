@@ -1,13 +1,13 @@
 import SceneModel
 
-/// Tells which points of a surface cameras see.
+/// Determines which points of a surface are visible to cameras.
 struct Visibility: Sendable {
   let cameras: [NamedCamera]
   let tree: BoundingTree<FlatTriangle>
   let minimumViews: Int
   let threadCount: Int
 
-  /// The points that at least `minimumViews` cameras see, in their order.
+  /// The points visible to at least `minimumViews` cameras, in their order.
   func visible(_ points: [SIMD3<Float>]) -> [SIMD3<Float>] {
     parallelChunks(points.count, threads: threadCount) { range in
       var stack = BoundingTree<FlatTriangle>.Stack()
@@ -20,7 +20,7 @@ struct Visibility: Sendable {
   ) -> Bool {
     var views = 0
     for (index, camera) in cameras.enumerated() {
-      // Stops as soon as the cameras that are left can't make it enough.
+      // Stops as soon as the remaining cameras can't reach the minimum.
       guard views < minimumViews, views + cameras.count - index >= minimumViews else { break }
       if sees(camera, point, &stack) { views += 1 }
     }
@@ -37,7 +37,8 @@ struct Visibility: Sendable {
     guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(camera.camera.width),
       pixel.y < Double(camera.camera.height)
     else { return false }
-    // From the point to the camera; the first thousandth of the way is the surface itself.
+    // From the point to the camera; the first thousandth is skipped to avoid hitting the surface
+    // itself.
     let center = SIMD3<Float>(camera.cameraFromWorld.center)
     let direction = center - point
     let origin = point + direction * 1e-3

@@ -1,8 +1,8 @@
 import SceneModel
 
-/// Replaces the points of each cell of a grid by their mean.
+/// Voxel grid downsampling: replaces the points of each voxel by their mean.
 struct VoxelAveraging {
-  /// Of a cell; points that are farther apart than a million cells get larger ones.
+  /// Side of a voxel; enlarged if the points extend over more than a million voxels.
   var side: Double
 
   private struct Sum {
@@ -10,7 +10,7 @@ struct VoxelAveraging {
     var count = 0.0
   }
 
-  /// The means in the order in which their cells occur. Points are finite.
+  /// Returns the means in order of first occurrence of their voxels. Points must be finite.
   func run(_ points: [SIMD3<Float>]) -> [SIMD3<Float>] {
     guard let first = points.first else { return [] }
     let low = SIMD3<Double>(points.reduce(first, pointwiseMin))

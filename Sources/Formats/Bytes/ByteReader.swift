@@ -1,4 +1,4 @@
-/// Reads numbers from bytes of unknown origin; throws `Truncated` instead of reading past the end.
+/// Reads numbers from untrusted bytes; throws `Truncated` instead of reading past the end.
 struct ByteReader {
   /// The bytes end before the value does.
   struct Truncated: Error {}

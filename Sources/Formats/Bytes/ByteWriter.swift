@@ -1,4 +1,4 @@
-/// Bytes that grow at the end, numbers in little endian.
+/// A growing byte buffer; numbers are little-endian.
 struct ByteWriter {
   private(set) var bytes: [UInt8] = []
 

@@ -1,4 +1,4 @@
-/// The checksum of zip and PNG: polynomial 0xEDB88320, reflected (ISO 3309).
+/// The CRC-32 checksum of zip and PNG: polynomial 0xEDB88320, reflected (ISO 3309).
 package enum CRC32 {
   /// For four bytes at a time: `tables[k][b]` is the effect of byte b followed by k zero bytes.
   private static let tables: [[UInt32]] = {
@@ -15,6 +15,7 @@ package enum CRC32 {
     return tables
   }()
 
+  /// The checksum of `bytes`.
   package static func checksum(_ bytes: [UInt8]) -> UInt32 {
     let (t0, t1, t2, t3) = (tables[0], tables[1], tables[2], tables[3])
     var value: UInt32 = 0xFFFF_FFFF

@@ -4,10 +4,10 @@ import SceneModel
 extension COLMAPText {
   /// Reads the model in `folder`; throws `FormatError`.
   ///
-  /// Photos are numbered in the order of their ids in the file; their URLs are names below `images`.
-  /// Camera models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, and FULL_OPENCV where its
-  /// further parameters are 0; others throw `UnsupportedCameraModel`. Poses may follow each other
-  /// without the empty lines of keypoints, and points3D.txt may be missing.
+  /// Photos are numbered in the order of their ids in the file; their URLs are the file's names
+  /// below `images`. Camera models: SIMPLE_PINHOLE, PINHOLE, SIMPLE_RADIAL, RADIAL, OPENCV, and
+  /// FULL_OPENCV if its additional parameters are 0; others throw `UnsupportedCameraModel`. Poses
+  /// may follow each other without the empty keypoint lines, and points3D.txt may be missing.
   package static func read(
     _ folder: URL, images: URL = URL(fileURLWithPath: "/")
   ) throws -> Reconstruction {
@@ -28,22 +28,24 @@ extension COLMAPText {
   }
 }
 
-/// A camera whose lens distortion ours can't express.
+/// A camera whose lens distortion `Camera` can't represent.
 package struct UnsupportedCameraModel: LocalizedError, Equatable, Sendable {
+  /// The path of the file.
   package var path: String
+  /// COLMAP's name of the model.
   package var model: String
 
   package var errorDescription: String? {
-    "\(path) has a camera of the model \(model), whose lens distortion can't be used here."
+    "\(path) has a camera of the model \(model), whose lens distortion isn't supported."
   }
 
   package var recoverySuggestion: String? {
-    "Free the photos from distortion with 'colmap image_undistorter', convert the model that it "
-      + "writes with 'colmap model_converter --output_type TXT', and name its folders."
+    "Undistort the photos with 'colmap image_undistorter', convert the resulting "
+      + "model with 'colmap model_converter --output_type TXT', and specify its folders."
   }
 }
 
-/// What is read so far.
+/// The content of the files parsed so far.
 private struct Reading {
   struct Fault: Error { var reason: String }
 
@@ -69,6 +71,7 @@ private struct Reading {
 
   init(imageFolder: URL) { self.imageFolder = imageFolder }
 
+  /// Calls `line` for each line of a file, except comments; adds file and line number to errors.
   mutating func parse(
     _ folder: URL, _ name: String, keepsEmptyLines: Bool = false,
     _ line: (inout Reading, Substring) throws -> Void
@@ -109,7 +112,7 @@ private struct Reading {
     cameras.append((id, camera))
   }
 
-  /// The camera of a model's parameters, without its size; nil where ours can't express it.
+  /// The camera from a model's parameters, without its size; nil if `Camera` can't represent it.
   private static func camera(_ model: Substring, _ p: [Double]) -> Camera? {
     var camera = Camera(width: 0, height: 0, focalLength: .zero, calibration: .refined)
     switch (model, p.count) {
@@ -127,15 +130,15 @@ private struct Reading {
     return camera
   }
 
-  /// COLMAP's models that ours can't express, with the numbers of their parameters.
+  /// COLMAP's models that `Camera` can't represent, with their parameter counts.
   private static let parameterCounts = [
     "OPENCV_FISHEYE": 8, "FULL_OPENCV": 12, "FOV": 5, "SIMPLE_RADIAL_FISHEYE": 4,
     "RADIAL_FISHEYE": 5, "THIN_PRISM_FISHEYE": 12, "RAD_TAN_THIN_PRISM_FISHEYE": 16,
     "SIMPLE_DIVISION": 4, "DIVISION": 5, "SIMPLE_FISHEYE": 3, "FISHEYE": 4, "EQUIRECTANGULAR": 2,
   ]
 
-  /// Whether a line where keypoints are expected is the next photo's pose: people who write files
-  /// with cameras only leave out the empty lines.
+  /// Whether a line where keypoints are expected is the next photo's pose: hand-written files with
+  /// cameras only often omit the empty lines.
   static func isPose(_ line: Substring) -> Bool {
     let words = line.split(separator: " ", maxSplits: 9)
     guard words.count == 10 else { return false }
@@ -162,7 +165,7 @@ private struct Reading {
   mutating func addKeypoints(_ line: Substring) throws {
     let values = try numbers(line.split(separator: " "))
     guard values.count % 3 == 0 else {
-      throw Fault(reason: "\(values.count) numbers are no list of keypoints")
+      throw Fault(reason: "\(values.count) numbers are not a list of keypoints")
     }
     images[images.count - 1].pixels = stride(from: 0, to: values.count, by: 3).map {
       [values[$0], values[$0 + 1]]
@@ -172,14 +175,14 @@ private struct Reading {
   mutating func addPoint(_ line: Substring) throws {
     let words = line.split(separator: " ")
     guard words.count >= 8, words.count % 2 == 0, let id = Int(words[0]) else {
-      throw Fault(reason: "no point with position, colour, error and track")
+      throw Fault(reason: "no point with position, color, error and track")
     }
     let p = try numbers(words[1...7])
     let color = p[3..<6].map { UInt8(min(255, max(0, $0))) }
     var track: [(image: Int, keypoint: Int)] = []
     for index in stride(from: 8, to: words.count, by: 2) {
       guard let image = Int(words[index]), let keypoint = Int(words[index + 1]) else {
-        throw Fault(reason: "'\(words[index]) \(words[index + 1])' is no observation")
+        throw Fault(reason: "'\(words[index]) \(words[index + 1])' is not an observation")
       }
       track.append((image, keypoint))
     }
@@ -191,13 +194,13 @@ private struct Reading {
   private func numbers(_ words: some Sequence<Substring>) throws -> [Double] {
     try words.map { word in
       guard let number = Double(word), number.isFinite else {
-        throw Fault(reason: "'\(word)' is no number")
+        throw Fault(reason: "'\(word)' is not a number")
       }
       return number
     }
   }
 
-  /// The values with ids of ours; what refers to something that is not there is left out.
+  /// Converts the ids to indices; references to missing entries are dropped.
   func reconstruction() -> Reconstruction {
     let cameras = self.cameras.sorted { $0.id < $1.id }
     let cameraIDs = Dictionary(

@@ -1,12 +1,12 @@
 import Foundation
 import SceneModel
 
-/// A reconstruction as COLMAP's text model: cameras.txt, images.txt and points3D.txt.
+/// A reconstruction in COLMAP's text format: cameras.txt, images.txt and points3D.txt.
 ///
-/// Identifiers in the files are ours plus one. An image lists only keypoints that see a point, in
-/// the order of the points, so that the feature indices that come back count those.
+/// Ids in the files are indices plus one. An image lists only keypoints that observe a point, in
+/// the order of the points; the feature indices that reading returns refer to this list.
 package enum COLMAPText {
-  /// Writes the three files into `folder`, which is made when it is missing. Throws `OutputError`.
+  /// Writes the three files into `folder`, which is created if missing. Throws `OutputError`.
   package static func write(_ reconstruction: Reconstruction, to folder: URL) throws {
     try AtomicDirectory.write(to: folder) { temporary in
       for (name, text) in encode(reconstruction) {
@@ -15,7 +15,7 @@ package enum COLMAPText {
     }
   }
 
-  /// The names and texts of the files that `write` writes.
+  /// The names and texts of the files that `write` creates.
   package static func encode(
     _ reconstruction: Reconstruction
   ) -> [(name: String, text: String)] {
@@ -86,7 +86,7 @@ package enum COLMAPText {
     return (images, points)
   }
 
-  /// The shortest decimals that read back as the same numbers.
+  /// The shortest decimals that parse back to the same numbers.
   private static func joined(_ numbers: [Double]) -> String {
     numbers.map { "\($0)" }.joined(separator: " ")
   }

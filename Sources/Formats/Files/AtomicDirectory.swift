@@ -2,9 +2,9 @@ import Foundation
 
 /// Folders whose files appear together, after the last of them is complete.
 package enum AtomicDirectory {
-  /// Calls `body` with a new temporary folder and gives what it wrote the name `url`.
+  /// Calls `body` with a new temporary folder, then renames it to `url`.
   ///
-  /// Where `url` is a folder already, files of the same name in it are replaced one by one and all
+  /// If `url` already is a folder, files of the same name in it are replaced one by one, and all
   /// others stay. Throws `OutputError`, or what `body` throws; then nothing is left behind.
   package static func write(to url: URL, _ body: (URL) throws -> Void) throws {
     let destination = URL(fileURLWithPath: url.path, isDirectory: false)
@@ -32,7 +32,7 @@ package enum AtomicDirectory {
     }
   }
 
-  /// Moves every file of `source` to the same place below `destination`.
+  /// Moves every file of `source` to the same relative path below `destination`.
   private static func merge(_ source: URL, into destination: URL) throws {
     for name in try FileManager.default.contentsOfDirectory(atPath: source.path).sorted() {
       let from = source.appendingPathComponent(name)

@@ -3,17 +3,17 @@ import Foundation
 /// Files that appear complete or not at all: written under a temporary name in the same folder,
 /// then renamed.
 package enum AtomicFile {
-  /// Writes `bytes`, replacing a file of that name. Throws `OutputError`.
+  /// Writes `bytes`, replacing an existing file. Throws `OutputError`.
   package static func write(_ bytes: [UInt8], to url: URL) throws {
     try write(Data(bytes), to: url)
   }
 
-  /// Writes `data`, replacing a file of that name. Throws `OutputError`.
+  /// Writes `data`, replacing an existing file. Throws `OutputError`.
   package static func write(_ data: Data, to url: URL) throws {
     try write(to: url) { try data.write(to: $0) }
   }
 
-  /// Writes the parts one after the other, replacing a file of that name. Throws `OutputError`.
+  /// Writes the concatenated parts, replacing an existing file. Throws `OutputError`.
   package static func write(_ parts: [UnsafeRawBufferPointer], to url: URL) throws {
     try write(to: url) { temporary in
       let descriptor = open(temporary.path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0o666)
@@ -24,12 +24,12 @@ package enum AtomicFile {
         close(descriptor)
         throw error
       }
-      // Some file systems tell only now that the disk is full.
+      // Some file systems report a full disk only here.
       guard close(descriptor) == 0 else { throw lastError }
     }
   }
 
-  /// Calls `body` with a temporary name for the file and renames what it wrote.
+  /// Calls `body` with a temporary name for the file, and renames the result.
   private static func write(to url: URL, _ body: (URL) throws -> Void) throws {
     try checkParent(of: url)
     if isDirectory(url) { throw OutputError.isAFolder(path: url.path) }
@@ -43,6 +43,7 @@ package enum AtomicFile {
     }
   }
 
+  /// Writes all bytes of a part, resuming after interrupts.
   private static func append(_ part: UnsafeRawBufferPointer, to descriptor: Int32) throws {
     var rest = part[...]
     while !rest.isEmpty {
@@ -54,10 +55,10 @@ package enum AtomicFile {
     }
   }
 
-  /// The last error of the system.
+  /// The current `errno`.
   private static var lastError: POSIXError { POSIXError(POSIXErrorCode(rawValue: errno) ?? .EIO) }
 
-  /// Throws an `OutputError` unless the folder that is to hold `url` exists and is writable.
+  /// Throws an `OutputError` unless the parent folder of `url` exists and is writable.
   package static func checkParent(of url: URL) throws {
     let parent = url.absoluteURL.deletingLastPathComponent()
     guard FileManager.default.fileExists(atPath: parent.path) else {
@@ -75,7 +76,7 @@ package enum AtomicFile {
     return exists && isDirectory.boolValue
   }
 
-  /// A name in the same folder that nobody else uses, short enough where that of `url` is.
+  /// A unique name in the same folder, with a limited length.
   static func temporaryURL(for url: URL) -> URL {
     let start = temporaryPrefix(of: url.lastPathComponent)
     return url.absoluteURL.deletingLastPathComponent()
@@ -96,7 +97,7 @@ package enum AtomicFile {
     }
   }
 
-  /// Puts an error of the system in a sentence of ours.
+  /// Converts a system error to an `OutputError`.
   static func outputError(_ error: any Error, path: String) -> any Error {
     if error is OutputError { return error }
     if let code = (error as? POSIXError)?.code ?? underlyingCode(of: error) {

@@ -1,6 +1,6 @@
 import Foundation
 
-/// Why a file can't be read: a sentence that names it, and a remedy.
+/// Why a file can't be read: a sentence with its path, and a remedy.
 package enum FormatError: LocalizedError, Equatable, Sendable {
   case unreadable(path: String, reason: String)
   case malformed(path: String, reason: String)
@@ -8,19 +8,20 @@ package enum FormatError: LocalizedError, Equatable, Sendable {
   package var errorDescription: String? {
     switch self {
     case .unreadable(let path, let reason): "\(path) can't be read: \(reason)."
-    case .malformed(let path, let reason): "\(path) is damaged or of another format: \(reason)."
+    case .malformed(let path, let reason):
+      "\(path) is damaged or has an unexpected format: \(reason)."
     }
   }
 
   package var recoverySuggestion: String? {
     switch self {
     case .unreadable: "Check the path and its permissions."
-    case .malformed: "Export the file again, or name another one."
+    case .malformed: "Export the file again, or choose another one."
     }
   }
 }
 
-/// Why an output can't be written: a sentence that names it, and a remedy.
+/// Why an output can't be written: a sentence with its path, and a remedy.
 package enum OutputError: LocalizedError, Equatable, Sendable {
   case missingFolder(path: String, folder: String)
   case notWritable(path: String)
@@ -35,11 +36,11 @@ package enum OutputError: LocalizedError, Equatable, Sendable {
     case .missingFolder(let path, let folder):
       "\(path) can't be written: the folder \(folder) does not exist."
     case .notWritable(let path): "\(path) can't be written: permission denied."
-    case .notAFolder(let path): "\(path) can't be written: a file of that name is in the way."
-    case .isAFolder(let path): "\(path) can't be written: a folder of that name is in the way."
+    case .notAFolder(let path): "\(path) can't be written: a file with that name exists."
+    case .isAFolder(let path): "\(path) can't be written: a folder with that name exists."
     case .diskFull(let path): "\(path) can't be written: the disk is full."
     case .tooLarge(let path, let bytes):
-      "\(path) would take \(bytes) bytes; the format ends at 4 GiB."
+      "\(path) would have \(bytes) bytes; the format is limited to 4 GiB."
     case .failed(let path, let reason): "\(path) can't be written: \(reason)."
     }
   }

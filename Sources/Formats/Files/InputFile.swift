@@ -1,11 +1,12 @@
 import Foundation
 
-/// A file that is read from its beginning into memory that the caller owns.
+/// A file for sequential reading into memory that the caller owns.
 package struct InputFile: ~Copyable {
   private let descriptor: Int32
+  /// Size of the whole file.
   package let byteCount: Int
 
-  /// Nil where there is no regular file that may be read.
+  /// Nil unless `url` is a readable regular file.
   package init?(_ url: URL) {
     descriptor = open(url.path, O_RDONLY | O_CLOEXEC)
     guard descriptor >= 0 else { return nil }
@@ -19,7 +20,7 @@ package struct InputFile: ~Copyable {
 
   deinit { close(descriptor) }
 
-  /// Fills `buffer` with the bytes that follow; false where there are fewer.
+  /// Fills `buffer` with the next bytes; false if there are too few.
   package func read(into buffer: UnsafeMutableRawBufferPointer) -> Bool {
     var rest = buffer[...]
     while !rest.isEmpty {

@@ -1,11 +1,12 @@
 import Foundation
 
-/// Temporary files and folders of `AtomicFile` and `AtomicDirectory` whose writers were killed.
+/// Temporary files and folders of `AtomicFile` and `AtomicDirectory` left behind by killed
+/// processes.
 package enum UnfinishedFiles {
-  /// What is younger, in seconds, may be written at this moment.
+  /// Younger files, in seconds, may still be in use.
   static let minimumAge = 600.0
 
-  /// Removes those in a folder: all, or those that were to become the file `name`.
+  /// Removes those in a folder: all, or only those for the file `name`.
   package static func remove(from folder: URL, of name: String? = nil) {
     let manager = FileManager.default
     let names = (try? manager.contentsOfDirectory(atPath: folder.path)) ?? []

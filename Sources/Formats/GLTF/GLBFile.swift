@@ -1,13 +1,13 @@
 import Foundation
 import SceneModel
 
-/// Models as one file of glTF 2.0 (Khronos Group, ISO/IEC 12113), the binary form with the images
-/// inside. The same model gives the same bytes.
+/// Models as one glTF 2.0 file (Khronos Group, ISO/IEC 12113), in the binary form with embedded
+/// images. Deterministic.
 ///
-/// glTF is right-handed, y up and in metres, as our world is. A primitive and a material for each
-/// atlas. Not metallic; roughness is 0.9 where no map tells it. Displacement has no place in core
-/// glTF and is left out. Tangents are left out as well: the normal map is baked for Mikkelsen's
-/// tangent space, which viewers derive where a file has none.
+/// glTF is right-handed, y up and in meters, as is the world frame. Each atlas has a primitive and
+/// a material. Not metallic; roughness is 0.9 without a map. Core glTF doesn't support
+/// displacement. Tangents are omitted: the normal map is baked for Mikkelsen's tangent space, which
+/// viewers derive if a file has none.
 package enum GLBFile {
   /// Writes `mesh`, with a material for each of its atlases; throws `OutputError`.
   package static func write(
@@ -17,7 +17,7 @@ package enum GLBFile {
     try AtomicFile.write(bytes, to: url)
   }
 
-  /// The bytes that `write` writes; `path` names the file in errors.
+  /// The bytes that `write` writes; `path` is the file's path in errors.
   package static func encode(
     _ mesh: TexturedMesh, materials: [GLTFMaterial], creator: String, path: String = "model.glb"
   ) throws -> [UInt8] {
@@ -35,7 +35,7 @@ package enum GLBFile {
       json: [UInt8](try encoder.encode(document)), binary: builder.binary, path: path)
   }
 
-  /// A header and two chunks whose lengths are multiples of four; without data only the first.
+  /// A header and two chunks padded to multiples of four bytes; without binary data only the first.
   private static func container(
     json: [UInt8], binary: ByteWriter, path: String
   ) throws -> [UInt8] {

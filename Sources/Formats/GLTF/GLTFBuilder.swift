@@ -1,8 +1,8 @@
 import SceneModel
 
-/// Describes a model as glTF and gathers what the description points to.
+/// Builds the glTF description of a model and the binary data that it refers to.
 struct GLTFBuilder {
-  /// What all buffer views are part of; each begins at a multiple of four bytes.
+  /// The buffer of all buffer views; each starts at a multiple of four bytes.
   private(set) var binary = ByteWriter()
   private var primitives: [GLTFDocument.Primitive] = []
   private var materials: [GLTFDocument.Material] = []
@@ -10,7 +10,7 @@ struct GLTFBuilder {
   private var accessors: [GLTFDocument.Accessor] = []
   private var views: [GLTFDocument.BufferView] = []
 
-  /// The description of all that was appended: one scene with one node and one mesh.
+  /// The description of all appended parts: one scene with one node and one mesh.
   func document(name: String, generator: String) -> GLTFDocument {
     var document = GLTFDocument(asset: .init(generator: generator))
     guard !primitives.isEmpty else { return document }
@@ -29,7 +29,7 @@ struct GLTFBuilder {
     return document
   }
 
-  /// Adds a part of the mesh and its material.
+  /// Adds a part of the mesh with its material.
   mutating func append(
     _ primitive: IndexedTriangles, of mesh: TexturedMesh, _ material: GLTFMaterial
   ) {
@@ -90,7 +90,7 @@ extension GLTFBuilder {
   private mutating func append(positions: [SIMD3<Float>]) -> Int {
     let view = append(.vertices) { writer in positions.forEach { writer.append($0) } }
     let bounds = SceneModel.Mesh(positions: positions).bounds ?? (.zero, .zero)
-    // As doubles, which JSON tells exactly: readers compare them with what they find.
+    // As doubles, which JSON represents exactly: validators compare them with the data.
     func exact(_ v: SIMD3<Float>) -> [Double] { [Double(v.x), Double(v.y), Double(v.z)] }
     accessors.append(
       .init(
@@ -102,7 +102,7 @@ extension GLTFBuilder {
   private mutating func append(normals: [SIMD3<Float>]) -> Int {
     let view = append(.vertices) { writer in
       for normal in normals {
-        // glTF wants unit length, also where a vertex has none.
+        // glTF requires unit length, even for vertices without a normal.
         let unit = normal.normalized
         writer.append(unit.squaredLength > 0.5 ? unit : [0, 1, 0])
       }
@@ -114,7 +114,7 @@ extension GLTFBuilder {
 
   private mutating func append(textureCoordinates: [SIMD2<Float>]) -> Int {
     let view = append(.vertices) { writer in
-      // glTF has (0, 0) at the top left.
+      // In glTF, (0, 0) is the top left.
       for st in textureCoordinates { writer.append(SIMD2(st.x, 1 - st.y)) }
     }
     accessors.append(
@@ -130,7 +130,7 @@ extension GLTFBuilder {
     return accessors.count - 1
   }
 
-  /// Adds a buffer view with what `body` writes and returns its index.
+  /// Adds a buffer view with the data that `body` writes, and returns its index.
   private mutating func append(
     _ target: GLTFDocument.BufferView.Target?, _ body: (inout ByteWriter) -> Void
   ) -> Int {

@@ -1,5 +1,5 @@
-/// The JSON of a glTF 2.0 file; the names are those of the specification. What is nil is left out,
-/// for glTF allows no empty arrays.
+/// The JSON part of a glTF 2.0 file, with the specification's names. Nil members are omitted, as
+/// glTF forbids empty arrays.
 struct GLTFDocument: Encodable {
   struct Asset: Encodable {
     var version = "2.0"
@@ -67,7 +67,7 @@ struct GLTFDocument: Encodable {
   }
 
   struct Sampler: Encodable {
-    /// Linear, between mip-maps too, and clamped: charts don't wrap around.
+    /// Trilinear filtering, clamped: charts don't wrap around.
     var magFilter = 9729
     var minFilter = 9987
     var wrapS = 33071

@@ -1,6 +1,6 @@
 /// The encoded images of one glTF material.
 package struct GLTFMaterial: Equatable, Sendable {
-  /// What glTF reads from one image: occlusion from red, roughness from green, metalness from blue.
+  /// Maps that share one image in glTF: occlusion in red, roughness in green, metalness in blue.
   package enum Surface: Equatable, Sendable {
     case occlusion(EncodedImage)
     case roughness(EncodedImage)
@@ -11,6 +11,7 @@ package struct GLTFMaterial: Equatable, Sendable {
   package var baseColor: EncodedImage?
   /// Tangent space, green up.
   package var normal: EncodedImage?
+  /// Occlusion and roughness; nil without either map.
   package var surface: Surface?
 
   package init(baseColor: EncodedImage? = nil, normal: EncodedImage? = nil, surface: Surface? = nil)

@@ -3,7 +3,7 @@ import SceneModel
 
 /// Models as a folder with OBJ, MTL, USDA and the texture images.
 package enum OBJFolder {
-  /// Writes `model` into `folder`, which is made when it is missing; other files in it stay. Throws
+  /// Writes `model` into `folder`, which is created if missing; other files in it are kept. Throws
   /// `OutputError`.
   package static func write(_ model: ModelContent, to folder: URL) throws {
     let name = USDModelLayer.rootName

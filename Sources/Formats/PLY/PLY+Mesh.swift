@@ -2,8 +2,8 @@ import Foundation
 import SceneModel
 
 extension PLY {
-  /// Writes a mesh, normals and colours where it has them; throws `OutputError`. The triangles of the
-  /// ranges in `halves` are two by two the halves of four-sided faces.
+  /// Writes a mesh, with normals and colors if it has them; throws `OutputError`. Pairs of
+  /// consecutive triangles in the ranges `halves` are written as quads.
   package static func write(_ mesh: Mesh, halves: [Range<Int>] = [], to url: URL) throws {
     try AtomicFile.write(encode(mesh, halves: halves), to: url)
   }
@@ -51,7 +51,7 @@ extension PLY {
     }
   }
 
-  /// Reads a mesh; faces of more than three corners become fans. Throws `FormatError`.
+  /// Reads a mesh; faces with more than three corners become triangle fans. Throws `FormatError`.
   package static func readMesh(_ url: URL) throws -> Mesh {
     try read(url) { reader in
       guard let vertex = reader.header.elements.first(where: { $0.name == "vertex" }),
@@ -82,7 +82,7 @@ extension PLY {
   ) throws {
     let indices = try corners.map { corner in
       guard let index = UInt32(exactly: corner), index < vertices else {
-        throw PLYFault("a face names vertex \(corner) of \(vertices)")
+        throw PLYFault("a face refers to vertex \(corner) of \(vertices)")
       }
       return index
     }

@@ -4,8 +4,8 @@ import SceneModel
 extension PLY {
   /// Writes a cloud; throws `OutputError`.
   ///
-  /// Properties: x y z, nx ny nz, red green blue, consistency, footprint and the list photos (16-bit
-  /// indices). A part that the cloud lacks is left out.
+  /// Properties: x y z, nx ny nz, red green blue, consistency, footprint and the list photos
+  /// (16-bit indices). Missing parts of the cloud are omitted.
   package static func write(_ cloud: PointCloud, to url: URL) throws {
     try AtomicFile.write(encode(cloud), to: url)
   }
@@ -43,7 +43,7 @@ extension PLY {
     return writer.bytes
   }
 
-  /// Reads a cloud; points that are not finite are left out. Throws `FormatError`.
+  /// Reads a cloud; points that are not finite are skipped. Throws `FormatError`.
   package static func readPointCloud(_ url: URL) throws -> PointCloud {
     try read(url) { reader in
       guard let vertex = reader.header.elements.first(where: { $0.name == "vertex" }),
@@ -58,7 +58,7 @@ extension PLY {
   }
 }
 
-/// Where the parts of a cloud are in a vertex row.
+/// Property indices of a cloud's parts in a vertex row.
 private struct CloudColumns {
   let position: SIMD3<Int>
   let normal: SIMD3<Int>?
@@ -92,7 +92,7 @@ private struct CloudColumns {
     if let photos {
       for value in row.lists[photos] {
         guard let index = UInt16(exactly: value) else {
-          throw PLYFault("\(value) is no index of a photo")
+          throw PLYFault("\(value) is not a photo index")
         }
         cloud.photoIndices.append(index)
       }

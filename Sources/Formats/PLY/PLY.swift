@@ -1,12 +1,12 @@
 import Foundation
 import SceneModel
 
-/// Point clouds and meshes as PLY files, binary little endian.
+/// Point clouds and meshes as PLY files, binary little-endian.
 ///
-/// Reading takes ascii and both byte orders, skips properties it does not know and answers damaged
-/// files with `FormatError`.
+/// Reading supports ascii and both byte orders, skips unknown properties, and reports damaged files
+/// as `FormatError`.
 package enum PLY {
-  /// Reads `url` with `body` and names the file in what goes wrong.
+  /// Reads `url` with `body`, and adds the path to errors.
   static func read<Result>(
     _ url: URL, _ body: (inout PLYReader) throws -> Result
   ) throws -> Result {
@@ -18,7 +18,7 @@ package enum PLY {
     }
   }
 
-  /// The indices of three properties of an element, nil unless it has all of them.
+  /// The indices of three properties of an element; nil unless it has all of them.
   static func triple(
     _ element: PLYHeader.Element, _ x: String, _ y: String, _ z: String
   ) -> SIMD3<Int>? {
@@ -33,7 +33,7 @@ package enum PLY {
     ]
   }
 
-  /// A colour of bytes; floating-point colours run from 0 to 1.
+  /// An 8-bit color; floating-point colors range from 0 to 1.
   static func color(
     _ row: PLYRow, _ index: SIMD3<Int>, in element: PLYHeader.Element
   ) -> SIMD3<UInt8> {

@@ -1,4 +1,4 @@
-/// What a PLY file says about its content before the content begins.
+/// The header of a PLY file.
 struct PLYHeader {
   enum Encoding: String {
     case ascii
@@ -9,7 +9,7 @@ struct PLYHeader {
   enum ScalarType {
     case int8, uint8, int16, uint16, int32, uint32, float32, float64
 
-    /// Knows both families of names that are in use.
+    /// Accepts both naming schemes in use.
     init?(_ name: Substring) {
       switch name {
       case "char", "int8": self = .int8
@@ -37,7 +37,7 @@ struct PLYHeader {
   struct Property {
     var name: String
     var type: ScalarType
-    /// The type of the length when the property is a list.
+    /// The type of the length if the property is a list.
     var countType: ScalarType?
   }
 
@@ -46,7 +46,7 @@ struct PLYHeader {
     var count: Int
     var properties: [Property] = []
 
-    /// The least bytes that one row takes.
+    /// Minimum bytes of one row.
     func minimumRowSize(_ encoding: Encoding) -> Int {
       guard encoding != .ascii else { return max(1, 2 * properties.count - 1) }
       return max(1, properties.reduce(0) { $0 + ($1.countType ?? $1.type).size })
@@ -63,12 +63,12 @@ struct PLYHeader {
 
   var encoding: Encoding
   var elements: [Element]
-  /// Bytes of the header with its last line break.
+  /// Bytes of the header including its last line break.
   var length: Int
 }
 
 extension PLYHeader {
-  /// Headers longer than this are refused.
+  /// Longer headers are rejected.
   private static let maximumLength = 1 << 16
 
   /// Parses a header; throws a `PLYFault`.
@@ -84,16 +84,16 @@ extension PLYHeader {
         encoding = Encoding(rawValue: String(words[1]))
       case "element" where words.count == 3:
         guard let count = Int(words[2]), count >= 0 else {
-          throw PLYFault("the element count '\(words[2])' is no number")
+          throw PLYFault("the element count '\(words[2])' is not a number")
         }
         elements.append(Element(name: String(words[1]), count: count))
       case "property":
         guard !elements.isEmpty, let property = Self.property(words) else {
-          throw PLYFault("the header line '\(line)' is not understood")
+          throw PLYFault("the header line '\(line)' is not valid")
         }
         elements[elements.count - 1].properties.append(property)
       case "comment", "obj_info", nil: break
-      default: throw PLYFault("the header line '\(line)' is not understood")
+      default: throw PLYFault("the header line '\(line)' is not valid")
       }
     }
     guard let encoding else { throw PLYFault("it has no known format line") }

@@ -1,12 +1,12 @@
 import Foundation
 
-/// One row of an element: scalars and lists at the places of their properties.
+/// One row of an element; scalars and lists are indexed by property.
 struct PLYRow {
   var scalars: [Double]
   var lists: [[Double]]
 }
 
-/// Reads the rows of a PLY file one after the other, ascii and binary alike.
+/// Reads the rows of an ascii or binary PLY file in order.
 struct PLYReader {
   let header: PLYHeader
   private var source: Source
@@ -29,13 +29,13 @@ struct PLYReader {
         by: element.minimumRowSize(header.encoding))
       guard !overflow, size <= bytes.count, needed + size <= bytes.count else {
         throw PLYFault(
-          "it says it holds \(element.count) \(element.name) elements and is too short for them")
+          "its header declares \(element.count) \(element.name) elements, but it is too short")
       }
       needed += size
     }
   }
 
-  /// Calls `body` with the element and each of its rows, in the file's order.
+  /// Calls `body` with the element and each of its rows, in file order.
   mutating func forEachRow(_ body: (PLYHeader.Element, PLYRow) throws -> Void) throws {
     do {
       for element in header.elements {
@@ -83,7 +83,7 @@ struct PLYReader {
     case .text(let bytes, var offset):
       let word = try Self.word(bytes, &offset)
       source = .text(bytes: bytes, offset: offset)
-      guard let value = Double(word) else { throw PLYFault("'\(word)' is no number") }
+      guard let value = Double(word) else { throw PLYFault("'\(word)' is not a number") }
       return value
     }
   }

@@ -19,7 +19,7 @@ package enum USDAText {
     return writer.text
   }
 
-  /// A string in quotes, with what is special in it escaped.
+  /// A quoted string with special characters escaped.
   static func quoted(_ text: String) -> String {
     var result = "\""
     for scalar in text.unicodeScalars {
@@ -35,7 +35,8 @@ package enum USDAText {
     return result + "\""
   }
 
-  /// The value as the text format writes it; dictionaries are written by lines elsewhere.
+  /// A value in the text format; empty for dictionaries, which `TextWriter` writes in several
+  /// lines.
   static func text(_ value: USDValue) -> String {
     switch value {
     case .bool(let value): value ? "true" : "false"
@@ -57,7 +58,7 @@ package enum USDAText {
     }
   }
 
-  /// The shortest decimal that reads back as the same number, whole numbers without a point.
+  /// The shortest decimal that parses back to the same number; whole numbers without a point.
   private static func number(_ value: some BinaryFloatingPoint & LosslessStringConvertible)
     -> String
   {
@@ -75,7 +76,7 @@ package enum USDAText {
   }
 }
 
-/// Text that grows by indented lines.
+/// Builds text from indented lines.
 private struct TextWriter {
   var text = ""
   var indentation = 0
@@ -169,7 +170,7 @@ private struct TextWriter {
 }
 
 extension USDValue {
-  /// The name of the value's type in text.
+  /// The name of the value's type in the text format.
   var typeName: String {
     switch self {
     case .bool: "bool"

@@ -1,9 +1,10 @@
-/// The content of a USD layer, independent of whether it becomes text or crate.
+/// The content of a USD layer, independent of the file format (text or crate).
 package struct USDLayer: Equatable, Sendable {
-  /// Layer metadata such as `upAxis`; the default prim is told apart.
+  /// Layer metadata such as `upAxis`, except the default prim.
   package var metadata: [USDField]
-  /// The name of the root prim that a reference to the layer means.
+  /// The name of the root prim that a reference to the layer targets.
   package var defaultPrim: String
+  /// The root prims.
   package var prims: [USDPrim]
 
   package init(metadata: [USDField], defaultPrim: String, prims: [USDPrim]) {
@@ -15,16 +16,18 @@ package struct USDLayer: Equatable, Sendable {
 
 /// A prim: a typed node with properties and children.
 package struct USDPrim: Equatable, Sendable {
-  /// Whether the prim defines something, adds to what is defined elsewhere or is a class.
+  /// Whether the prim defines something, overrides a prim defined elsewhere, or is a class.
   package enum Specifier: String, Sendable { case def, over, `class` }
 
   package var specifier: Specifier = .def
+  /// The schema type, such as `Mesh`; empty for an untyped prim.
   package var typeName: String
   package var name: String
   /// API schemas, prepended to those of weaker layers.
   package var apiSchemas: [String] = []
   /// Metadata such as `kind` and `assetInfo`.
   package var metadata: [USDField] = []
+  /// Attributes and relationships, in file order.
   package var properties: [USDProperty] = []
   package var children: [USDPrim] = []
 
@@ -36,6 +39,7 @@ package struct USDPrim: Equatable, Sendable {
 
 /// An attribute or a relationship of a prim.
 package struct USDProperty: Equatable, Sendable {
+  /// Kind and value of a property.
   package enum Content: Equatable, Sendable {
     /// `connections` are absolute paths of attributes.
     case attribute(typeName: String, value: USDValue?, connections: [String])
@@ -44,12 +48,13 @@ package struct USDProperty: Equatable, Sendable {
   }
 
   package var name: String
+  /// Whether the value is constant over time (USD's variability).
   package var isUniform: Bool
   package var content: Content
   /// Metadata such as `interpolation`.
   package var metadata: [USDField]
 
-  /// An attribute with a value, or without one when `value` is nil.
+  /// An attribute, without a value if `value` is nil.
   package static func attribute(
     _ typeName: String, _ name: String, _ value: USDValue? = nil, isUniform: Bool = false,
     metadata: [USDField] = []
@@ -59,7 +64,7 @@ package struct USDProperty: Equatable, Sendable {
       content: .attribute(typeName: typeName, value: value, connections: []), metadata: metadata)
   }
 
-  /// An attribute that takes its value from the attribute at `source`.
+  /// An attribute connected to the attribute at `source`.
   package static func connection(
     _ typeName: String, _ name: String, to source: String
   ) -> USDProperty {

@@ -1,10 +1,11 @@
 import SceneModel
 
-/// A texture image as it goes into a file.
+/// A texture image encoded for a file.
 package struct EncodedTexture: Equatable, Sendable {
   package var map: TextureMap
   /// `png` or `jpg`.
   package var fileExtension: String
+  /// The content of the image file.
   package var bytes: [UInt8]
 
   package init(map: TextureMap, fileExtension: String, bytes: [UInt8]) {
@@ -13,7 +14,7 @@ package struct EncodedTexture: Equatable, Sendable {
     self.bytes = bytes
   }
 
-  /// The name of the image of atlas `atlas`, without a folder.
+  /// The file name of the image for atlas `atlas`, without a folder.
   package func fileName(atlas: Int) -> String {
     let stem =
       switch map {
@@ -27,12 +28,12 @@ package struct EncodedTexture: Equatable, Sendable {
   }
 }
 
-/// What an exported model consists of: a mesh and the encoded images of its atlases.
+/// The content of an exported model: a mesh and the encoded images of its atlases.
 package struct ModelContent: Sendable {
   package var mesh: TexturedMesh
-  /// For every atlas of the mesh its images; the images in `mesh.atlases` are not looked at.
+  /// The images of every atlas of the mesh; those in `mesh.atlases` are ignored.
   package var textures: [[EncodedTexture]]
-  /// Who made the model, for the metadata.
+  /// The creator of the model, for the metadata.
   package var creator: String
 
   package init(mesh: TexturedMesh, textures: [[EncodedTexture]], creator: String) {
@@ -41,7 +42,7 @@ package struct ModelContent: Sendable {
     self.creator = creator
   }
 
-  /// The parts of the mesh, one an atlas; without atlases all of it.
+  /// The parts of the mesh, one per atlas; without atlases a single part.
   package var parts: [MeshPart] {
     let ranges =
       mesh.atlases.isEmpty
@@ -50,23 +51,28 @@ package struct ModelContent: Sendable {
     return mesh.atlases.map { MeshPart(mesh, of: $0) }
   }
 
-  /// The images of part `index`, none where there are fewer sets than parts.
+  /// The images of part `index`; none if there are fewer sets than parts.
   package func textures(ofPart index: Int) -> [EncodedTexture] {
     textures.indices.contains(index) ? textures[index] : []
   }
 }
 
-/// A mesh of its own with the triangles of one atlas.
+/// A self-contained mesh with the triangles of one atlas.
 package struct MeshPart: Equatable, Sendable {
+  /// World frame.
   package var positions: [SIMD3<Float>] = []
+  /// One per position; empty if the mesh has none.
   package var normals: [SIMD3<Float>] = []
+  /// Origin at the bottom left.
   package var textureCoordinates: [SIMD2<Float>] = []
+  /// Indices into `positions`.
   package var triangles: [Triangle] = []
+  /// Indices into `textureCoordinates`, parallel to `triangles`; empty without texture.
   package var textureTriangles: [Triangle] = []
-  /// Four-sided faces, each two of the first triangles; see `TextureAtlas`.
+  /// Number of quads, each formed by two of the first triangles; see `TextureAtlas`.
   package var quadCount = 0
 
-  /// All of `mesh` as it is.
+  /// All of `mesh`, unchanged.
   init(whole mesh: TexturedMesh) {
     positions = mesh.mesh.positions
     normals = mesh.mesh.normals
@@ -76,7 +82,8 @@ package struct MeshPart: Equatable, Sendable {
     quadCount = mesh.atlases.first?.quadCount ?? 0
   }
 
-  /// The triangles of `atlas` and what they use, numbered in the order of first use.
+  /// The triangles of `atlas` with the vertices and coordinates that they use, renumbered in order
+  /// of first use.
   init(_ mesh: TexturedMesh, of atlas: TextureAtlas) {
     quadCount = atlas.quadCount
     var vertices = Renumbering(count: mesh.mesh.positions.count)
@@ -93,7 +100,7 @@ package struct MeshPart: Equatable, Sendable {
   }
 }
 
-/// Gives indices new numbers in the order of their first use.
+/// Renumbers indices in order of their first use.
 private struct Renumbering {
   private(set) var order: [Int] = []
   private var numbers: [UInt32]

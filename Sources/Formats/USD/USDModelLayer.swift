@@ -1,14 +1,14 @@
 import SceneModel
 
-/// Describes a model as Object Capture's files do: a root with a scope of materials and one of
-/// meshes, a pair `g0`, `g1` … for each atlas.
+/// Describes a model with the layout of Object Capture's files: a root with a scope of materials
+/// and one of meshes, which have a pair `g0`, `g1` … for each atlas.
 package struct USDModelLayer {
-  /// The folder of the texture images relative to the layer, with a slash at the end when not empty.
+  /// The folder of the texture images relative to the layer, with a trailing slash unless empty.
   package var textureFolder: String = "0/"
 
   package init(textureFolder: String = "0/") { self.textureFolder = textureFolder }
 
-  /// The name of the root prim and stem of all file names.
+  /// The name of the root prim, and the stem of all file names.
   package static let rootName = "baked_mesh"
 
   /// The layer of `model`.
@@ -69,7 +69,7 @@ package struct USDModelLayer {
     return mesh
   }
 
-  /// The corners of the faces; the first are quads, of two triangles each.
+  /// The face corner indices; quads, of two triangles each, come first.
   private static func indices(_ triangles: [Triangle], quads: Int) -> [Int32] {
     let corners = stride(from: 0, to: 2 * quads, by: 2).flatMap {
       triangles[$0].quad(with: triangles[$0 + 1]).map(Int32.init(bitPattern:))
@@ -146,7 +146,7 @@ extension USDModelLayer {
     return shader
   }
 
-  /// The input of UsdPreviewSurface that a map feeds.
+  /// The UsdPreviewSurface input for a map.
   private static func input(
     of map: TextureMap
   ) -> (name: String, typeName: String, channels: String) {

@@ -1,8 +1,10 @@
 import SceneModel
 
-/// A value of a USD attribute or metadata field, in the storage types that our layers use.
+/// A value of a USD attribute or metadata field, limited to the storage types that the model layers
+/// use.
 ///
-/// The role of a value (colour, point, texture coordinate) is in the type name of its attribute.
+/// The role of a value (color, point, texture coordinate) is determined by the type name of its
+/// attribute.
 package indirect enum USDValue: Equatable, Sendable {
   case bool(Bool)
   case int(Int32)
@@ -25,7 +27,7 @@ package indirect enum USDValue: Equatable, Sendable {
   case dictionary([USDField])
 }
 
-/// A name and a value: an entry of a dictionary or of a spec's metadata.
+/// A name-value pair: an entry of a dictionary or of a spec's metadata.
 package struct USDField: Equatable, Sendable {
   package var name: String
   package var value: USDValue

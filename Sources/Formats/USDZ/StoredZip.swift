@@ -1,4 +1,4 @@
-/// A zip archive without compression, every entry's data at a multiple of 64 bytes.
+/// An uncompressed zip archive with every entry's data aligned to 64 bytes.
 package struct StoredZip {
   private struct Entry {
     var name: [UInt8]
@@ -8,7 +8,7 @@ package struct StoredZip {
   }
 
   private static let alignment = 64
-  /// 1980-01-01 00:00, the beginning of zip's time.
+  /// 1980-01-01 00:00, the zip epoch.
   private static let date: UInt16 = 1 << 5 | 1
   private static let version: UInt16 = 10
 
@@ -17,7 +17,7 @@ package struct StoredZip {
 
   package init() {}
 
-  /// Bytes so far, with the directory that `finish` adds.
+  /// Size of the archive in bytes, including the directory that `finish` appends.
   package var size: Int {
     writer.count + entries.reduce(22) { $0 + 46 + $1.name.count }
   }
@@ -40,7 +40,7 @@ package struct StoredZip {
     writer.append(contentsOf: bytes)
   }
 
-  /// Adds the directory and returns the archive.
+  /// Appends the central directory and returns the archive.
   package mutating func finish() -> [UInt8] {
     let start = writer.count
     for entry in entries {
@@ -76,8 +76,8 @@ package struct StoredZip {
     writer.append(entry.size)
   }
 
-  /// The length of an extra field at `offset` that brings its end to a multiple of 64: none, or at
-  /// least the four bytes of its header.
+  /// Length of an extra field at `offset` so that its end is aligned to 64 bytes: none, or at least
+  /// the four bytes of its header.
   private static func padding(at offset: Int) -> Int {
     let gap = (alignment - offset % alignment) % alignment
     return gap == 0 || gap >= 4 ? gap : gap + alignment

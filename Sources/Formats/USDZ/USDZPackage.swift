@@ -1,15 +1,15 @@
 import Foundation
 import SceneModel
 
-/// Models as one USDZ file: a stored zip whose data starts at multiples of 64 bytes, the crate layer
-/// first (USDZ File Format Specification 1.3). The same model gives the same bytes.
+/// Models as one USDZ file: an uncompressed zip with data aligned to 64 bytes, the crate layer
+/// first (USDZ File Format Specification 1.3). Deterministic.
 package enum USDZPackage {
   /// Writes `model`; throws `OutputError`.
   package static func write(_ model: ModelContent, to url: URL) throws {
     try AtomicFile.write(try encode(model, path: url.path), to: url)
   }
 
-  /// The bytes that `write` writes; `path` names the file in errors.
+  /// The bytes that `write` writes; `path` is the file's path in errors.
   package static func encode(_ model: ModelContent, path: String = "model.usdz") throws -> [UInt8] {
     let layer = USDModelLayer().layer(model)
     var archive = StoredZip()

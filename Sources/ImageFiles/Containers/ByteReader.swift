@@ -1,17 +1,20 @@
 import SceneModel
 
-/// Reads numbers from a file's bytes; whatever lies outside them is nil.
+/// Reads numbers from a file's bytes; nil for anything out of bounds.
 package struct ByteReader: Sendable {
+  /// Byte order.
   package enum Order: Sendable { case big, little }
 
   package let bytes: [UInt8]
 
   package init(_ bytes: [UInt8]) { self.bytes = bytes }
 
+  /// The byte at an offset from the start.
   package func byte(_ offset: Int) -> Int? {
     bytes.indices.contains(offset) ? Int(bytes[offset]) : nil
   }
 
+  /// An unsigned integer of 1…8 bytes.
   package func unsigned(_ offset: Int, bytes count: Int, _ order: Order) -> UInt64? {
     guard offset >= 0, count > 0, count <= 8, offset <= bytes.count - count else { return nil }
     let slice = bytes[offset..<offset + count]
@@ -20,6 +23,7 @@ package struct ByteReader: Sendable {
       : slice.reversed().reduce(0) { $0 << 8 | UInt64($1) }
   }
 
+  /// An unsigned 16-bit integer.
   package func uint16(_ offset: Int, _ order: Order) -> Int? {
     unsigned(offset, bytes: 2, order).map { Int($0) }
   }
@@ -29,19 +33,23 @@ package struct ByteReader: Sendable {
     unsigned(offset, bytes: 3, .little).map { Int($0) }
   }
 
+  /// An unsigned 32-bit integer.
   package func uint32(_ offset: Int, _ order: Order) -> Int? {
     unsigned(offset, bytes: 4, order).map { Int($0) }
   }
 
+  /// Whether the file starts with these bytes.
   package func hasPrefix(_ prefix: [UInt8]) -> Bool { bytes.starts(with: prefix) }
 
+  /// Whether the file starts with this text in UTF-8.
   package func hasPrefix(_ prefix: String) -> Bool { bytes.starts(with: prefix.utf8) }
 
+  /// Whether `text`, in ASCII, is at an offset.
   package func hasText(_ text: String, at offset: Int) -> Bool {
     self.text(at: offset, count: text.utf8.count) == text
   }
 
-  /// ASCII text; nil when it leaves the file or is not ASCII.
+  /// ASCII text; nil if it is out of bounds or not ASCII.
   package func text(at offset: Int, count: Int) -> String? {
     guard offset >= 0, count >= 0, count <= bytes.count, offset <= bytes.count - count else {
       return nil
@@ -50,7 +58,7 @@ package struct ByteReader: Sendable {
     return slice.allSatisfy { $0 < 0x80 } ? String(decoding: slice, as: UTF8.self) : nil
   }
 
-  /// The first kilobyte holds nothing but printable characters and white space.
+  /// Whether the first kilobyte contains only printable characters and white space.
   var looksLikeText: Bool {
     !bytes.isEmpty
       && bytes.prefix(1024).allSatisfy { $0 >= 0x20 && $0 != 0x7F || (9...13).contains($0) }
@@ -59,12 +67,13 @@ package struct ByteReader: Sendable {
 
 /// The marker segments of a JPEG file up to the first scan.
 package struct JPEGSegments: Sequence, IteratorProtocol {
+  /// A marker segment.
   package struct Segment: Sendable {
     package var marker: UInt8
-    /// Offsets of the content in the file, the two length bytes not included.
+    /// Offsets of the content in the file, without the two length bytes.
     package var payload: Range<Int>
 
-    /// A frame header: C0…CF without the tables C4, C8 and CC.
+    /// Whether this is a frame header: C0…CF except the tables C4, C8 and CC.
     package var isStartOfFrame: Bool {
       (0xC0...0xCF).contains(marker) && ![0xC4, 0xC8, 0xCC].contains(marker)
     }
@@ -73,8 +82,10 @@ package struct JPEGSegments: Sequence, IteratorProtocol {
   private let reader: ByteReader
   private var offset = 2
 
+  /// `reader` holds a whole JPEG file.
   package init(_ reader: ByteReader) { self.reader = reader }
 
+  /// The next segment; nil at the first scan, the end of the image, or damage.
   package mutating func next() -> Segment? {
     while let byte = reader.byte(offset), let following = reader.byte(offset + 1) {
       // Decoders skip stray bytes between segments, and fill bytes before a marker.

@@ -2,7 +2,7 @@
 struct FileChunks: Sequence, IteratorProtocol {
   struct Chunk {
     var name: String
-    /// Where its data is in the file.
+    /// Byte range of its data in the file.
     var data: Range<Int>
   }
 
@@ -18,14 +18,14 @@ struct FileChunks: Sequence, IteratorProtocol {
     (self.reader, isPNG, offset) = (reader, false, 12)
   }
 
-  /// Ends where the file does, a chunk that is cut off included.
+  /// The next chunk; nil at the end of the file or at a truncated chunk.
   mutating func next() -> Chunk? {
     guard let length = reader.uint32(offset + (isPNG ? 0 : 4), isPNG ? .big : .little),
       let name = reader.text(at: offset + (isPNG ? 4 : 0), count: 4)
     else { return nil }
     let start = offset + 8
     guard length <= reader.bytes.count - start else { return nil }
-    // A checksum follows; or nothing, but chunks start at even places.
+    // PNG: a checksum follows. WebP: chunks start at even offsets.
     offset = start + length + (isPNG ? 4 : length & 1)
     return Chunk(name: name, data: start..<start + length)
   }

@@ -2,21 +2,21 @@ import CKernels
 import Kernels
 import SceneModel
 
-/// What HEIF files (ISO/IEC 23008-12) hold beside pixels, read by libheif.
+/// Metadata of HEIF files (ISO/IEC 23008-12), read by libheif.
 package enum HEIFFile {
-  /// What a file's brands say that it holds.
+  /// The content of a file according to its brands.
   package enum Kind: Hashable, Sendable {
-    /// One photo, or several of which one is shown.
+    /// A photo, or several with a primary one.
     case image(ImageHeader.Format)
-    /// A burst or a short film, without an image to show for it.
+    /// A burst or a short video without a primary image.
     case sequence
 
-    /// Nil for other files, videos among them.
+    /// Nil for other files, including videos.
     package init?(_ reader: ByteReader) {
       guard reader.hasText("ftyp", at: 4), let size = reader.uint32(0, .big), size >= 16 else {
         return nil
       }
-      // The major brand, its version, and the brands that the file goes by as well.
+      // The major brand, its version, and the compatible brands.
       let places = [8] + Array(stride(from: 16, to: min(size, 256), by: 4))
       let brands = Set(places.compactMap { reader.text(at: $0, count: 4) })
       if brands.contains("avif") {
@@ -31,7 +31,7 @@ package enum HEIFFile {
     }
   }
 
-  /// Size in pixels of the image that is shown, upright, and whether it has an alpha channel.
+  /// Size in pixels of the primary image, upright, and whether it has an alpha channel.
   static func inspect(
     _ bytes: [UInt8], _ format: ImageHeader.Format
   ) throws(ImageError) -> (width: Int, height: Int, hasAlpha: Bool) {
@@ -46,19 +46,20 @@ package enum HEIFFile {
     return (Int(info.width), Int(info.height), info.has_alpha)
   }
 
-  /// What is said of a file that libheif has no decoder for.
+  /// The error for a file that libheif has no decoder for.
   static func unsupported(_ format: ImageHeader.Format) -> ImageError {
     .unsupportedFormat("a kind of \(format.rawValue) image that libheif can't read")
   }
 
-  /// The EXIF data of a file, from its TIFF header on; nil where it has none.
+  /// The EXIF data of a file, starting at its TIFF header; nil without any.
   package static func exif(_ bytes: [UInt8]) -> [UInt8]? { block(ck_heif_exif, of: bytes) }
 
-  /// The ICC profile of a file; nil where it has none.
+  /// The ICC profile of a file; nil without one.
   static func colorProfile(_ bytes: [UInt8]) -> [UInt8]? {
     block(ck_heif_color_profile, of: bytes)
   }
 
+  /// One metadata block of a file; nil without one or if it can't be read.
   private static func block(_ which: ck_heif_block, of bytes: [UInt8]) -> [UInt8]? {
     var block: OpaquePointer?
     try? withKernel(KernelControl()) { _ in ck_heif_read(bytes, bytes.count, which, &block) }
@@ -68,7 +69,7 @@ package enum HEIFFile {
 }
 
 extension [UInt8] {
-  /// Copies bytes that a kernel made, and frees them; empty for null.
+  /// Copies bytes allocated by a kernel, and frees them; empty for null.
   init(taking bytes: OpaquePointer?) {
     guard let bytes else {
       self = []

@@ -1,9 +1,10 @@
 import SceneModel
 
-/// What the first bytes of a file say about the image in it, read without decoding.
+/// Format and size of an image file, read from its header without decoding.
 ///
-/// File names play no part. All reads are bounds-checked.
+/// File names are ignored. All reads are bounds-checked.
 package struct ImageHeader: Hashable, Sendable {
+  /// The supported image formats.
   package enum Format: String, Hashable, Sendable, CaseIterable {
     case jpeg = "JPEG"
     case png = "PNG"
@@ -15,7 +16,7 @@ package struct ImageHeader: Hashable, Sendable {
   }
 
   package var format: Format
-  /// Size in pixels as decoded, before any EXIF orientation.
+  /// Size in pixels as decoded, before EXIF orientation.
   package var width: Int
   package var height: Int
 
@@ -27,8 +28,8 @@ package struct ImageHeader: Hashable, Sendable {
 
   /// Reads the header of a file's content.
   ///
-  /// Throws `unsupportedFormat` for other images, `notAnImage` for other files, and `damaged` when
-  /// the header of one of the formats above is.
+  /// Throws `unsupportedFormat` for other image formats, `notAnImage` for other files, and
+  /// `damaged` for a damaged header of one of the formats above.
   package init(_ bytes: [UInt8]) throws(ImageError) {
     let reader = ByteReader(bytes)
     guard !bytes.isEmpty else { throw .damaged("the file is empty") }
@@ -47,7 +48,7 @@ package struct ImageHeader: Hashable, Sendable {
     } else {
       throw Self.unsupported(reader)
     }
-    guard width > 0, height > 0 else { throw .damaged("its header says it has no pixels") }
+    guard width > 0, height > 0 else { throw .damaged("its header specifies no pixels") }
   }
 
   private static func jpeg(_ reader: ByteReader) throws(ImageError) -> ImageHeader {
@@ -127,11 +128,12 @@ package struct ImageHeader: Hashable, Sendable {
     return ImageHeader(format: .tiff, width: width, height: height)
   }
 
-  /// Whether a file's content says that it has an alpha channel: PNG, WebP, HEIF and TIFF files may.
+  /// Whether a file's header indicates an alpha channel: possible in PNG, WebP, HEIF and TIFF
+  /// files.
   package static func promisesAlpha(_ bytes: [UInt8]) -> Bool {
     let reader = ByteReader(bytes)
     if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
-      // Gray or colours, with alpha.
+      // Gray or color, with alpha.
       return [4, 6].contains(reader.byte(25))
     }
     if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
@@ -142,11 +144,11 @@ package struct ImageHeader: Hashable, Sendable {
       return (try? HEIFFile.inspect(bytes, .heic))?.hasAlpha == true
     }
     guard let tiff = TIFFStructure(reader) else { return false }
-    // Samples beyond the colours.
+    // Samples in addition to the color channels.
     return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains { $0.tag == 338 }
   }
 
-  /// Tells images that need converting from files that are no images at all.
+  /// Distinguishes images in unsupported formats from files that aren't images.
   private static func unsupported(_ reader: ByteReader) -> ImageError {
     if reader.hasText("ftyp", at: 4) {
       return reader.hasText("crx ", at: 8)

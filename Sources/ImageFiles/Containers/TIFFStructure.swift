@@ -1,29 +1,32 @@
 import SceneModel
 
-/// The directories of a TIFF file or of EXIF data, classic and BigTIFF.
+/// The directories of a TIFF file or of EXIF data; classic and BigTIFF.
 package struct TIFFStructure: Sendable {
   /// One field of a directory.
   package struct Entry: Sendable {
     package var tag: Int
+    /// TIFF field type, 1…13.
     package var type: Int
+    /// Number of values.
     package var count: Int
-    /// Where its values are in the file.
+    /// Offset of its values in the file.
     package var valueOffset: Int
   }
 
   /// Sizes in bytes of the field types 1…13.
   private static let sizes = [0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4]
-  /// More fields than any camera writes; the rest of a hostile directory is not read.
+  /// More fields than any camera writes; the rest of a malicious directory is not read.
   private static let maximumEntries = 1024
 
   private let reader: ByteReader
   private let order: ByteReader.Order
   private let isBig: Bool
-  /// Where the structure starts in the file; all its offsets count from here.
+  /// Start of the structure in the file; its offsets are relative to it.
   private let origin: Int
+  /// Offset of the first directory.
   package let firstDirectory: Int
 
-  /// Nil when there is no TIFF header at `origin`.
+  /// Nil without a TIFF header at `origin`.
   package init?(_ reader: ByteReader, at origin: Int = 0) {
     switch reader.text(at: origin, count: 2) {
     case "II": order = .little
@@ -42,7 +45,7 @@ package struct TIFFStructure: Sendable {
     firstDirectory = Int(directory)
   }
 
-  /// The fields of the directory at an offset; empty when there is none.
+  /// The fields of the directory at an offset; empty if there is none.
   package func entries(ofDirectoryAt directory: Int) -> [Entry] {
     let start = origin + directory
     let (countBytes, entryBytes, inlineBytes) = isBig ? (8, 20, 8) : (2, 12, 4)
@@ -68,7 +71,7 @@ package struct TIFFStructure: Sendable {
     }
   }
 
-  /// Finds the structure that holds the EXIF data of an image file.
+  /// Finds the structure with the EXIF data of an image file.
   package init?(exifOf reader: ByteReader) {
     if reader.hasPrefix([0xFF, 0xD8]) {
       let found = JPEGSegments(reader).lazy
@@ -88,18 +91,19 @@ package struct TIFFStructure: Sendable {
     }
   }
 
-  /// Some programs put JPEG's name before the data.
+  /// Skips the "Exif" identifier of JPEG, which some programs also write to other formats.
   private init?(_ reader: ByteReader, _ chunk: FileChunks.Chunk?) {
     guard let start = chunk?.data.lowerBound else { return nil }
     self.init(reader, at: reader.hasText("Exif\0", at: start) ? start + 6 : start)
   }
 
-  /// The unsigned integer of a directory's field: a number, or where another directory is.
+  /// The unsigned integer value of a directory's field: a number, or the offset of another
+  /// directory.
   package func integer(of tag: Int, in directory: Int) -> Int? {
     entries(ofDirectoryAt: directory).first { $0.tag == tag }.flatMap { integer($0) }
   }
 
-  /// The bytes of a field of bytes, or of an undefined kind.
+  /// The bytes of a field of type BYTE or UNDEFINED.
   package func bytes(_ entry: Entry) -> [UInt8]? {
     guard entry.type == 1 || entry.type == 7, entry.valueOffset >= 0, entry.count > 0,
       entry.valueOffset <= reader.bytes.count - entry.count
@@ -114,7 +118,7 @@ package struct TIFFStructure: Sendable {
     return reader.unsigned(entry.valueOffset + index * size, bytes: size, order).map { Int($0) }
   }
 
-  /// Value `index` of a numeric field; nil for a rational with the denominator 0.
+  /// Value `index` of a numeric field; nil for a rational with a zero denominator.
   package func number(_ entry: Entry, _ index: Int = 0) -> Double? {
     guard index >= 0, index < entry.count else { return nil }
     guard entry.type == 5 || entry.type == 10 else {
@@ -129,7 +133,7 @@ package struct TIFFStructure: Sendable {
       / Double(Int32(truncatingIfNeeded: denominator))
   }
 
-  /// An ASCII field without the zeros and spaces around it; nil when nothing is left.
+  /// An ASCII field, trimmed of zeros and spaces; nil if nothing is left.
   package func text(_ entry: Entry) -> String? {
     guard entry.type == 2, entry.count > 0, entry.count <= 4096,
       entry.valueOffset >= 0, entry.valueOffset < reader.bytes.count

@@ -1,74 +1,80 @@
 import CKernels
 import SceneModel
 
-/// Adjusts cameras, poses and points together: least Huber loss of the reprojection errors
-/// (Triggs et al., "Bundle adjustment: a modern synthesis", 1999), by Ceres.
+/// Jointly optimizes cameras, poses and points: minimizes the Huber loss of the reprojection errors
+/// (Triggs et al., "Bundle adjustment: a modern synthesis", 1999), using Ceres.
 package struct BundleAdjustment: Sendable {
+  /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
     package var maximumIterations = 50
-    /// Where the loss turns from square to linear, in pixels.
+    /// Residual at which the Huber loss changes from quadratic to linear, in pixels.
     package var huberWidth = 1.0
     /// Stops when the relative decrease of the cost falls below this.
     package var functionTolerance = 1e-6
-    /// Systems of more photos are factorised sparsely.
+    /// Above this number of photos, systems are factorized sparsely.
     package var densePhotoLimit = 60
-    /// Systems of more photos are solved by preconditioned conjugate gradients.
+    /// Above this number of photos, systems are solved by preconditioned conjugate gradients.
     package var directPhotoLimit = 1000
 
     package init() {}
   }
 
-  /// Parameters of a camera that may change; fx and fy keep their ratio.
+  /// The camera parameters to optimize; fx and fy keep their ratio.
   package struct CameraFreedom: OptionSet, Hashable, Sendable {
     package let rawValue: UInt32
 
     package init(rawValue: UInt32) { self.rawValue = rawValue }
 
+    /// fx and fy, with a fixed ratio.
     package static let focalLength = CameraFreedom(rawValue: ck_free_focal_length.rawValue)
     package static let k1 = CameraFreedom(rawValue: ck_free_k1.rawValue)
     package static let k2 = CameraFreedom(rawValue: ck_free_k2.rawValue)
+    /// cx and cy.
     package static let principalPoint = CameraFreedom(rawValue: ck_free_principal_point.rawValue)
+    /// p1 and p2.
     package static let tangential = CameraFreedom(rawValue: ck_free_tangential.rawValue)
   }
 
-  /// What is known of a camera beforehand; a deviation of 0 means nothing.
+  /// Prior knowledge of a camera; a deviation of 0 means no prior.
   package struct CameraPrior: Hashable, Sendable {
     /// Pixels.
     package var focalLength = 1.0
     /// Pixels.
     package var principalPoint = SIMD2<Double>.zero
-    /// Standard deviation of the focal length relative to it.
+    /// Standard deviation of the focal length as a share of it.
     package var focalLengthDeviation = 0.0
-    /// Pixels.
+    /// Standard deviation in pixels.
     package var principalPointDeviation = 0.0
-    /// Of k1 and k2 about zero.
+    /// Standard deviation of k1 and k2 around zero.
     package var radialDeviation = 0.0
 
     package init() {}
   }
 
-  /// How a photo's pose takes part.
+  /// How a photo's pose is optimized.
   package enum PoseFreedom: UInt8, Hashable, Sendable {
     case constant = 0
     case free = 1
-    /// Free, but the largest component of its translation is kept: that fixes the world's scale.
+    /// Free except for the largest component of its translation, which fixes the scale gauge.
     case scaleFixed = 2
   }
 
-  /// The scene to adjust.
+  /// The scene to optimize.
   package struct Problem: Sendable {
     package var photos: PosedPhotos
+    /// World frame.
     package var points: [SIMD3<Double>]
     package var observations: [PointObservation]
-    /// One value a camera.
+    /// One value per camera.
     package var cameraFreedom: [CameraFreedom]
-    /// One value a camera.
+    /// One value per camera.
     package var cameraPriors: [CameraPrior]
-    /// One value a photo.
+    /// One value per photo.
     package var poseFreedom: [PoseFreedom]
-    /// Whether each point may move.
+    /// Whether each point is optimized.
     package var isPointFree: [Bool]
 
+    /// A problem with constant cameras, free points, and free poses of all photos that have one.
     package init(
       photos: PosedPhotos, points: [SIMD3<Double>], observations: [PointObservation]
     ) {
@@ -82,11 +88,13 @@ package struct BundleAdjustment: Sendable {
     }
   }
 
+  /// Result of the solver.
   package struct Summary: Hashable, Sendable {
-    /// Sum of the loss in square pixels before and after.
+    /// The total loss in square pixels before and after.
     package var initialCost: Double
     package var finalCost: Double
     package var iterations: Int
+    /// Whether the solver stopped before the maximum number of iterations.
     package var hasConverged: Bool
   }
 
@@ -94,7 +102,8 @@ package struct BundleAdjustment: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Adjusts `problem` in place.
+  /// Optimizes `problem` in place. Throws `KernelError` for inconsistent input, and
+  /// `CancellationError`.
   @discardableResult
   package func run(
     _ problem: inout Problem, control: KernelControl = KernelControl()
@@ -125,6 +134,7 @@ package struct BundleAdjustment: Sendable {
       iterations: Int(summary.iterations), hasConverged: summary.converged)
   }
 
+  /// Calls the solver with the arrays pinned.
   private func solve(
     _ problem: Problem, _ models: inout [ck_camera_model], _ poses: inout [ck_pose],
     _ points: inout [SIMD3<Double>], _ summary: inout ck_bundle_summary, _ control: KernelControl
@@ -173,9 +183,9 @@ package struct BundleAdjustment: Sendable {
     }
   }
 
-  /// The reprojection error of one observation with its derivatives by rows: 2×6 by the pose
-  /// (rotation vector applied from the left, translation), 2×3 by the point, 2×7 by the camera
-  /// (fx with fy in proportion, cx, cy, k1, k2, p1, p2).
+  /// The reprojection error of one observation in pixels, with its derivatives in row-major order:
+  /// 2×6 with respect to the pose (left-multiplied rotation vector, translation), 2×3 to the point,
+  /// 2×7 to the camera (fx with fy in proportion, cx, cy, k1, k2, p1, p2).
   package static func jacobians(
     camera: Camera, cameraFromWorld: RigidTransform, point: SIMD3<Double>, pixel: SIMD2<Double>
   ) throws -> (residual: SIMD2<Double>, pose: [Double], point: [Double], camera: [Double]) {

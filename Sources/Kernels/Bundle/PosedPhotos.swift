@@ -1,12 +1,12 @@
 import CKernels
 import SceneModel
 
-/// Cameras and the poses of photos, as the kernels of alignment take them.
+/// Cameras and photo poses in the form that the alignment kernels require.
 package struct PosedPhotos: Sendable {
   package var cameras: [Camera]
-  /// `cameraFromWorld` by photo; photos without one must not be named by any observation.
+  /// `cameraFromWorld` by photo; observations must not refer to photos without one.
   package var poses: [RigidTransform?]
-  /// The camera of each photo.
+  /// The camera index of each photo.
   package var cameraOfPhoto: [Int32]
 
   package init(cameras: [Camera], poses: [RigidTransform?], cameraOfPhoto: [Int32]) {
@@ -16,6 +16,7 @@ package struct PosedPhotos: Sendable {
     self.cameraOfPhoto = cameraOfPhoto
   }
 
+  /// Calls `body` with the C representation, valid only during the call.
   func withViews(_ body: (UnsafePointer<ck_views>) -> ck_status) -> ck_status {
     let models = cameras.map(ck_camera_model.init)
     let rawPoses = poses.map { ck_pose($0 ?? .identity) }
@@ -32,9 +33,11 @@ package struct PosedPhotos: Sendable {
   }
 }
 
-/// What a photo sees of a point.
+/// An observation of a point in a photo.
 package struct PointObservation: Hashable, Sendable {
+  /// Index of the photo.
   package var photo: Int32
+  /// Index of the point, or of the track.
   package var point: Int32
   /// Pixels of the upright photo, origin at the top-left corner.
   package var pixel: SIMD2<Double>

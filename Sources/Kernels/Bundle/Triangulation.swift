@@ -3,38 +3,45 @@ import SceneModel
 
 /// Observations grouped by track: those of track i are `observations[offsets[i]..<offsets[i + 1]]`.
 package struct TrackObservations: Sendable {
+  /// `count` + 1 ascending offsets.
   package var offsets: [Int32] = [0]
   package var observations: [PointObservation] = []
 
   package init() {}
 
+  /// Number of tracks.
   package var count: Int { offsets.count - 1 }
 
+  /// The observations of a track.
   package func range(_ track: Int) -> Range<Int> {
     Int(offsets[track])..<Int(offsets[track + 1])
   }
 
+  /// Adds the observations of the next track.
   package mutating func append(_ track: some Sequence<PointObservation>) {
     observations.append(contentsOf: track)
     offsets.append(Int32(observations.count))
   }
 }
 
-/// Triangulates tracks: robust over pairs of rays, then least squares of the reprojection error.
+/// Triangulates tracks: robustly over pairs of rays, then by least squares of the reprojection
+/// error.
 package struct Triangulation: Sendable {
+  /// Inlier criteria.
   package struct Options: Hashable, Codable, Sendable {
-    /// Largest reprojection error of an inlier in pixels.
+    /// Maximum reprojection error of an inlier in pixels.
     package var maximumError = 4.0
-    /// Smallest triangulation angle in radians.
+    /// Minimum triangulation angle in radians.
     package var minimumAngle = 1.5 * Double.pi / 180
 
     package init() {}
   }
 
+  /// The triangulated points.
   package struct Result: Sendable {
-    /// The point of each track; nil where its observations do not agree on one.
+    /// The point of each track in the world frame; nil if its observations are inconsistent.
     package var positions: [SIMD3<Double>?]
-    /// Whether each observation agrees with its track's point.
+    /// Whether each observation is consistent with its track's point.
     package var isInlier: [Bool]
   }
 
@@ -42,6 +49,7 @@ package struct Triangulation: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
+  /// Triangulates all tracks with the given cameras and poses.
   package func run(
     _ tracks: TrackObservations, photos: PosedPhotos, control: KernelControl = KernelControl()
   ) throws -> Result {
@@ -67,8 +75,8 @@ package struct Triangulation: Sendable {
   }
 
   /// The reprojection error in pixels of each observation of its track's point (infinite behind the
-  /// camera), and the largest angle in radians between two rays with an error of at most
-  /// `maximumError`.
+  /// camera), and for each track the maximum angle in radians between two rays with an error of at
+  /// most `maximumError`.
   package static func measure(
     _ tracks: TrackObservations, positions: [SIMD3<Double>], photos: PosedPhotos,
     maximumError: Double, control: KernelControl = KernelControl()

@@ -1,19 +1,19 @@
 import CKernels
 
-/// Sets of instructions that a kernel may use, each with all of those before it.
+/// Instruction sets that a kernel may use, each including all previous ones.
 package enum Instructions: String, CaseIterable, Codable, Sendable {
-  /// The last of these that the processor has.
+  /// The highest set that the processor supports.
   case automatic
-  /// What every processor of the architecture has.
+  /// The baseline of the architecture.
   case portable
   /// AVX2 and FMA.
   case avx2
   /// AVX-512 F, BW, DQ and VL.
   case avx512
-  /// The products of bytes of AVX-512 VNNI.
+  /// With the byte dot products of AVX-512 VNNI.
   case avx512VNNI
 
-  /// Whether this processor has them.
+  /// Whether this processor supports the set.
   package var isSupported: Bool { ck_instructions_supported(raw) }
 
   var raw: ck_instructions {

@@ -3,18 +3,20 @@ import Foundation
 import Synchronization
 import SceneModel
 
-/// Carries progress out of kernels and the wish to cancel into them.
+/// Reports progress of kernels, and passes cancellation to them.
 ///
-/// Kernels call back from their own threads, where `Task.isCancelled` says nothing; hence the flag.
+/// Kernels call back from their own threads, where `Task.isCancelled` has no effect; hence the
+/// flag.
 package final class KernelControl: Sendable {
-  /// Receives the fraction done, 0…1, from any thread.
+  /// Receives the fraction done, 0…1, on any thread.
   package typealias ProgressHandler = @Sendable (Double) -> Void
 
-  /// Threads that kernels may use, at least 1. Results do not depend on it.
+  /// Maximum number of threads of kernels, at least 1. Results do not depend on it.
   package let threadCount: Int
   private let flag: CancellationFlag
   private let onProgress: ProgressHandler?
 
+  /// Controls that share `flag` are canceled together.
   package init(
     threadCount: Int = 1, flag: CancellationFlag = CancellationFlag(),
     onProgress: ProgressHandler? = nil
@@ -24,22 +26,24 @@ package final class KernelControl: Sendable {
     self.onProgress = onProgress
   }
 
+  /// Whether the run is canceled.
   package var isCancelled: Bool { flag.isCancelled }
 
-  /// Reports progress; throws `CancellationError` when the run is to stop.
+  /// Reports progress; throws `CancellationError` if the run is canceled.
   package func step(_ fraction: Double) throws {
     onProgress?(fraction)
     if isCancelled { throw CancellationError() }
   }
 
-  /// The control of a part of the work that runs from `start` to `end` of this control's progress.
+  /// A control for the part of the work that covers `start` to `end` of this control's progress.
   package func part(from start: Double, to end: Double) -> KernelControl {
     KernelControl(threadCount: threadCount, flag: flag) { [onProgress] fraction in
       onProgress?(start + (end - start) * fraction)
     }
   }
 
-  /// A control for each of `count` units of work that run at once; this control hears of their sum.
+  /// A control for each of `count` concurrent units of work; their mean is reported as this
+  /// control's progress.
   func units(_ count: Int) -> [KernelControl] {
     let progress = UnitProgress(count)
     return (0..<count).map { unit in
@@ -49,16 +53,17 @@ package final class KernelControl: Sendable {
     }
   }
 
-  /// The control without anybody who hears of progress.
+  /// A copy that reports no progress.
   var silent: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
 
+  /// Reports progress; returns false if the run is canceled.
   fileprivate func shouldContinue(at fraction: Double) -> Bool {
     onProgress?(fraction)
     return !isCancelled
   }
 }
 
-/// How far each of several units of work is.
+/// The progress of several concurrent units of work.
 private final class UnitProgress: Sendable {
   private let fractions: Locked<(units: [Double], sum: Double)>
 
@@ -66,7 +71,7 @@ private final class UnitProgress: Sendable {
     fractions = Locked((units: [Double](repeating: 0, count: count), sum: 0))
   }
 
-  /// Takes a unit's fraction in and returns that of all.
+  /// Updates a unit's fraction, and returns the overall one.
   func report(_ fraction: Double, of unit: Int) -> Double {
     fractions.withLock { state in
       let step = max(0, min(1, fraction) - state.units[unit])
@@ -77,7 +82,7 @@ private final class UnitProgress: Sendable {
   }
 }
 
-/// A flag that says once and for all that a run is to stop.
+/// A one-way flag that cancels a run.
 package final class CancellationFlag: Sendable {
   private let value = Atomic<Bool>(false)
 
@@ -85,16 +90,17 @@ package final class CancellationFlag: Sendable {
 
   package var isCancelled: Bool { value.load(ordering: .relaxed) }
 
+  /// Cancels the run; can't be undone.
   package func cancel() { value.store(true, ordering: .relaxed) }
 }
 
-/// A kernel that did not end well, in its own words.
+/// Failure of a kernel, with the kernel's message.
 package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
   case invalidArgument(String)
   /// The input is valid but does not determine a result.
   case degenerate(String)
   case failed(String)
-  /// There was too little memory, which may be otherwise at another time.
+  /// Memory was insufficient; a later attempt may succeed.
   case outOfMemory
 
   package var description: String {
@@ -108,9 +114,9 @@ package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
   package var errorDescription: String? { description }
 }
 
-/// Calls a kernel and turns its status into an error.
+/// Calls a kernel and converts its status to an error.
 ///
-/// The `ck_control` is valid during `body` only.
+/// The `ck_control` is valid only during `body`.
 package func withKernel(
   _ control: KernelControl, _ body: (UnsafePointer<ck_control>) -> ck_status
 ) throws {

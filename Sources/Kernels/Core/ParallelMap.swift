@@ -3,10 +3,11 @@ import Synchronization
 import SceneModel
 
 extension KernelControl {
-  /// Maps `0..<count` on the control's threads; results are in index order whatever the threads do.
+  /// Maps `0..<count` on the control's threads; results are in index order, independent of
+  /// scheduling.
   ///
-  /// Blocks the calling thread. Reports progress and throws `CancellationError` between units. The
-  /// error of the lowest failed index is thrown.
+  /// Blocks the calling thread. Reports progress and checks for cancellation (`CancellationError`)
+  /// between units. If units fail, throws the error of the lowest failed index.
   package func parallelMap<Result: Sendable>(
     _ count: Int, _ body: @escaping @Sendable (Int) throws -> Result
   ) throws -> [Result] {
@@ -39,8 +40,8 @@ extension KernelControl {
       return try slots.compactMap { try $0?.get() }
     }
   }
-  /// Like `parallelMap`, but progress is the sum of what the units report to the control that each
-  /// is given; a unit that reports nothing counts when it ends.
+  /// Like `parallelMap`, but progress is the mean of what the units report to their controls; a
+  /// unit that reports nothing counts when it ends.
   package func parallelUnits<Result: Sendable>(
     _ count: Int, _ body: @escaping @Sendable (Int, KernelControl) throws -> Result
   ) throws -> [Result] {

@@ -1,7 +1,7 @@
 import CKernels
 
-/// XXH64 by Y. Collet: a hash that is the same in every run and on every machine, at the speed of
-/// memory. It tells changed bytes, not forged ones.
+/// XXH64 by Y. Collet: a hash that is stable across runs and machines, at memory speed. Detects
+/// changed bytes, not forged ones.
 package enum XXHash64 {
   /// The hash of `bytes`.
   package static func hash(_ bytes: UnsafeRawBufferPointer, seed: UInt64 = 0) -> UInt64 {

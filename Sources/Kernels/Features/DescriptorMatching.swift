@@ -1,20 +1,21 @@
 import CKernels
 import SceneModel
 
-/// Exact nearest neighbours of descriptors: mutual best, with Lowe's ratio test both ways.
+/// Exact nearest-neighbor matching of descriptors: mutual best, with Lowe's ratio test in both
+/// directions.
 package struct DescriptorMatching: Hashable, Codable, Sendable {
-  /// The best distance is below this fraction of the second best.
+  /// Maximum ratio of the best to the second-best distance.
   package var ratio = 0.7
-  /// Largest distance of a match; a descriptor has length 512.
+  /// Maximum distance of a match; a descriptor has length 512.
   package var maximumDistance = 360.0
-  /// All give the same result.
+  /// All instruction sets give the same result.
   package var instructions = Instructions.automatic
 
   package init() {}
 
-  /// The matches between two sets, the most distinctive first.
+  /// The matches between two sets, most distinctive first.
   ///
-  /// With `prefix` only that many features of each set take part: those of the largest scale.
+  /// With `prefix`, only that many features of each set are matched: those of the largest scale.
   package func matches(
     _ first: FeatureSet, _ second: FeatureSet, prefix: Int = .max, _ control: KernelControl
   ) throws -> [FeatureMatch] {

@@ -1,17 +1,17 @@
 import CKernels
 import SceneModel
 
-/// Nearest neighbours of descriptors among the features near the epipolar line: mutual best, with
-/// Lowe's ratio test among these features only.
+/// Nearest-neighbor matching of descriptors along epipolar lines: mutual best among the features
+/// near the line, with Lowe's ratio test among these only.
 package struct EpipolarMatching: Hashable, Codable, Sendable {
   /// The features of one photo.
   package struct Side: Sendable {
     var descriptors: [UInt8]
-    /// Not a number for features that don't take part.
+    /// NaN for excluded features.
     var points: [SIMD2<Double>]
 
-    /// `points` are at depth 1 of the viewing rays, one a feature of the set; features in `taken` stay
-    /// out.
+    /// `points` are at depth 1 of the viewing rays, one per feature of the set; the features with
+    /// indices in `taken` are excluded.
     package init(_ features: FeatureSet, points: [SIMD2<Double>], except taken: [Int32]) {
       descriptors = features.descriptors
       self.points = points
@@ -19,15 +19,16 @@ package struct EpipolarMatching: Hashable, Codable, Sendable {
     }
   }
 
-  /// Largest Sampson error of a match in units of the points.
+  /// Maximum Sampson error of a match in units of the points.
   package var maximumError = 1e-3
+  /// Maximum ratio of the best to the second-best distance.
   package var ratio = 0.7
-  /// Largest distance of a match; a descriptor has length 512.
+  /// Maximum distance of a match; a descriptor has length 512.
   package var maximumDistance = 250.0
 
   package init() {}
 
-  /// The matches that agree with `matrix` (`x₂ᵀ M x₁ = 0`), the most distinctive first.
+  /// The matches consistent with `matrix` (`x₂ᵀ M x₁ = 0`), most distinctive first.
   package func matches(
     _ first: Side, _ second: Side, matrix: Matrix3, _ control: KernelControl
   ) throws -> [FeatureMatch] {

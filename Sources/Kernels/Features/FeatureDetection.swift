@@ -1,38 +1,40 @@
 import CKernels
 import SceneModel
 
-/// SIFT with root-SIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR 2012).
+/// SIFT detector with RootSIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR
+/// 2012).
 package struct FeatureDetection: Hashable, Codable, Sendable {
-  /// Features kept at most, the strongest of each part of the photo.
+  /// Maximum number of features, the strongest of each grid cell.
   package var maximumFeatures = 8000
   /// Lowe's contrast threshold for intensities 0…1.
   package var contrastThreshold = 0.02
-  /// The threshold is multiplied by a factor between these two, the highest that still leaves
-  /// `sufficientFeatures`.
+  /// Bounds of a factor on the contrast threshold; the highest factor that still yields
+  /// `sufficientFeatures` is used.
   package var lowestFactor = 0.8
   package var highestFactor = 1.2
-  /// Features that are enough for a photo.
+  /// Sufficient number of features of a photo.
   package var sufficientFeatures = 6000
   /// Lowe's limit on the ratio of principal curvatures.
   package var edgeThreshold = 10.0
-  /// Whether the first octave is the photo at twice its size, which finds small features, or the photo
-  /// as it is.
+  /// Whether the first octave is the photo upsampled to twice its size, which detects small
+  /// features, or the photo itself.
   package var doublesPhoto = true
-  /// Scale samples of one octave.
+  /// Scale samples per octave.
   package var octaveLayers = 3
   /// Gaussian blur of the first layer in pixels.
   package var sigma = 1.6
-  /// Cells along the longer side of the grid over which the features are balanced.
+  /// Grid cells along the longer side, over which the features are balanced.
   package var gridCells = 12
-  /// Vector instructions all give the same bytes; the portable path differs by rounding.
+  /// All vector instruction sets give the same bytes; the portable path differs by rounding.
   package var instructions = Instructions.automatic
 
   package init() {}
 
   /// The features of an image with 1, 3 (RGB) or 4 channels, sorted by scale, largest first.
   ///
-  /// Positions are in the image's pixels, origin at the corner of the top-left one. An image without
-  /// texture has none. Nothing is looked for where `mask`, gray and of the image's size, is 0.
+  /// Positions are in the image's pixels, with the origin at the corner of the top-left pixel. An
+  /// image without texture has none. Pixels where `mask`, gray and of the image's size, is 0 are
+  /// excluded.
   package func features(
     in image: RasterImage, mask: RasterImage? = nil, _ control: KernelControl
   ) throws -> FeatureSet {

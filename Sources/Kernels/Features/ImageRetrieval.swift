@@ -1,11 +1,12 @@
 import CKernels
 import SceneModel
 
-/// A vocabulary of typical descriptors, with which photos are compared as a whole: VLAD (Jégou et
-/// al., "Aggregating local descriptors into a compact image representation", CVPR 2010).
+/// A vocabulary of visual words for comparing whole photos: VLAD (Jégou et al., "Aggregating local
+/// descriptors into a compact image representation", CVPR 2010).
 package struct VisualVocabulary: Sendable {
   /// `count × 128` bytes.
   private let words: [UInt8]
+  /// Number of words.
   package let count: Int
 
   /// Learns at most `count` words by k-means from `descriptors`, 128 bytes each.
@@ -26,8 +27,8 @@ package struct VisualVocabulary: Sendable {
     self.words = words
   }
 
-  /// The vector of a photo, of unit length; the inner product of two tells how similar they are. Zeros
-  /// without features.
+  /// The VLAD vector of a photo, of unit length; the inner product of two is the photos'
+  /// similarity. Zero without features.
   package func vector(of features: FeatureSet, _ control: KernelControl) throws -> [Float] {
     var vector = [Float](repeating: 0, count: words.count)
     guard !vector.isEmpty else { return [] }
@@ -38,16 +39,16 @@ package struct VisualVocabulary: Sendable {
   }
 }
 
-/// For each photo the most similar others, by the inner products of their vectors.
+/// The most similar photos of each photo, by the inner products of their vectors.
 package struct SimilarityRanking: Sendable {
-  /// Neighbours of a photo: less than the number of photos.
+  /// Number of neighbors per photo; less than the number of photos.
   package let neighborCount: Int
-  /// `neighborCount` entries a photo, the most similar first.
+  /// `neighborCount` entries per photo, most similar first.
   package private(set) var indices: [Int32]
-  /// The inner products that belong to `indices`.
+  /// The inner products corresponding to `indices`.
   package private(set) var similarities: [Float]
 
-  /// Compares the vectors of all photos, one after the other in `vectors`, with each other.
+  /// Compares the vectors of all photos, concatenated in `vectors`, with each other.
   package init(
     vectors: [Float], photoCount: Int, neighborCount: Int, _ control: KernelControl
   ) throws {
@@ -62,7 +63,7 @@ package struct SimilarityRanking: Sendable {
     }
   }
 
-  /// The photos most similar to `photo`, the most similar first.
+  /// The photos most similar to `photo`, most similar first.
   package func neighbors(of photo: Int) -> [Int] {
     indices[photo * neighborCount..<(photo + 1) * neighborCount].map(Int.init)
   }

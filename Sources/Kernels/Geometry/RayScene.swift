@@ -1,9 +1,9 @@
 import CKernels
 import SceneModel
 
-/// What one view shows of one triangle.
+/// An observation of one triangle in one view.
 package struct FaceObservation: Hashable, Sendable {
-  /// The triangle.
+  /// Index of the triangle.
   package var face: Int32
   /// Index of the view, set by the caller.
   package var view: Int32 = 0
@@ -11,11 +11,11 @@ package struct FaceObservation: Hashable, Sendable {
   package var area: Float
   /// Cosine of the angle between the triangle's normal and the direction to the camera.
   package var cosine: Float
-  /// Mean length of the luminance gradient, 0…255 a pixel.
+  /// Mean magnitude of the luminance gradient, in gray levels per pixel.
   package var gradient: Float
-  /// Whether nothing in front of the triangle ends close to it in the image.
+  /// Whether no occluding edge is close to the triangle in the image.
   package var isClear: Bool
-  /// Whether the surface goes on around the triangle in the image.
+  /// Whether the surface continues around the triangle in the image.
   package var isInterior: Bool
   /// Mean RGB, 0…255.
   package var color: SIMD3<Float>
@@ -35,13 +35,13 @@ package struct FaceObservation: Hashable, Sendable {
   }
 }
 
-/// A mesh made ready for ray casting with Embree.
+/// A mesh prepared for ray casting with Embree.
 package final class RayScene: Sendable {
-  /// How views are tested for what they see.
+  /// Criteria of visibility in a view.
   package struct ObservationOptions: Hashable, Codable, Sendable {
-    /// Triangles seen at a smaller cosine count as not seen.
+    /// Triangles at a smaller cosine count as not visible.
     package var minimumCosine: Float = 0.15
-    /// Pixels to the rim of the image and to whatever is in front.
+    /// Minimum distance in pixels from the image border and from occluding edges.
     package var margin: Float = 4
 
     package init() {}
@@ -51,7 +51,7 @@ package final class RayScene: Sendable {
   nonisolated(unsafe) let handle: OpaquePointer
   package let triangleCount: Int
 
-  /// Throws `KernelError.invalidArgument` for a mesh without triangles or with bad values.
+  /// Throws `KernelError.invalidArgument` for a mesh without triangles or with invalid values.
   package init(_ mesh: Mesh, _ control: KernelControl) throws {
     var handle: OpaquePointer?
     try withKernel(control) { control in
@@ -70,7 +70,7 @@ package final class RayScene: Sendable {
 
   deinit { ck_ray_scene_free(handle) }
 
-  /// The triangles that a view sees whole, inside its mask where it has one, in ascending order.
+  /// The triangles that a view sees completely, inside its mask if it has one, in ascending order.
   package func observations(
     in view: PinholeView, options: ObservationOptions = ObservationOptions(),
     _ control: KernelControl
@@ -118,18 +118,21 @@ extension ck_pinhole {
 }
 
 extension Array where Element == SIMD3<Float> {
+  /// Calls `body` with the array's memory, four floats per vector.
   func withUnsafeFloats<Result>(_ body: (UnsafePointer<Float>?) -> Result) -> Result {
     withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: Float.self)) }
   }
 }
 
 extension Array where Element == SIMD2<Float> {
+  /// Calls `body` with the array's memory, two floats per vector.
   func withUnsafeFloats<Result>(_ body: (UnsafePointer<Float>?) -> Result) -> Result {
     withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: Float.self)) }
   }
 }
 
 extension Array where Element == Triangle {
+  /// Calls `body` with the array's memory, three indices per triangle.
   func withUnsafeIndices<Result>(_ body: (UnsafePointer<UInt32>?) -> Result) -> Result {
     withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: UInt32.self)) }
   }

@@ -1,11 +1,13 @@
 import CKernels
 import SceneModel
 
-/// The direction in the world in which a photo sees a point.
+/// The direction, in the world frame, in which a photo observes a point.
 package struct PointDirection: Hashable, Sendable {
+  /// Index of the photo.
   package var photo: Int32
+  /// Index of the point.
   package var point: Int32
-  /// Of length 1.
+  /// A unit vector.
   package var direction: SIMD3<Double>
 
   package init(photo: Int32, point: Int32, direction: SIMD3<Double>) {
@@ -13,21 +15,24 @@ package struct PointDirection: Hashable, Sendable {
   }
 }
 
-/// Finds the places of cameras and points together from the directions between them (Pan et al.,
-/// "Global structure-from-motion revisited", ECCV 2024).
+/// Global positioning: estimates camera centers and points together from the directions between
+/// them (Pan et al., "Global structure-from-motion revisited", ECCV 2024).
 package struct GlobalPositioning: Sendable {
+  /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
     package var maximumIterations = 100
-    /// Where the Huber loss turns from square to linear; residuals are about sines of angles.
+    /// Where the Huber loss changes from quadratic to linear; residuals approximate sines of
+    /// angles.
     package var huberWidth = 0.1
-    /// Relative decrease of the cost below which it ends.
+    /// Stops when the relative decrease of the cost falls below this.
     package var functionTolerance = 1e-5
 
     package init() {}
   }
 
+  /// The estimated positions, with statistics of the solver.
   package struct Result: Sendable {
-    /// Camera centres by photo and points, in one frame of any place and unit.
+    /// Camera centers by photo, and points; the gauge (translation and scale) is arbitrary.
     package var centers: [SIMD3<Double>]
     package var points: [SIMD3<Double>]
     package var initialCost: Double
@@ -40,7 +45,7 @@ package struct GlobalPositioning: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Begins with the given places. `directions` are grouped by point, ascending.
+  /// Starts from the given positions. `directions` are grouped by point, ascending.
   package func run(
     _ directions: [PointDirection], centers: [SIMD3<Double>], points: [SIMD3<Double>],
     control: KernelControl = KernelControl()

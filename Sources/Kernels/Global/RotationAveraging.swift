@@ -1,12 +1,15 @@
 import CKernels
 import SceneModel
 
-/// A rotation measured between two photos: `R_second = rotation · R_first`.
+/// A measured relative rotation of two photos: `R_second = rotation · R_first`.
 package struct RelativeRotation: Hashable, Sendable {
+  /// Index of the first photo.
   package var first: Int32
+  /// Index of the second photo.
   package var second: Int32
+  /// Rotates the first camera frame to the second.
   package var rotation: Quaternion
-  /// Trust in it, above 0.
+  /// Confidence, positive.
   package var weight: Double
 
   package init(first: Int32, second: Int32, rotation: Quaternion, weight: Double = 1) {
@@ -14,27 +17,31 @@ package struct RelativeRotation: Hashable, Sendable {
   }
 }
 
-/// Finds the rotations of photos that agree best with relative ones: least sum of angles, then a robust
-/// loss (Chatterjee and Govindu, "Efficient and robust large-scale rotation averaging", ICCV 2013).
+/// Estimates the photos' rotations that best agree with relative ones: L1 minimization, then a
+/// robust loss (Chatterjee and Govindu, "Efficient and robust large-scale rotation averaging", ICCV
+/// 2013).
 package struct RotationAveraging: Sendable {
+  /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
-    /// Iterations that minimise the sum of angles.
+    /// Iterations that minimize the sum of angles (L1).
     package var absoluteIterations = 20
     /// Iterations with the robust loss.
     package var robustIterations = 30
-    /// The scale of the robust loss is three times the median error, within these degrees.
+    /// The scale of the robust loss is three times the median error, clamped to these bounds in
+    /// degrees.
     package var smallestScaleDegrees = 0.3
     package var largestScaleDegrees = 5.0
-    /// Mean change of a rotation below which it ends, in radians.
+    /// Stops when the mean change of a rotation falls below this, in radians.
     package var tolerance = 1e-6
 
     package init() {}
   }
 
+  /// The estimated rotations and their residuals.
   package struct Result: Sendable {
     /// `cameraFromWorld` by photo.
     package var rotations: [Quaternion]
-    /// By how many radians each pair disagrees.
+    /// The angular residual of each pair in radians.
     package var errors: [Double]
   }
 
@@ -42,9 +49,9 @@ package struct RotationAveraging: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Begins with `start`, one rotation a photo. Photo 0 keeps its own.
+  /// Starts from `start`, one rotation per photo. Photo 0 is fixed.
   ///
-  /// Throws `KernelError.degenerate` where the pairs don't connect all photos.
+  /// Throws `KernelError.degenerate` if the pairs don't connect all photos.
   package func run(
     _ pairs: [RelativeRotation], start: [Quaternion], control: KernelControl = KernelControl()
   ) throws -> Result {

@@ -2,7 +2,7 @@ import CKernels
 import SceneModel
 
 extension RasterImage {
-  /// The image at another size: area averages where it shrinks, linear where it grows.
+  /// The image resampled to another size: area averaging where it shrinks, bilinear where it grows.
   package func resized(width newWidth: Int, height newHeight: Int) throws -> RasterImage {
     guard newWidth != width || newHeight != height else { return self }
     var result = RasterImage(width: newWidth, height: newHeight, channels: channels)
@@ -14,7 +14,7 @@ extension RasterImage {
     return result
   }
 
-  /// The stored image turned upright by its EXIF orientation 1…8.
+  /// The stored image rotated upright according to its EXIF orientation 1…8.
   package func turned(byOrientation orientation: Int) throws -> RasterImage {
     guard orientation != 1 else { return self }
     let swaps = orientation >= 5
@@ -27,9 +27,9 @@ extension RasterImage {
     return result
   }
 
-  /// What `camera`, which took this image, would have seen as `pinhole`, which has no distortion.
+  /// Resamples this image, taken with `camera`, as seen by `pinhole`, which has no distortion.
   ///
-  /// Bicubic; pixels without source repeat the border.
+  /// Bicubic; pixels outside the source repeat its border.
   package func undistorted(from camera: Camera, to pinhole: Camera) throws -> RasterImage {
     guard camera.width == width, camera.height == height else {
       throw KernelError.invalidArgument("the camera does not have the image's size")
@@ -46,7 +46,7 @@ extension RasterImage {
     return result
   }
 
-  /// A gray image, each pixel with the largest value of the square around it that reaches `radius`
+  /// Dilation of a gray image: each pixel becomes the maximum of the square that extends `radius`
   /// pixels to each side.
   package func dilated(by radius: Int) throws -> RasterImage {
     guard channels == 1 else { throw KernelError.invalidArgument("the image is not gray") }
@@ -59,7 +59,7 @@ extension RasterImage {
     return result
   }
 
-  /// Gray by the weights of Rec. 601.
+  /// Luma with the Rec. 601 weights; a gray image is returned unchanged.
   package var gray: RasterImage {
     guard channels >= 3 else { return self }
     var result = RasterImage(width: width, height: height, channels: 1)
@@ -71,12 +71,12 @@ extension RasterImage {
     return result
   }
 
-  /// How sharp the textured parts of a gray image are, whatever they show.
+  /// The sharpness of the textured parts of a gray image, independent of their content.
   ///
-  /// The gradient energy that a slight blur (σ 1.5 pixels) takes away, as a multiple of what it
-  /// leaves, in the direction that loses least, so that motion blur counts: about 0.2 for a blurred
-  /// photo and 1.5 or more for a sharp one of a megapixel. The idea of comparing a photo with its
-  /// own blurred version is from Crete et al., "The blur effect", SPIE 2007.
+  /// The gradient energy that a slight blur (σ 1.5 pixels) removes, relative to what it leaves, in
+  /// the direction with the smallest loss, so that motion blur counts: about 0.2 for a blurred
+  /// photo, and 1.5 or more for a sharp one of a megapixel. Comparing a photo with a blurred
+  /// version of itself follows Crete et al., "The blur effect", SPIE 2007.
   package func sharpness() throws -> Double {
     guard channels == 1 else { throw KernelError.invalidArgument("the image is not gray") }
     var result = 0.0

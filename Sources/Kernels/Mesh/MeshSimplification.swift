@@ -2,12 +2,12 @@ import CKernels
 import SceneModel
 
 extension Mesh {
-  /// The mesh with at most `maximumTriangles`: quadric edge collapse (Garland and Heckbert,
-  /// SIGGRAPH 1997) that keeps the topology, outlines and sides of the surface; then its vertices
-  /// are moved to where it is nearest to the surface before (after Hoppe et al., SIGGRAPH 1993).
+  /// The mesh reduced to at most `maximumTriangles`: quadric edge collapse (Garland and Heckbert,
+  /// SIGGRAPH 1997) that preserves the topology, boundaries and orientation of the surface; then a
+  /// least-squares fit of its vertices to the original surface (after Hoppe et al., SIGGRAPH 1993).
   ///
-  /// Duplicate and degenerate triangles are dropped in any case. Colours and normals are not
-  /// carried over. Where the topology forbids enough collapses, the smallest pieces go.
+  /// Duplicate and degenerate triangles are always dropped. Colors and normals are not carried
+  /// over. If the topology prevents enough collapses, the smallest components are removed.
   package func simplified(
     maximumTriangles: Int, _ control: KernelControl
   ) throws -> Mesh {

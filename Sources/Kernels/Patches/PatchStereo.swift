@@ -1,9 +1,11 @@
 import CKernels
 import SceneModel
 
-/// A sparse point in a view: pixel of the view and inverse depth.
+/// A sparse point in a view: pixel position and inverse depth.
 package struct PatchSeed: Hashable, Sendable {
+  /// Pixel coordinates, origin at the top-left corner of the view.
   package var pixel: SIMD2<Float>
+  /// 1 / z in the camera frame.
   package var inverseDepth: Float
 
   package init(pixel: SIMD2<Float>, inverseDepth: Float) {
@@ -12,12 +14,15 @@ package struct PatchSeed: Hashable, Sendable {
   }
 }
 
-/// The patch of one pixel: a plane as its inverse depth at the pixel's centre and the gradient of
-/// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
+/// The patch of one pixel: a plane given by its inverse depth at the pixel's center and the
+/// gradient of the inverse depth over the pixel grid. An inverse depth of 0 means that there is no
+/// patch.
 package struct Patch: Hashable, Sendable {
+  /// 1 / z in the camera frame, at the pixel's center.
   package var inverseDepth: Float
+  /// Change of the inverse depth per pixel in x and y.
   package var gradient: SIMD2<Float>
-  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
+  /// 1 − ZNCC, the mean of the best two sources; 2 without a patch.
   package var cost: Float
 
   package init(inverseDepth: Float, gradient: SIMD2<Float>, cost: Float) {
@@ -27,13 +32,13 @@ package struct Patch: Hashable, Sendable {
   }
 }
 
-/// The patches of one view, and which of them were accepted.
+/// The patches of one view, and which of them the filter accepted.
 package final class PatchMap: @unchecked Sendable {
   package let view: PatchView
-  // Written by one call at a time; `PatchStereo` says in which order calls go.
+  // Written by one call at a time; `PatchStereo` documents the order of calls.
   let patches: UnsafeMutablePointer<ck_patch>
   let states: UnsafeMutablePointer<UInt8>
-  /// The neighbours that agree with each patch, where `filter` was asked to tell.
+  /// Bit mask of the neighbors that confirm each patch; nil unless `filter` recorded it.
   private(set) var visibility: UnsafeMutablePointer<UInt8>?
   var count: Int { view.width * view.height }
 
@@ -48,7 +53,7 @@ package final class PatchMap: @unchecked Sendable {
     states.initialize(repeating: 0, count: count)
   }
 
-  /// A map whose patches `fill` puts into the buffer that it is given, as `patchBytes` has them.
+  /// A map whose patches `fill` writes to the given buffer, in the layout of `patchBytes`.
   package init(view: PatchView, fill: (UnsafeMutableRawBufferPointer) throws -> Void) rethrows {
     self.view = view
     let count = view.width * view.height
@@ -65,33 +70,32 @@ package final class PatchMap: @unchecked Sendable {
     visibility?.deallocate()
   }
 
-  /// Makes room for what `visibility` tells.
+  /// Allocates `visibility`.
   func makeVisibility() {
     guard visibility == nil else { return }
     visibility = .allocate(capacity: count)
     visibility?.initialize(repeating: 0, count: count)
   }
 
-  /// The C map, valid as long as this object lives. Without visibility: of a neighbour it may just be
-  /// made room for.
+  /// The C map, valid as long as this object lives. Without visibility: another thread may just be
+  /// allocating that of a neighbor.
   var raw: ck_patch_map {
     ck_patch_map(
       photo: Int32(view.photo.index), view: view.raw, rgb: view.rgb, patches: patches,
       states: states, visibility: nil)
   }
 
-  /// All patches as they are in memory, in the machine's byte order; valid as long as this object
-  /// lives.
+  /// All patches in memory layout and native byte order; valid as long as this object lives.
   package var patchBytes: UnsafeRawBufferPointer {
     UnsafeRawBufferPointer(start: patches, count: count * MemoryLayout<ck_patch>.stride)
   }
 
-  /// What became of each patch in the filter, a byte each; valid as long as this object lives.
+  /// The filter's result for each patch, one byte each; valid as long as this object lives.
   package var stateBytes: UnsafeMutableRawBufferPointer {
     UnsafeMutableRawBufferPointer(start: states, count: count)
   }
 
-  /// Bytes that a map and its view take a pixel.
+  /// Bytes per pixel of a map and its view.
   package static let bytesPerPixel = MemoryLayout<ck_patch>.stride + 5
 
   /// The patch at column `x`, row `y`.
@@ -109,8 +113,8 @@ package final class PatchMap: @unchecked Sendable {
     }
   }
 
-  /// Removes the patches of pixels that are below `least` in a mask, gray and of the view's size. Not
-  /// for a map that another thread may read.
+  /// Removes the patches of pixels below `least` in a mask, gray and of the view's size. Must not
+  /// be called on a map that another thread may read.
   package func removePatches(outside mask: RasterImage, least: UInt8 = 128) throws {
     guard (mask.width, mask.height, mask.channels) == (view.width, view.height, 1) else {
       throw KernelError.invalidArgument("the mask is not gray or not of the view's size")
@@ -120,64 +124,68 @@ package final class PatchMap: @unchecked Sendable {
     }
   }
 
-  /// Patches that passed the filter.
+  /// Number of patches that passed the filter.
   package var acceptedCount: Int { (0..<count).reduce(0) { $0 + (states[$1] != 0 ? 1 : 0) } }
 
+  /// Whether the filter accepted the patch at column `x`, row `y`.
   package func isAccepted(_ x: Int, _ y: Int) -> Bool { states[y * view.width + x] != 0 }
 }
 
 /// Patch multi-view stereo on pinhole views (Furukawa and Ponce, PAMI 2010).
 package enum PatchStereo {
-  /// How patches are made.
+  /// Parameters of patch optimization.
   package struct Options: Hashable, Codable, Sendable {
-    /// Resolutions, each half of the next, from that of the view down.
+    /// Number of resolution levels, each half of the previous one, starting with the view's.
     package var levelCount = 4
-    /// Sweeps of expansion at the coarsest level.
+    /// Propagation sweeps at the coarsest level.
     package var coarseSweeps = 2
     /// Random planes tried around the current one at the coarsest level.
     package var perturbations = 3
     /// Gauss–Newton steps.
     package var refinementSteps = 2
-    /// Grey levels at which the bilateral weight is one half.
+    /// Gray-level difference at which the bilateral weight is one half.
     package var bilateralContrast: Float = 6
-    /// Views offer each other their patches.
+    /// Whether views propagate patches to each other.
     package var expandsAcrossViews = true
-    /// Patches follow the surface instead of facing the camera.
+    /// Whether patches follow the surface instead of being fronto-parallel.
     package var estimatesNormals = true
+    /// Seed of the random perturbations.
     package var seed: UInt32 = 1
-    /// Of the inner loops; results differ by rounding only.
+    /// Of the inner loops; results differ only by rounding.
     package var instructions = Instructions.automatic
 
     package init() {}
   }
 
-  /// Which patches are kept and how they are joined.
+  /// Parameters of filtering and fusing patches.
   package struct FilterOptions: Hashable, Codable, Sendable {
-    /// Largest 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm.
+    /// Maximum 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm.
     package var photometricThreshold: Float = 0.5
-    /// Largest 1 − ZNCC of a patch; between the two thresholds, where texture is weak, one more view
-    /// must agree.
+    /// Maximum 1 − ZNCC of any patch; between the two thresholds, where texture is weak, one more
+    /// view must agree.
     package var weakTextureThreshold: Float = 0.6
-    /// Other views that must agree; all but one where there are fewer, but always one.
+    /// Number of other views that must agree; with fewer views all but one, but at least one.
     package var minimumAgreeingViews = 2
-    /// Pixels of disparity between a patch and its confirmation, in the coarser view: what that means
-    /// for depth follows from the parallax.
+    /// Maximum disparity in pixels between a patch and its confirmation, in the coarser view; the
+    /// parallax determines the corresponding depth difference.
     package var reprojectionThreshold: Float = 0.6
-    /// Relative difference of depth, where the parallax is small.
+    /// Maximum relative difference of depth, for small parallax.
     package var depthThreshold: Float = 0.01
-    /// Largest angle between normals in degrees.
+    /// Maximum angle between normals in degrees.
     package var normalThresholdDegrees: Float = 60
-    /// Relative distance behind a patch at which another view sees through it.
+    /// Relative distance behind a patch at which another view sees through it (a free-space
+    /// violation).
     package var contradictionThreshold: Float = 0.01
-    /// How often pixels that look like their rejected neighbours are peeled off the border.
+    /// Number of erosion passes that remove boundary pixels similar to their rejected neighbors
+    /// (foreground fattening).
     package var fringePasses = 1
-    /// Grey levels that make a pixel half like another.
+    /// Gray-level difference at which the similarity of two pixels is one half.
     package var fringeContrast: Float = 10
-    /// Connected patches fewer than this are removed.
+    /// Connected components with fewer patches are removed.
     package var minimumIsland: Int
-    /// Pixels within which confirmations are fused.
+    /// Maximum distance in pixels of patches that are fused.
     package var fusionThreshold: Float = 0.6
-    /// Of the inner loops; results differ by rounding only.
+    /// Of the inner loops; results differ only by rounding.
     package var instructions = Instructions.automatic
 
     package init(minimumIsland: Int = 30) {
@@ -185,10 +193,11 @@ package enum PatchStereo {
     }
   }
 
-  /// Views that one reference is compared with at most.
+  /// Maximum number of source views of a reference view.
   package static let maximumSources = 8
 
-  /// Makes the patches of `map`'s view from its seeds and the source views, the best first.
+  /// Computes the patches of `map`'s view from its seeds and the source views, best first. Throws
+  /// `KernelError.degenerate` without usable seeds.
   package static func reconstruct(
     _ map: PatchMap, sources: [PatchView], seeds: [PatchSeed], options: Options,
     control: KernelControl
@@ -207,8 +216,8 @@ package enum PatchStereo {
     withExtendedLifetime(sources) {}
   }
 
-  /// Makes the patches of `map`'s view from those at half the resolution, which the filter has judged
-  /// with visibility. `sources` are as they were for them, in the same order.
+  /// Computes the patches of `map`'s view from those at half the resolution, which must have been
+  /// filtered with `recordsVisibility`. `sources` must be in the same order as for that filter.
   package static func refine(
     _ map: PatchMap, from coarse: PatchMap, sources: [PatchView], options: Options,
     control: KernelControl
@@ -224,8 +233,9 @@ package enum PatchStereo {
     }
   }
 
-  /// Marks the patches of `map` that enough of its neighbours confirm and no more contradict; `refine`
-  /// wants to know which do, too.
+  /// Marks the patches of `map` that enough of its neighbors confirm and not too many contradict
+  /// (geometric consistency). With `recordsVisibility`, also stores which neighbors confirm each
+  /// patch, for `refine`.
   package static func filter(
     _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, tellsVisibility: Bool = false,
     control: KernelControl
@@ -241,10 +251,10 @@ package enum PatchStereo {
     }
   }
 
-  /// Expands patches across views and into holes: the patches of `map` with better ones, taken from
-  /// its neighbours and from those beside them, where the filter rejected them; near edges of the
-  /// surface they are made anew, of the texels on their side. Call once the map and all its neighbours
-  /// are filtered; the filter has to judge the result anew.
+  /// Expands patches across views and into holes: where the filter rejected patches of `map`, tries
+  /// those of its neighbor views and of adjacent pixels; near depth edges, patches are re-estimated
+  /// from the texels on their side. The map and all its neighbors must be filtered; the result must
+  /// be filtered again.
   package static func complete(
     _ map: PatchMap, neighbors: [PatchMap], options: Options, control: KernelControl
   ) throws -> PatchMap {
@@ -260,10 +270,11 @@ package enum PatchStereo {
     return completed
   }
 
-  /// Fuses the accepted patches of `map` with those of its neighbours that agree with them.
+  /// Fuses the accepted patches of `map` with the consistent ones of its neighbors, in the world
+  /// frame.
   ///
-  /// Call once the map and all its neighbours are filtered. A piece of surface that several views show
-  /// becomes a point of the view that shows it finest, so that maps are fused in any order.
+  /// The map and all its neighbors must be filtered. Surface that several views observe becomes a
+  /// point of the view with the highest resolution there, so that maps can be fused in any order.
   package static func fuse(
     _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, control: KernelControl
   ) throws -> PointCloud {

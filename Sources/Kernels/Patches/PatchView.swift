@@ -1,21 +1,24 @@
 import CKernels
 import SceneModel
 
-/// A view ready for patch stereo: its luma and colours at fixed addresses, and its camera.
+/// A view prepared for patch stereo: luma and colors at fixed addresses, and its camera.
 package final class PatchView: @unchecked Sendable {
   package let photo: ID<Photo>
+  /// Pinhole camera of the view, without distortion.
   package let camera: Camera
+  /// The pose of the photo.
   package let cameraFromWorld: RigidTransform
+  /// Pixels.
   package let width: Int
   package let height: Int
-  /// Standard deviation of the luma's noise in grey levels.
+  /// Standard deviation of the luma noise in gray levels.
   package let noise: Float
-  // Written in `init` only, which makes sharing between threads safe.
+  // Written only in `init`, so that sharing between threads is safe.
   let luma: UnsafeMutablePointer<UInt8>
-  /// None in a view that was halved: colours are taken from the whole one.
+  /// Nil in a halved view: colors are taken from the full one.
   let rgb: UnsafeMutablePointer<UInt8>?
 
-  /// The view as it is in memory; its noise is estimated where it isn't known.
+  /// A copy of an image in memory; `noise` is estimated if nil.
   package convenience init(_ view: PinholeView, noise: Float? = nil) {
     self.init(
       photo: view.photo, camera: view.camera, cameraFromWorld: view.cameraFromWorld,
@@ -25,7 +28,7 @@ package final class PatchView: @unchecked Sendable {
     }
   }
 
-  /// A view whose pixels, RGB, `fill` puts into the buffer that it is given.
+  /// A view whose RGB pixels `fill` writes to the given buffer.
   package init(
     photo: ID<Photo>, camera: Camera, cameraFromWorld: RigidTransform, width: Int, height: Int,
     noise: Float? = nil, fill: (UnsafeMutableRawBufferPointer) throws -> Void
@@ -65,14 +68,14 @@ package final class PatchView: @unchecked Sendable {
     camera.focalLength *= 0.5
     camera.principalPoint *= 0.5
     self.camera = camera
-    // Of the mean of four pixels.
+    // Averaging four pixels halves the noise.
     noise = view.noise / 2
     rgb = nil
     luma = .allocate(capacity: width * height)
     ck_patches_halve(luma, view.luma, Int32(view.width), Int32(view.height))
   }
 
-  /// The pixels, RGB, none of a halved view; valid as long as this object lives.
+  /// The RGB pixels, empty for a halved view; valid as long as this object lives.
   package var rgbBytes: UnsafeRawBufferPointer {
     UnsafeRawBufferPointer(start: rgb, count: rgb == nil ? 0 : 3 * width * height)
   }

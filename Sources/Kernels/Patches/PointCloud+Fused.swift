@@ -2,10 +2,11 @@ import CKernels
 import Foundation
 import SceneModel
 
+/// The cosine of an angle in degrees.
 func cosine(degrees: Float) -> Float { cos(degrees * .pi / 180) }
 
 extension PointCloud {
-  /// The cloud of fused patches.
+  /// Converts fused patches to a cloud.
   init(_ fused: ArraySlice<ck_fused_patch>) {
     self.init()
     positions.reserveCapacity(fused.count)

@@ -1,18 +1,18 @@
 import CKernels
 import SceneModel
 
-/// Finds small squares of texture again in other photos, to a few hundredths of a pixel.
+/// Locates small square templates in other photos, to a few hundredths of a pixel.
 ///
 /// Least squares matching (Gruen, "Adaptive least squares correlation", 1985) of position, gain and
-/// offset in the inverse compositional form (Baker and Matthews, IJCV 2004). The shape of the square in
-/// the other photo is given, not estimated: where the geometry is known, every free parameter less
-/// makes the position better.
+/// offset in the inverse compositional form (Baker and Matthews, IJCV 2004). The shape of the
+/// square in the other photo is given, not estimated: where the geometry is known, each parameter
+/// less improves the accuracy of the position.
 package struct TemplateMatching: Hashable, Codable, Sendable {
   /// A square around a pixel.
   package struct Place: Hashable, Sendable {
-    /// The centre in pixels, origin at the top-left corner.
+    /// The center in pixels, origin at the top-left corner.
     package var center: SIMD2<Double>
-    /// Pixels from one of the 11 × 11 samples to the next.
+    /// Pixel spacing of the 11 × 11 samples.
     package var step: Double
 
     package init(center: SIMD2<Double>, step: Double) {
@@ -21,19 +21,19 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     }
   }
 
-  /// Textures of squares, in the order of their places.
+  /// Sampled textures of squares, in the order of their places.
   package struct Templates: Sendable {
     fileprivate var samples: [UInt16]
-    /// Whether each lies within its photo and holds texture in two directions.
+    /// Whether each lies within its photo and has texture in two directions.
     package fileprivate(set) var isValid: [Bool]
 
-    /// No template of any place.
+    /// `count` invalid templates.
     package init(count: Int) {
       samples = Array(repeating: 0, count: count * Int(CK_TEMPLATE_SAMPLES))
       isValid = Array(repeating: false, count: count)
     }
 
-    /// Takes over all of `other`: its template i becomes number `indices[i]`.
+    /// Copies all of `other`: its template i becomes number `indices[i]`.
     package mutating func insert(_ other: Templates, at indices: [Int]) {
       let size = Int(CK_TEMPLATE_SAMPLES)
       for (source, target) in indices.enumerated() {
@@ -45,15 +45,16 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     }
   }
 
-  /// Where a template is expected.
+  /// A template and where it is expected.
   package struct Search: Hashable, Sendable {
     /// Index of the template.
     package var template: Int
-    /// Pixels of the template's photo from one sample to the next.
+    /// Sample spacing in pixels of the template's photo.
     package var step: Double
-    /// The derivative, by rows, of the pixel in the searched photo by the pixel in the template's.
+    /// The Jacobian, in row order, of the pixel in the searched photo with respect to the pixel in
+    /// the template's photo.
     package var warp: SIMD4<Double>
-    /// The expected centre in pixels of the searched photo.
+    /// The expected center in pixels of the searched photo.
     package var expected: SIMD2<Double>
 
     package init(
@@ -66,19 +67,20 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     }
   }
 
-  /// Where a template was found.
+  /// A located template.
   package struct Find: Hashable, Sendable {
+    /// Pixels of the searched photo, origin at the top-left corner.
     package var center: SIMD2<Double>
-    /// Zero-mean normalised cross-correlation, at most 1.
+    /// Zero-mean normalized cross-correlation, at most 1.
     package var zncc: Double
   }
 
-  /// Pixels from the expected centre at which a search gives up.
+  /// Maximum distance in pixels from the expected center.
   package var maximumShift = 3.0
 
   package init() {}
 
-  /// The textures of squares of one photo.
+  /// Samples the templates of one photo.
   package static func templates(of places: [Place], in image: RasterImage) throws -> Templates {
     var templates = Templates(count: places.count)
     var valid = [UInt8](repeating: 0, count: places.count)
@@ -92,7 +94,8 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     return templates
   }
 
-  /// Each search's find in one photo; nil where it left the photo, its surroundings or didn't settle.
+  /// The match of each search in one photo; nil if it left the photo or its surroundings, or didn't
+  /// converge.
   package func finds(
     _ searches: [Search], of templates: Templates, in image: RasterImage
   ) throws -> [Find?] {

@@ -1,16 +1,17 @@
 import CKernels
 import SceneModel
 
-/// Finds the pose of a photo from pixels and the points that they see: LO-RANSAC on P3P.
+/// Estimates the pose of a photo from 2-D–3-D correspondences: LO-RANSAC with P3P.
 package struct Resection: Sendable {
+  /// RANSAC parameters.
   package struct Options: Hashable, Codable, Sendable {
-    /// Largest reprojection error of an inlier in pixels.
+    /// Maximum reprojection error of an inlier in pixels.
     package var maximumError = 8.0
-    /// Hypotheses drawn at most.
+    /// Maximum number of hypotheses.
     package var maximumIterations = 1000
-    /// Stops when the best hypothesis is the best of all with this probability.
+    /// Stops when the best hypothesis is optimal with this probability.
     package var confidence = 0.99999
-    /// Fewer inliers are no pose.
+    /// With fewer inliers there is no pose.
     package var minimumInliers = 15
     /// Seed of the random samples.
     package var seed: UInt64 = 0
@@ -18,9 +19,10 @@ package struct Resection: Sendable {
     package init() {}
   }
 
+  /// The estimated pose and its inliers.
   package struct Result: Sendable {
     package var cameraFromWorld: RigidTransform
-    /// One value for each pixel.
+    /// One value per correspondence.
     package var isInlier: [Bool]
     package var inlierCount: Int
   }
@@ -29,9 +31,10 @@ package struct Resection: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The pose that most of the pairs of pixel and point agree on.
+  /// The pose with the most inliers among the correspondences of `pixels` and `points` (world
+  /// frame).
   ///
-  /// Throws `KernelError.degenerate` where no pose has enough inliers.
+  /// Throws `KernelError.degenerate` if no pose has enough inliers.
   package func run(
     pixels: [SIMD2<Double>], points: [SIMD3<Double>], camera: Camera,
     control: KernelControl = KernelControl()

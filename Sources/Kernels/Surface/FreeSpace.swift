@@ -1,16 +1,16 @@
 import CKernels
 import SceneModel
 
-/// How many photos look through each part of space at something behind it.
+/// Counts the photos that see through each cell of a grid to a surface behind it.
 package struct FreeSpace: Sendable {
   private let grid: ck_free_space_grid
   private let counts: [UInt8]
 
-  /// Follows the rays of all photos to the points of `cloud` that they see.
+  /// Traces the rays of all photos to the points of `cloud` that they observe.
   ///
-  /// `clearances` holds for each point how far before it a ray ends, `centers` the camera centre of
-  /// each photo in the world. Cells have a side of `cellSize`, or more where the box between `low`
-  /// and `high` would have more than `maximumCells` a side.
+  /// `clearances` holds, for each point, how far in front of it a ray ends, in world units;
+  /// `centers` the camera center of each photo in the world frame. Cells have a side of `cellSize`,
+  /// or more where the box between `low` and `high` would exceed `maximumCells` per side.
   package init(
     low: SIMD3<Float>, high: SIMD3<Float>, cellSize: Double, maximumCells: Int = 320,
     cloud: PointCloud, clearances: [Float], centers: [SIMD3<Float>], _ control: KernelControl
@@ -44,7 +44,8 @@ package struct FreeSpace: Sendable {
   /// Side of the cells in world units.
   package var cellSize: Double { grid.cell_size }
 
-  /// The photos that look through the cell around a point, up to 255; 0 outside the box.
+  /// The number of photos that see through the cell containing a point, at most 255; 0 outside the
+  /// box.
   package func photos(at point: SIMD3<Float>) -> Int {
     let (origin, size) = (grid.origin, grid.size)
     let x = ((Double(point.x) - origin.0) / grid.cell_size).rounded(.down)

@@ -1,16 +1,16 @@
 import CKernels
 import SceneModel
 
-/// The nearest points of a set for each of many queries.
+/// The k nearest points of a set for each query.
 package struct NearestPoints: Sendable {
-  /// Neighbours of a query.
+  /// Number of neighbors per query.
   package let neighbours: Int
-  /// `neighbours` indices a query, the nearest first; −1 where there are fewer.
+  /// `neighbors` indices per query, nearest first; −1 if there are fewer.
   package let indices: [Int32]
-  /// The distances that go with `indices`; infinite where there are fewer.
+  /// The distances corresponding to `indices`; infinite if there are fewer.
   package let distances: [Float]
 
-  /// Finds the nearest `neighbours` of `points` within `maximumDistance` of every query.
+  /// Finds the nearest `neighbors` of `points` within `maximumDistance` of every query.
   package init(
     of queries: [SIMD3<Float>], in points: [SIMD3<Float>], neighbours: Int = 1,
     maximumDistance: Double = .infinity, _ control: KernelControl

@@ -3,22 +3,24 @@ import SceneModel
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013).
 package struct PoissonReconstruction: Hashable, Codable, Sendable {
-  /// Levels of the octree: the finest cells have a side of `scale × extent / 2^depth`.
+  /// Octree depth: the smallest cells have a side of `scale × extent / 2^depth`.
   package var depth = 9
-  /// Side of the cube that is solved in, in units of the points' largest extent.
+  /// Side of the solved cube relative to the points' largest extent.
   package var scale = 1.1
 
   package init() {}
 
-  /// A surface and how well its points are supported.
+  /// A surface with the sample density at its vertices.
   package struct Surface: Sendable {
-    /// Positions and triangles only, counter-clockwise seen from where the normals point.
+    /// Positions and triangles only, counter-clockwise seen from the side that the normals point
+    /// to.
     package var mesh: Mesh
-    /// The depth of the octree that the samples around each vertex support.
+    /// The octree depth that the samples around each vertex support.
     package var densities: [Float]
   }
 
-  /// The surface of oriented points; points that are not finite or have no normal are left out.
+  /// Reconstructs the surface of oriented points; points that are not finite or have no normal are
+  /// ignored.
   package func surface(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], _ control: KernelControl
   ) throws -> Surface {
@@ -41,7 +43,7 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
   }
 }
 
-/// Owns a mesh that a kernel made.
+/// Owns a mesh allocated by a kernel.
 private final class SurfaceHandle {
   private let raw: OpaquePointer
 
@@ -69,6 +71,6 @@ private final class SurfaceHandle {
 }
 
 extension UnsafeRawBufferPointer {
-  /// The buffer as floats.
+  /// The buffer's memory as floats.
   var floats: UnsafePointer<Float>? { baseAddress?.assumingMemoryBound(to: Float.self) }
 }

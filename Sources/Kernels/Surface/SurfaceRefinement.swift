@@ -1,27 +1,29 @@
 import CKernels
 import SceneModel
 
-/// A surface that is being fitted to photos: its vertices move along their normals to where the
-/// photos agree (after Vu, Keriven, Labatut and Pons, "High Accuracy and Visibility-Consistent Dense
+/// Photometric refinement of a surface: its vertices move along their normals to where the photos
+/// agree (after Vu, Keriven, Labatut and Pons, "High Accuracy and Visibility-Consistent Dense
 /// Multiview Stereo", PAMI 2012).
 ///
-/// Each photo is drawn as another one would show it by way of the surface, and compared with that in
-/// windows. The differences' least squares along the normals (Gauss–Newton) and the least bending of
-/// the surface are found together; bending gives way at creases. Use it from one thread.
+/// Each photo is reprojected into another one via the surface, and compared with it in windows.
+/// Photometric differences along the normals (Gauss–Newton) and bending energy are minimized
+/// jointly; the bending term is relaxed at creases. Not thread-safe.
 package final class SurfaceRefinement {
+  /// Parameters of the refinement.
   package struct Options: Hashable, Codable, Sendable {
-    /// Times that photos are compared and vertices moved, each by half a pixel at most.
+    /// Number of rounds of comparing photos and moving vertices by at most half a pixel.
     package var rounds = 3
-    /// Photos that each photo is compared with, at most.
+    /// Maximum number of photos that each photo is compared with.
     package var neighbours = 8
-    /// Photos are compared by what stands out from windows of `2 × radius + 1` pixels a side.
+    /// Window radius: photos are compared after subtracting the means of windows of `2 × radius +
+    /// 1` pixels a side.
     package var radius = 6
-    /// Standard deviation of luminance, 0…255, below which a window has no texture: some two or three
-    /// times the noise of photos.
+    /// Standard deviation of luminance, 0…255, below which a window counts as untextured; two to
+    /// three times the noise of photos.
     package var noise: Float = 6
-    /// Windows with a smaller correlation show something else, or noise.
+    /// Windows with a lower correlation are ignored: they show different surfaces, or noise.
     package var minimumCorrelation: Float = 0.4
-    /// Weight of smoothness against the photos, for edges of the length of a pixel.
+    /// Weight of smoothness relative to the photos, for edges of one pixel length.
     package var smoothness: Float = 100
 
     package init() {}
@@ -30,8 +32,8 @@ package final class SurfaceRefinement {
   private let handle: OpaquePointer
   private let mesh: Mesh
 
-  /// Throws `KernelError.invalidArgument` for a mesh without triangles or with bad values, and for
-  /// options out of range.
+  /// Throws `KernelError.invalidArgument` for a mesh without triangles or with invalid values, and
+  /// for options out of range.
   package init(_ mesh: Mesh, options: Options = Options(), _ control: KernelControl) throws {
     var handle: OpaquePointer?
     var raw = ck_photo_refinement_options(
@@ -55,12 +57,12 @@ package final class SurfaceRefinement {
 
   deinit { ck_photo_refinement_free(handle) }
 
-  /// Adds a photo; what its mask leaves out isn't compared. Keeps two bytes a pixel.
+  /// Adds a photo; pixels outside its mask are not compared. Stores two bytes per pixel.
   package func add(_ view: PinholeView, _ control: KernelControl) throws {
     let (image, mask) = (view.image, view.mask)
     guard image.channels == 3, mask.map({ $0.isGray(ofTheSizeOf: image) }) ?? true else {
       throw KernelError.invalidArgument(
-        "the view isn't in colour, or its mask is not gray or not of its size")
+        "the view isn't in color, or its mask is not gray or not of its size")
     }
     var pinhole = ck_pinhole(view)
     try withKernel(control) { control in
@@ -68,8 +70,9 @@ package final class SurfaceRefinement {
     }
   }
 
-  /// The mesh with its vertices moved, and how many of them the photos determine. Those at borders
-  /// stay, and those where no two photos show texture. Normals are those of before.
+  /// The mesh with moved vertices, and the number of vertices that the photos determine. Boundary
+  /// vertices are fixed, as are those where fewer than two photos show texture. Normals are not
+  /// updated.
   package func run(_ control: KernelControl) throws -> (mesh: Mesh, moved: Int) {
     var result = mesh
     var moved = 0

@@ -1,19 +1,21 @@
 import CKernels
 import SceneModel
 
-/// Points sorted into the cells of a cubic grid.
+/// Points assigned to the cells of a cubic grid.
 package struct VoxelGrid: Sendable {
-  /// Every point's cell, numbered in lexicographic order of (level, x, y, z); −1 where the point
-  /// is not finite.
+  /// Every point's cell, numbered in lexicographic order of (level, x, y, z); −1 for points that
+  /// are not finite.
   package var cells: [Int32]
+  /// Number of occupied cells.
   package var cellCount: Int
-  /// Every point's component of touching cells (26 neighbours), numbered by their first cell; empty
-  /// unless asked for.
+  /// Every point's connected component of cells (26-neighborhood), numbered by their first cell;
+  /// empty unless requested.
   package var components: [Int32] = []
+  /// Number of components; 0 unless requested.
   package var componentCount = 0
 
-  /// Sorts `positions` into cells of side `cellSize`, or of `cellSize · 2^level` where there are
-  /// `levels`; cells of different levels don't touch.
+  /// Assigns `positions` to cells of side `cellSize`, or `cellSize · 2^level` with `levels`; cells
+  /// of different levels are not connected.
   package init(
     _ positions: [SIMD3<Float>], cellSize: Double, levels: [Int8]? = nil,
     findsComponents: Bool = false, _ control: KernelControl

@@ -1,12 +1,13 @@
 import CKernels
 import SceneModel
 
-/// How much of a view goes into one triangle.
+/// The weights and color offsets of a view in one triangle.
 package struct FacePaint: Sendable {
+  /// Index of the triangle.
   package var face: Int32
-  /// At each corner; over all views they add up to 1.
+  /// At each corner; they sum to 1 over all views.
   package var weights: SIMD3<Float>
-  /// RGB that is added to the photo's, at each corner.
+  /// RGB offsets, 0…255, added to the photo's colors at each corner.
   package var offsets: (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)
 
   package init(
@@ -20,15 +21,16 @@ package struct FacePaint: Sendable {
 
 /// A texture atlas that is painted view by view.
 ///
-/// Not for use from several threads; kernels use the control's threads inside.
+/// Not thread-safe; kernels use the control's threads internally.
 package final class TextureCanvas {
+  /// Texels per side of the square texture.
   package let side: Int
-  /// The surface that carries the texture; the kernel reads it as long as the canvas lives.
+  /// The textured surface; the kernel reads it as long as the canvas lives.
   private let scene: RayScene
   private let handle: OpaquePointer
 
-  /// `corners` are the texel coordinates, y down, of each triangle's three corners. Texels up to
-  /// `gutter` beside a chart belong to it as well.
+  /// `corners` are the texel coordinates, y down, of each triangle's three corners. Charts are
+  /// extended by `gutter` texels.
   package init(
     _ scene: RayScene, corners: [SIMD2<Float>], side: Int, gutter: Int = 2,
     _ control: KernelControl
@@ -55,10 +57,10 @@ package final class TextureCanvas {
     Double(ck_atlas_covered_count(handle)) / Double(side * side)
   }
 
-  /// Texels that several triangles claim.
+  /// Number of texels covered by several triangles.
   package var overlapCount: Int { ck_atlas_overlap_count(handle) }
 
-  /// Adds a view's colours, times `gain`; without a view the offsets alone.
+  /// Adds a view's colors, multiplied by `gain`; without a view, only the offsets.
   package func paint(
     _ paints: [FacePaint], from view: PinholeView?, gain: SIMD3<Float> = .one,
     _ control: KernelControl
@@ -80,14 +82,14 @@ package final class TextureCanvas {
     }
   }
 
-  /// The colours painted so far, the space between charts filled from their rims.
+  /// The accumulated colors, RGB, with the space between charts filled from their boundaries.
   package func colors(_ control: KernelControl) throws -> RasterImage {
     var result = RasterImage(width: side, height: side, channels: 3)
     try withKernel(control) { ck_atlas_copy_colors(handle, $0, &result.pixels) }
     return result
   }
 
-  /// The dense surface's normals and its distance, as seen from the surface that is textured.
+  /// Bakes the dense surface's normals, and its distance as seen from the textured surface.
   package func bake(
     _ source: BakeSource, displacement: Bool, _ control: KernelControl
   ) throws -> (normals: RasterImage, displacement: RasterImage?) {
@@ -102,10 +104,10 @@ package final class TextureCanvas {
     return (image, heights)
   }
 
-  /// The share of the sky that the dense surface leaves open above each texel within
-  /// `maximumDistance`, cosine-weighted; 255 is all of it.
+  /// Ambient occlusion: the cosine-weighted share of the hemisphere above each texel that the dense
+  /// surface leaves unoccluded within `maximumDistance`; 255 is unoccluded.
   ///
-  /// Texels share rays with those around them, 16 times `raysPerTexel` in all.
+  /// Texels share rays with adjacent ones, 16 × `raysPerTexel` in total.
   package func occlusion(
     _ source: BakeSource, raysPerTexel: Int, maximumDistance: Float, _ control: KernelControl
   ) throws -> RasterImage {
@@ -117,6 +119,7 @@ package final class TextureCanvas {
     return image
   }
 
+  /// Calls `body` with the C representation of a bake source, valid only during the call.
   private func with(
     _ source: BakeSource, _ control: KernelControl,
     _ body: (inout ck_bake_source, UnsafePointer<ck_control>) -> ck_status
@@ -142,16 +145,17 @@ package final class TextureCanvas {
   }
 }
 
-/// What the maps are baked from that are not colour.
+/// Input for baking the non-color maps.
 package struct BakeSource: Sendable {
-  /// How far from the textured surface the dense one is looked for, in world units.
+  /// Maximum distance of the dense surface from the textured one, in world units.
   package var maximumDistance: Float
-  /// Unit normals of the textured surface, three a triangle.
+  /// Unit normals of the textured surface, three per triangle.
   package var cornerNormals: [SIMD3<Float>]
-  /// Unit tangents along u and the sign of the bitangent, three a triangle.
+  /// Unit tangents along u, with the sign of the bitangent; three per triangle.
   package var cornerTangents: [SIMD4<Float>]
+  /// The surface before simplification.
   package var dense: RayScene
-  /// The dense surface's normals, one for each of its positions.
+  /// The dense surface's unit normals, one per position.
   package var denseNormals: [SIMD3<Float>]
 
   package init(

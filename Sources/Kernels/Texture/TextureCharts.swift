@@ -1,20 +1,21 @@
 import CKernels
 import SceneModel
 
-/// Groups triangles into charts that can be laid flat without folding.
+/// Groups triangles into charts that can be flattened without folding.
 ///
 /// Hierarchical face clustering (Garland, Willmott and Heckbert, I3D 2001) on cones of normals,
-/// with borders that are then shortened level by level.
+/// with boundaries that are then shortened level by level.
 package struct ChartClustering: Hashable, Codable, Sendable {
-  /// Half the opening of the cone that holds the normals of a chart, in radians.
+  /// Maximum half-angle of the cone that contains the normals of a chart, in radians.
   package var maximumAngle: Float = 1
-  /// Charts with a smaller share of the surface's area are joined to a neighbour where that does
-  /// not fold them.
+  /// Charts with a smaller share of the surface's area are merged into a neighbor if that does not
+  /// fold them.
   package var minimumShare: Float = 2e-4
 
   package init() {}
 
-  /// The chart of each triangle, dense from 0, and the unit direction to project each chart along.
+  /// The chart of each triangle, numbered without gaps from 0, and the unit projection direction of
+  /// each chart.
   package func run(
     _ mesh: Mesh, _ control: KernelControl
   ) throws -> (charts: [Int32], axes: [SIMD3<Float>]) {
@@ -36,13 +37,15 @@ package struct ChartClustering: Hashable, Codable, Sendable {
   }
 }
 
-/// Where the packer put a chart: `texel = scale · R · plane + offset`, y down.
+/// The placement of a packed chart: `texel = scale · R · plane + offset`, y down.
 package struct ChartPlacement: Hashable, Sendable {
+  /// Texels per unit of length of the chart's plane.
   package var scale: Float
-  /// Turns by 90° from x to y.
+  /// Number of rotations by 90° from x to y.
   package var quarterTurns: Int
+  /// Texels.
   package var offset: SIMD2<Float>
-  /// The atlas that holds it.
+  /// Index of the atlas.
   package var atlas: Int
 
   /// The texel position of a point of the chart's plane.
@@ -59,14 +62,15 @@ package struct ChartPlacement: Hashable, Sendable {
   }
 }
 
-/// Packs charts by their shape into squares at the largest common scale.
+/// Packs charts by their shape into square atlases at the largest common scale.
 package struct ChartPacking: Hashable, Codable, Sendable {
-  /// Side of the squares in texels.
+  /// Side of the atlases in texels.
   package var side: Int
+  /// Maximum number of atlases.
   package var atlasCount: Int
   /// Empty texels between charts; half as many along the border.
   package var padding: Int
-  /// Upper bound of the texels a unit of length at density 1.
+  /// Maximum texels per unit of length at density 1.
   package var maximumScale: Float
 
   package init(side: Int, atlasCount: Int = 1, padding: Int, maximumScale: Float) {
@@ -76,8 +80,8 @@ package struct ChartPacking: Hashable, Codable, Sendable {
     self.maximumScale = maximumScale
   }
 
-  /// `corners` are the plane coordinates of each triangle's three corners, `density` scales the
-  /// charts relative to each other.
+  /// The placement of each chart. `corners` are the plane coordinates of each triangle's three
+  /// corners; `density` scales the charts relative to each other.
   package func run(
     corners: [SIMD2<Float>], charts: [Int32], density: [Float], _ control: KernelControl
   ) throws -> [ChartPlacement] {

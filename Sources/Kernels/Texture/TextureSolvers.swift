@@ -1,13 +1,16 @@
 import CKernels
 
-/// A choice of one label for each node of a graph in which neighbours should agree.
+/// Assigns one label to each node of a graph in which neighbors should agree.
 ///
-/// Potts model, minimised by sequential tree-reweighted message passing (Kolmogorov, PAMI 2006).
+/// Potts model, minimized by sequential tree-reweighted message passing (Kolmogorov, PAMI 2006).
 package struct LabelSelection: Sendable {
+  /// A pair of nodes that should have the same label.
   package struct Edge: Hashable, Sendable {
+    /// Index of a node.
     package var a: UInt32
+    /// Index of the other node.
     package var b: UInt32
-    /// What it costs when both ends have different labels.
+    /// Cost of different labels at the two ends.
     package var weight: Float
 
     package init(_ a: UInt32, _ b: UInt32, weight: Float) {
@@ -19,6 +22,7 @@ package struct LabelSelection: Sendable {
   private var offsets: [UInt32] = [0]
   private var labels: [Int32] = []
   private var costs: [Float] = []
+  /// The smoothness terms.
   package var edges: [Edge] = []
 
   package init() {}
@@ -49,9 +53,9 @@ package struct LabelSelection: Sendable {
   }
 }
 
-/// Linear least squares with three right sides and few unknowns in each equation.
+/// Sparse linear least squares with three right-hand sides.
 ///
-/// Collects the normal equations; solves them by conjugate gradients from zero.
+/// Accumulates the normal equations; solves them by conjugate gradients, starting from zero.
 package struct SparseLeastSquares: Sendable {
   package let unknownCount: Int
   private var rows: [UInt32] = []
@@ -86,14 +90,14 @@ package struct SparseLeastSquares: Sendable {
     entries.append(-weight)
   }
 
-  /// The unknowns. Every connected part needs one `add` with a value of its own.
+  /// The unknowns. Every connected component needs at least one `add` with an absolute value.
   package func solve(
     tolerance: Double = 1e-5, iterations: Int = 2000, _ control: KernelControl
   ) throws -> [SIMD3<Double>] {
     var values = rightSides.flatMap { [$0.x, $0.y, $0.z] }
     let indices = (0..<UInt32(unknownCount)).map { $0 }
     let (allRows, allColumns) = (rows + indices, columns + indices)
-    // A tiny weight keeps unknowns that no equation names at zero.
+    // A tiny weight keeps unknowns without equations at zero.
     let allEntries = entries + diagonal.map { max($0, 1e-12) }
     try withKernel(control) { control in
       ck_solve_sparse(

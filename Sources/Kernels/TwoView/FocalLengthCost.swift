@@ -1,12 +1,12 @@
 import CKernels
 import SceneModel
 
-/// What the matches of two photos of one camera say about its focal length.
+/// The cost of focal-length hypotheses, from the matches of two photos of one camera.
 package enum FocalLengthCost {
-  /// For each factor the sum of min(Sampson error², limit²) of the best pose when the focal length
-  /// is that many times the assumed one.
+  /// For each factor, the sum of min(Sampson error², limit²) of the best pose when the focal length
+  /// is the factor times the assumed one.
   ///
-  /// Points are at depth 1 with the assumed focal length; `fundamental` is their fundamental matrix.
+  /// Points are at depth 1 for the assumed focal length; `fundamental` is their fundamental matrix.
   package static func costs(
     _ first: [SIMD2<Double>], _ second: [SIMD2<Double>], fundamental: Matrix3,
     maximumError: Double, factors: [Double], _ control: KernelControl

@@ -1,19 +1,19 @@
 import CKernels
 import SceneModel
 
-/// The geometry of two views, estimated from matches of which some are wrong.
+/// The geometry of two views, robustly estimated from matches with outliers.
 package struct TwoViewGeometry: Sendable {
   /// Essential or fundamental matrix M of norm 1, `x₂ᵀ M x₁ = 0`.
   package var matrix: Matrix3
-  /// The translation has unit length. Of the nearest essential matrix if uncalibrated.
+  /// The translation has unit length. Decomposed from the nearest essential matrix if uncalibrated.
   package var secondFromFirst: RigidTransform
-  /// Indices of the matches that agree, ascending.
+  /// Indices of the inlier matches, ascending.
   package var inliers: [Int]
-  /// Inliers that one homography explains as well.
+  /// Number of inliers that are also consistent with one homography.
   package var homographyInlierCount: Int
   /// Median angle in radians between the rays of the inliers.
   package var medianAngle: Double
-  /// Samples that were drawn.
+  /// Number of samples drawn.
   package var iterations: Int
 }
 
@@ -21,19 +21,21 @@ package struct TwoViewGeometry: Sendable {
 ///
 /// Points are at depth 1 of the viewing rays: `Camera.unproject(_:)`.
 package struct TwoViewEstimation: Hashable, Codable, Sendable {
-  /// Essential matrix; false: fundamental matrix.
+  /// Whether to estimate an essential matrix; otherwise a fundamental matrix.
   package var isCalibrated = true
-  /// Largest Sampson error of an inlier in units of the points.
+  /// Maximum Sampson error of an inlier in units of the points.
   package var maximumError = 1e-3
-  /// Probability with which the best model is to be found.
+  /// Probability of finding the best model.
   package var confidence = 0.9999
   package var minimumIterations = 30
   package var maximumIterations = 1000
+  /// Seed of the random samples.
   package var seed: UInt64 = 0
 
   package init() {}
 
-  /// The geometry that agrees with most matches (the best first), nil where none can be had.
+  /// The geometry with the most inliers; matches must be sorted best first. Nil if estimation
+  /// fails.
   package func geometry(
     _ first: [SIMD2<Double>], _ second: [SIMD2<Double>], _ control: KernelControl
   ) throws -> TwoViewGeometry? {
@@ -62,14 +64,14 @@ package struct TwoViewEstimation: Hashable, Codable, Sendable {
     return TwoViewGeometry(result, inliers: inliers)
   }
 
-  /// All essential matrices through five matches (Nistér, PAMI 2004), each of norm 1.
+  /// All essential matrices consistent with five matches (Nistér, PAMI 2004), each of norm 1.
   package static func essentialMatrices(
     _ first: [SIMD2<Double>], _ second: [SIMD2<Double>]
   ) throws -> [Matrix3] {
     try minimalSolutions(first, second, sampleSize: 5, ck_five_point)
   }
 
-  /// All fundamental matrices through seven matches, each of norm 1.
+  /// All fundamental matrices consistent with seven matches, each of norm 1.
   package static func fundamentalMatrices(
     _ first: [SIMD2<Double>], _ second: [SIMD2<Double>]
   ) throws -> [Matrix3] {
@@ -100,7 +102,7 @@ package struct TwoViewEstimation: Hashable, Codable, Sendable {
   }
 }
 
-/// The coordinates of points one after the other.
+/// Calls `body` with the interleaved coordinates of points.
 func withCoordinates<Result>(
   _ points: [SIMD2<Double>], _ body: (UnsafeBufferPointer<Double>) -> Result
 ) -> Result {

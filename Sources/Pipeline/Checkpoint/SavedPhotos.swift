@@ -3,13 +3,13 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Reads the photos of an earlier run again: those that have a pose, as they were.
+/// Reads the photos of an earlier run again: those that have a pose, unchanged.
 struct SavedPhotos: Sendable {
-  /// Photo ids are those of the run's reconstruction. Throws `SavedRunError.changedPhotos` where a
-  /// file's content is another one.
+  /// Returns photos with the IDs of the run's reconstruction. Throws `SavedRunError.changedPhotos`
+  /// if the content of a file has changed.
   func run(_ saved: SavedRun, _ context: StageContext) throws -> IngestedPhotos {
     var options = PhotoIngestion.Options()
-    // All were accepted once, among others that they were compared with.
+    // All of them passed validation in the context of the full set.
     (options.blur.minimumShareOfMedian, options.blur.hopeless) = (0, 0)
     (options.duplicates.maximumBlockDifference, options.maximumPhotos) = (-1, .max)
     options.inspection.usesMasks = false
@@ -28,7 +28,7 @@ struct SavedPhotos: Sendable {
     return result
   }
 
-  /// Gives the photos the masks that the run used.
+  /// Restores the masks that the run used.
   private func addMasks(_ saved: SavedRun, to photos: inout [Photo]) throws {
     var changed: [String] = []
     for (index, entry) in saved.record.photos.enumerated() {
@@ -50,14 +50,14 @@ struct SavedPhotos: Sendable {
 }
 
 extension SavedRun {
-  /// Where a file of the run is now; one inside the folder of photos has moved with it.
+  /// The current location of a file of the run; files inside the folder of photos move with it.
   fileprivate func moved(_ file: URL) -> URL {
     let (path, folder) = (file.standardizedFileURL.path, record.photoFolder + "/")
     guard path.hasPrefix(folder) else { return file }
     return photoFolder.appendingPathComponent(String(path.dropFirst(folder.count)))
   }
 
-  /// The reconstruction of the photos that were read again.
+  /// The saved reconstruction with the photos that were read again.
   func reconstruction(of photos: IngestedPhotos) -> Reconstruction {
     var result = reconstruction
     result.worldFrame = record.worldFrame

@@ -4,9 +4,9 @@ import Kernels
 import SceneModel
 
 extension ModelExport {
-  /// A glTF material for each atlas, its images encoded.
+  /// A glTF material for each atlas, with encoded images.
   func materials(of model: TexturedMesh, _ context: StageContext) throws -> [GLTFMaterial] {
-    // Images are encoded side by side, three a material.
+    // Images are encoded in parallel, three per material.
     let parts = try context.control.parallelMap(3 * model.atlases.count) { index in
       let maps = model.atlases[index / 3].maps
       return switch index % 3 {
@@ -29,6 +29,7 @@ extension ModelExport {
     try maps[map].map { try encode(map, $0) }
   }
 
+  /// The occlusion-roughness image of a material; nil without either map.
   private func surface(
     _ maps: [TextureMap: RasterImage]
   ) throws -> GLTFMaterial.Surface? {
@@ -40,8 +41,8 @@ extension ModelExport {
     return maps[.ambientOcclusion] == nil ? .roughness(image) : .occlusionAndRoughness(image)
   }
 
-  /// Occlusion in red (none where there is no map), roughness in green, and blue is 0: no metal.
-  /// `MapBaking` makes both of one size.
+  /// Occlusion in red (255 without a map), roughness in green, and 0 in blue: not metallic.
+  /// `MapBaking` makes both the same size.
   private static func packed(occlusion: RasterImage?, roughness: RasterImage) -> RasterImage {
     var image = RasterImage(width: roughness.width, height: roughness.height, channels: 3)
     for texel in 0..<(image.width * image.height) {

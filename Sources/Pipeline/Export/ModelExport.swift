@@ -7,12 +7,13 @@ import SceneModel
 /// Writes a textured model: a USDZ, GLB or PLY file, or a folder with OBJ, MTL, USDA and the
 /// textures.
 package struct ModelExport: Sendable {
+  /// Parameters of the export.
   package struct Options: Hashable, Codable, Sendable {
-    /// How colours, occlusion and roughness are stored. Normals and displacement are always PNG:
-    /// the blocks of JPEG would show as dents in the light. So is an image of several maps, whose
-    /// channels JPEG would mix.
+    /// Encoding of the color, occlusion and roughness maps. Normal and displacement maps are always
+    /// PNG: JPEG blocks would show as dents under lighting. So are images that pack several maps,
+    /// whose channels JPEG would mix.
     package var textureFormat = TextureFormat.png
-    /// Goes into the files' metadata.
+    /// Written to the files' metadata.
     package var creator = "photogrammetry-cli"
 
     package init(textureFormat: TextureFormat = .png) { self.textureFormat = textureFormat }
@@ -22,10 +23,10 @@ package struct ModelExport: Sendable {
 
   package init(options: Options = Options()) { self.options = options }
 
-  /// Writes the file or folder that `ModelFormat` reads from the URL; it appears complete or not at
-  /// all. Throws an error with file and remedy when it can't be written.
+  /// Writes the file or folder in the format that `ModelFormat` derives from the URL; it appears
+  /// complete or not at all. Throws an error with file and remedy if it can't be written.
   package func run(_ model: TexturedMesh, to url: URL, _ context: StageContext) throws {
-    // Encoding takes a while: what can't be written is better known before.
+    // Encoding takes a while: check that the folder is writable first.
     try AtomicFile.checkParent(of: url)
     UnfinishedFiles.remove(from: url.deletingLastPathComponent(), of: url.lastPathComponent)
     let encoding = context.part(from: 0, to: 0.9)
@@ -43,6 +44,7 @@ package struct ModelExport: Sendable {
     }
   }
 
+  /// The model with its maps encoded, for USD and OBJ.
   private func content(_ model: TexturedMesh, _ context: StageContext) throws -> ModelContent {
     let jobs = model.atlases.flatMap { atlas in
       atlas.maps.sorted { $0.key < $1.key }.map { (map: $0.key, image: $0.value) }
@@ -61,6 +63,7 @@ package struct ModelExport: Sendable {
     return ModelContent(mesh: model, textures: textures, creator: options.creator)
   }
 
+  /// Encodes one map as JPEG or PNG.
   func encode(_ map: TextureMap, _ image: RasterImage) throws -> EncodedImage {
     switch options.textureFormat {
     case .jpeg(let quality) where map != .normal && map != .displacement:

@@ -4,12 +4,13 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Draws a textured model from several sides onto one sheet, so that it is seen without a viewer.
+/// Renders an overview of a textured model from several sides, for inspection without a viewer.
 package struct ModelPreview: Sendable {
+  /// Parameters of the preview.
   package struct Options: Hashable, Codable, Sendable {
     /// Pixels of a picture's longer side.
     package var tileSide = 480
-    /// Pictures beside each other.
+    /// Pictures per row.
     package var columns = 4
     var turntable = Turntable.Options()
     var picture = ModelPicture.Options()
@@ -21,11 +22,10 @@ package struct ModelPreview: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The pictures in rows, from the left as they go around the model counter-clockwise seen from
-  /// above; RGB.
+  /// The pictures in rows, ordered counter-clockwise around the model as seen from above; RGB.
   ///
-  /// All have one scale. `cameras` are the `cameraFromWorld` of the photos: they tell the side that is
-  /// worth looking at, and from how high.
+  /// All have the same scale. `cameras` are the photos' `cameraFromWorld`: they determine the
+  /// photographed side and the elevation.
   package func run(
     _ model: TexturedMesh, cameras: [RigidTransform], _ context: StageContext
   ) throws -> RasterImage {
@@ -47,7 +47,7 @@ package struct ModelPreview: Sendable {
     return sheet(tiles, viewpoints.camera)
   }
 
-  /// Draws the sheet and writes it as PNG.
+  /// Renders the overview and writes it as PNG.
   package func write(
     _ model: TexturedMesh, cameras: [RigidTransform], to file: URL, _ context: StageContext
   ) throws {
@@ -55,6 +55,7 @@ package struct ModelPreview: Sendable {
     try AtomicFile.write(try ImageCodec.encodePNG(sheet), to: file)
   }
 
+  /// Arranges the pictures in rows; missing ones are filled with the background.
   private func sheet(_ tiles: [RasterImage], _ camera: Camera) -> RasterImage {
     let columns = max(1, min(options.columns, tiles.count))
     let rows = max(1, (tiles.count + columns - 1) / columns)

@@ -1,22 +1,22 @@
 import Foundation
 import SceneModel
 
-/// Makes four-sided faces of triangles: first of the pairs that come nearest to flat squares, then of
-/// as many as can still be paired (the matching of Remacle et al., "Blossom-Quad", 2012, done
-/// greedily). What finds no partner stays a triangle, and no quad crosses a seam of the texture.
+/// Merges pairs of triangles into quads: first the pairs closest to flat squares, then as many as
+/// can still be matched (the matching of Remacle et al., "Blossom-Quad", 2012, solved greedily).
+/// Triangles without a partner stay, and no quad crosses a texture seam.
 struct QuadPairing: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Between the normals of the two triangles, at most, in degrees.
+    /// Maximum angle between the normals of the two triangles, in degrees.
     var maximumBendDegrees: Float = 40
-    /// By how much a corner may differ from a right angle, at most, in degrees.
+    /// Maximum deviation of a corner from a right angle, in degrees.
     var maximumSkewDegrees: Float = 75
-    /// Rounds in which pairs are taken apart for two others.
+    /// Rounds of augmentation, which split a pair to form two others.
     var rounds = 8
   }
 
   var options = Options()
 
-  /// The same model with the triangles of each texture in another order: those of quads first.
+  /// The same model with each texture's triangles reordered: those of quads first, in pairs.
   func run(_ model: TexturedMesh, _ context: StageContext) throws -> TexturedMesh {
     guard !model.atlases.isEmpty, model.textureTriangles.count == model.mesh.triangles.count else {
       return model
@@ -32,7 +32,7 @@ struct QuadPairing: Sendable {
     return result
   }
 
-  /// The pairs that would make a good quad, the best first.
+  /// The candidate pairs, best first.
   private func pairs(in model: TexturedMesh) -> [PairGraph.Pair] {
     let atlas = model.atlases.enumerated().flatMap { index, atlas in
       repeatElement(Int32(index), count: atlas.triangles.count)
@@ -50,7 +50,7 @@ struct QuadPairing: Sendable {
       .map(\.element)
   }
 
-  /// From 0 to 1, a flat rectangle; nil for what is bent, skewed or not convex.
+  /// 0…1, where 1 is a flat rectangle; nil if bent, skewed or not convex.
   private func quality(of quad: Quad, in mesh: Mesh) -> Float? {
     let p = quad.corners.map { mesh.positions[Int($0)] }
     let normals = [(p[1] - p[0]).cross(p[2] - p[0]), (p[2] - p[0]).cross(p[3] - p[0])]
@@ -67,6 +67,7 @@ struct QuadPairing: Sendable {
     return cos(bend) * (1 - skew / (.pi / 2))
   }
 
+  /// Moves the triangles of quads to the front of their atlas.
   private func reordered(_ model: TexturedMesh, partners: [Int32]) -> TexturedMesh {
     var result = model
     for (index, atlas) in model.atlases.enumerated() {
@@ -90,12 +91,12 @@ struct QuadPairing: Sendable {
   }
 }
 
-/// A four-sided face a, b, c, d of the triangles (a, b, c) and (a, c, d).
+/// A quad a, b, c, d made of the triangles (a, b, c) and (a, c, d).
 private struct Quad {
   let corners: [UInt32]
   let texels: [UInt32]
 
-  /// Fails where the triangles share no edge, or not in the texture, or not in the same sense.
+  /// Nil if the triangles share no edge in the mesh or in the texture, or are oppositely oriented.
   init?(_ first: Int, _ second: Int, of model: TexturedMesh) {
     let (v, w) = (
       Self.corners(model.mesh.triangles[first]), Self.corners(model.mesh.triangles[second])
@@ -105,7 +106,7 @@ private struct Quad {
     for i in 0..<3 {
       for j in 0..<3 where v[i] == w[(j + 1) % 3] && v[(i + 1) % 3] == w[j] {
         guard t[i] == u[(j + 1) % 3], t[(i + 1) % 3] == u[j] else { return nil }
-        // The shared edge runs from v[i] to v[i + 1]; d lies beyond it.
+        // The shared edge runs from v[i] to v[i + 1]; d is the opposite corner.
         corners = [v[(i + 1) % 3], v[(i + 2) % 3], v[i], w[(j + 2) % 3]]
         texels = [t[(i + 1) % 3], t[(i + 2) % 3], t[i], u[(j + 2) % 3]]
         return
@@ -124,7 +125,7 @@ private struct Quad {
   private static func corners(_ t: Triangle) -> [UInt32] { [t.a, t.b, t.c] }
 }
 
-/// Triangles and with which neighbours they would make a quad.
+/// Triangles and the neighbors that they could form a quad with.
 private struct PairGraph {
   struct Pair {
     var first: Int32
@@ -133,10 +134,10 @@ private struct PairGraph {
   }
 
   private let pairs: [Pair]
-  /// Of each triangle its possible partners, the best first.
+  /// The possible partners of each triangle, best first.
   private var neighbors: [[Int32]]
 
-  /// `pairs` are in the order in which they are taken.
+  /// `pairs` are sorted by priority.
   init(_ pairs: [Pair], triangleCount: Int) {
     self.pairs = pairs
     neighbors = [[Int32]](repeating: [], count: triangleCount)
@@ -146,7 +147,7 @@ private struct PairGraph {
     }
   }
 
-  /// Of each triangle its partner, −1 for none.
+  /// The partner of each triangle, −1 for none.
   func matching(rounds: Int) -> [Int32] {
     var partners = [Int32](repeating: -1, count: neighbors.count)
     for pair in pairs where partners[Int(pair.first)] < 0 && partners[Int(pair.second)] < 0 {
@@ -159,7 +160,8 @@ private struct PairGraph {
     return partners
   }
 
-  /// Gives two neighbours of a pair, both alone, one half of it each; says whether it happened.
+  /// Augments the matching: splits a pair whose members both have an unmatched neighbor into two
+  /// pairs. Returns whether any pair changed.
   private func augment(_ partners: inout [Int32]) -> Bool {
     var hasChanged = false
     for lonely in neighbors.indices where partners[lonely] < 0 {

@@ -1,9 +1,9 @@
 import SceneModel
 
-/// Gives a mesh without textures the colours of its texture, for formats that have no images.
+/// Converts a model's texture to vertex colors, for formats without images.
 struct VertexColoring: Sendable {
-  /// The mesh with colours: its own where it has them, else those of the colour map at the vertices,
-  /// averaged where charts meet; none where there is no colour map.
+  /// The mesh with vertex colors: its own if it has them, else sampled from the color map and
+  /// averaged where charts meet; none without a color map.
   func run(_ model: TexturedMesh, _ context: StageContext) throws -> Mesh {
     try context.control.step(0)
     var mesh = model.mesh
@@ -17,10 +17,10 @@ struct VertexColoring: Sendable {
     return mesh
   }
 
-  /// Vertices that no texture covers are gray.
+  /// Sampled colors; vertices that no texture covers are gray.
   private func colors(of model: TexturedMesh) -> [SIMD3<UInt8>] {
     var sums = [SIMD4<Float>](repeating: .zero, count: model.mesh.positions.count)
-    // A texture coordinate counts once for a vertex, however many triangles meet there.
+    // A texture coordinate counts once per vertex, however many triangles share it.
     var owners = [Int](repeating: -1, count: model.textureCoordinates.count)
     for atlas in model.atlases {
       guard let image = atlas.maps[.diffuseColor] else { continue }
@@ -46,8 +46,8 @@ struct VertexColoring: Sendable {
 }
 
 extension RasterImage {
-  /// The first three channels, or gray three times, between the centres of the four texels around a
-  /// texture coordinate, whose (0, 0) is the bottom left; 0…255.
+  /// The bilinearly interpolated RGB or gray value, 0…255, at a texture coordinate whose (0, 0) is
+  /// the bottom left.
   fileprivate func color(at coordinate: SIMD2<Float>) -> SIMD3<Float> {
     let size = SIMD2(Float(width), Float(height))
     let place = SIMD2(coordinate.x, 1 - coordinate.y) * size - 0.5

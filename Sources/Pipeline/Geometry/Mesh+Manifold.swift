@@ -1,17 +1,17 @@
 import SceneModel
 
 extension Mesh {
-  /// The same faces, with vertices doubled where more than one fan of faces meets in them, so that
-  /// every edge has two faces at most and every vertex one fan.
+  /// The same faces, with non-manifold vertices and edges split, so that every edge has at most two
+  /// faces and every vertex one fan.
   ///
-  /// Where several sheets touch along an edge, its faces go in pairs; none is lost, so that a closed
-  /// surface stays closed (Guéziec et al., "Cutting and Stitching", 2001). Colours and normals are
-  /// dropped.
+  /// Where several surface layers touch along an edge, its faces are paired; none is lost, so that
+  /// a closed surface stays closed (Guéziec et al., "Cutting and Stitching", 2001). Colors and
+  /// normals are dropped.
   func splitIntoManifold() -> Mesh {
-    // Corners of faces that hang together around a vertex.
+    // Corners of faces that are connected around a vertex.
     var fans = DisjointSets(count: 3 * triangles.count)
     for edge in PairedEdges(of: self).pairs {
-      // Both edges run between the same two vertices, in opposite directions.
+      // Both edges connect the same two vertices, in opposite directions.
       fans.join(edge.first, Mesh.next(edge.second))
       fans.join(Mesh.next(edge.first), edge.second)
     }
@@ -34,12 +34,12 @@ extension Mesh {
     return result
   }
 
-  /// The corner after a corner of the same face.
+  /// The next corner of the same face.
   fileprivate static func next(_ corner: Int) -> Int { corner % 3 == 2 ? corner - 2 : corner + 1 }
 }
 
-/// Directed edges that run in opposite directions between the same vertices, each in one pair at
-/// most. An edge is named by the corner that it leaves.
+/// Pairs of opposite directed edges, each edge in at most one pair. An edge is identified by its
+/// starting corner.
 private struct PairedEdges {
   private(set) var pairs: [(first: Int, second: Int)] = []
 

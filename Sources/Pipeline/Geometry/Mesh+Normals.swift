@@ -32,7 +32,7 @@ extension Mesh {
     }
   }
 
-  /// Unit vertex normals: the mean of the face normals, weighted by area. Vertices without triangles
+  /// Unit vertex normals: the area-weighted mean of the face normals. Vertices without triangles
   /// get +y.
   func areaWeightedNormals() -> [SIMD3<Float>] {
     var sums = [SIMD3<Double>](repeating: .zero, count: positions.count)
@@ -47,7 +47,7 @@ extension Mesh {
     }
   }
 
-  /// The angle between two vectors in radians; 0 where one of them is zero.
+  /// The angle between two vectors in radians; 0 if either is zero.
   static func angle(_ u: SIMD3<Float>, _ v: SIMD3<Float>) -> Float {
     atan2(u.cross(v).length, u.dot(v))
   }

@@ -1,8 +1,8 @@
 import SceneModel
 
-/// Triangles grouped into patches that share vertices.
+/// Triangles grouped into components that share vertices.
 struct MeshComponents: Sendable {
-  /// Every triangle's component, numbered by their first triangle.
+  /// Every triangle's component, numbered in order of their first triangle.
   let components: [Int32]
   let count: Int
 

@@ -1,22 +1,22 @@
 import SceneModel
 
-/// Cuts a surface off at the faces of a box (after Sutherland and Hodgman, "Reentrant polygon
-/// clipping", CACM 1974). It stays open there.
+/// Clips a surface at the faces of a box (after Sutherland and Hodgman, "Reentrant polygon
+/// clipping", CACM 1974). The cut stays open.
 struct MeshCropping: Sendable {
-  /// The part inside, and what else the photos show.
+  /// The part inside the box, and the rest that may occlude it.
   struct Parts: Sendable {
     var inside: Mesh
-    /// Triangles that are clear of the box: they may stand before the part inside.
+    /// Triangles clearly outside the box: they may occlude the part inside.
     var outside: Mesh
   }
 
-  /// Shares of the diagonal of the box or the surface: what is nearer to a face counts as on it, and how far triangles
-  /// outside stay away.
+  /// Shares of the diagonal of the box or the surface, whichever is smaller: points within
+  /// `tolerance` of a face count as on it; outside triangles keep a distance of `clearance`.
   private static let (tolerance, clearance): (Float, Float) = (1e-6, 0.005)
 
   var box: OrientedBox
 
-  /// A surface that is all inside comes back as it is.
+  /// A surface entirely inside is returned unchanged.
   func run(_ mesh: Mesh) -> Parts {
     let extent = mesh.bounds.map { ($0.max - $0.min).length } ?? 0
     let diagonal = min(2 * box.halfExtents.length, extent)
@@ -35,11 +35,11 @@ struct MeshCropping: Sendable {
   }
 
   private struct Plane {
-    /// Points out of the box.
+    /// Outward.
     var normal: SIMD3<Float>
     var offset: Float
 
-    /// Positive outside.
+    /// Signed; positive outside.
     func distance(_ point: SIMD3<Float>) -> Float { normal.dot(point) - offset }
   }
 
@@ -58,12 +58,12 @@ struct MeshCropping: Sendable {
     return cut.result
   }
 
-  /// A mesh that loses what is outside of a plane, triangle by triangle.
+  /// A mesh clipped at a plane, triangle by triangle.
   private struct Cut {
     var result: Mesh
-    /// Zero on the plane.
+    /// Signed distances of the vertices; zero on the plane.
     private var distances: [Float]
-    /// New vertices by the edge that they divide, lower vertex first: triangles share them.
+    /// New vertices by the edge that they split, lower index first, shared between triangles.
     private var divided: [SIMD2<UInt32>: UInt32] = [:]
 
     init(_ mesh: Mesh, _ plane: Plane, tolerance: Float) {
@@ -93,7 +93,7 @@ struct MeshCropping: Sendable {
       append(polygon)
     }
 
-    /// Three or four corners; four are divided by the shorter diagonal.
+    /// Appends a polygon of three or four corners; four are split along the shorter diagonal.
     private mutating func append(_ polygon: [UInt32]) {
       guard polygon.count >= 3 else { return }
       guard polygon.count == 4 else {
@@ -106,6 +106,7 @@ struct MeshCropping: Sendable {
       result.triangles += [Triangle(q[0], q[1], q[2]), Triangle(q[0], q[2], q[3])]
     }
 
+    /// The vertex where the plane intersects an edge.
     private mutating func divide(_ a: UInt32, _ b: UInt32) -> UInt32 {
       let edge = SIMD2(min(a, b), max(a, b))
       if let vertex = divided[edge] { return vertex }
@@ -133,7 +134,7 @@ struct MeshCropping: Sendable {
 }
 
 extension Mesh {
-  /// The vertices that triangles use, in their order.
+  /// The vertices referenced by triangles, in their order.
   fileprivate func withoutUnusedVertices() -> Mesh {
     var isUsed = [Bool](repeating: false, count: positions.count)
     for triangle in triangles { for vertex in triangle.vertices { isUsed[vertex] = true } }

@@ -1,17 +1,17 @@
 import SceneModel
 
-/// Which triangles meet at a vertex, and which share an edge.
+/// Vertex-triangle incidence and edge adjacency of a mesh.
 struct MeshTopology: Sendable {
-  /// Two vertices and the triangles on both sides of them.
+  /// Two vertices and the triangles on both sides.
   struct Edge: Hashable, Sendable {
     var low: UInt32
     var high: UInt32
     var first: Int32
-    /// −1 at the border. Of edges with more than two triangles only the first two are known.
+    /// −1 at the boundary. Of an edge with more than two triangles only the first two are stored.
     var second: Int32
   }
 
-  /// Triangles around vertex i: `incident[offsets[i]..<offsets[i + 1]]`, ascending.
+  /// Triangles incident to vertex i: `incident[offsets[i]..<offsets[i + 1]]`, ascending.
   private(set) var offsets: [Int32]
   private(set) var incident: [Int32]
   /// In ascending order of their vertices.
@@ -39,7 +39,7 @@ struct MeshTopology: Sendable {
   }
 
   private mutating func collectEdges(of mesh: Mesh) {
-    // Each vertex collects the edges to vertices of a higher number.
+    // Each vertex collects its edges to higher-numbered vertices.
     var found: [(high: UInt32, face: Int32)] = []
     for low in mesh.positions.indices {
       found.removeAll(keepingCapacity: true)

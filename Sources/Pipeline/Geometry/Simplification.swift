@@ -1,12 +1,13 @@
 import Kernels
 import SceneModel
 
-/// Reduces a surface to the triangle budget of a detail level, before it is textured: quadric edge
+/// Reduces a surface to the triangle budget of a detail level before texturing: quadric edge
 /// collapse (Garland and Heckbert, SIGGRAPH 1997), then a least-squares fit of the vertices to the
-/// surface before (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
+/// original surface (after Hoppe et al., "Mesh optimization", SIGGRAPH 1993).
 package struct Simplification: Sendable {
+  /// Parameters of simplification.
   package struct Options: Hashable, Codable, Sendable {
-    /// Upper bound of the number of triangles.
+    /// Maximum number of triangles.
     package var maximumTriangles = 99_999
 
     package init(maximumTriangles: Int = 99_999) { self.maximumTriangles = maximumTriangles }
@@ -16,9 +17,10 @@ package struct Simplification: Sendable {
 
   package init(options: Options = Options()) { self.options = options }
 
-  /// The surface with at most the wished number of triangles and new vertex normals.
+  /// The surface with at most `maximumTriangles` triangles and new unit vertex normals.
   ///
-  /// Has no duplicate or degenerate triangles, and no unused vertices.
+  /// Contains no duplicate or degenerate triangles, and no unused vertices. Throws
+  /// `PipelineError.noSurface` for an empty mesh.
   package func run(_ mesh: Mesh, _ context: StageContext) throws -> Mesh {
     try context.control.step(0)
     guard !mesh.triangles.isEmpty else {

@@ -1,8 +1,8 @@
 import SceneModel
 
 extension [Triangle] {
-  /// Which vertices are so many edges of the triangles, or fewer, from those in a set; both have a
-  /// value for each vertex.
+  /// The vertices within `edges` edges of the vertices in `set`; both arrays have a value per
+  /// vertex.
   func vertices(within edges: Int, of set: [Bool]) -> [Bool] {
     var isNear = set
     for _ in 0..<edges {

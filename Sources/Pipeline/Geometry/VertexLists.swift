@@ -1,6 +1,6 @@
 import SceneModel
 
-/// A short list for each vertex of a mesh, all in one array: of millions of edges, sets are slow.
+/// A short list for each vertex of a mesh, all in one array: sets are slow for millions of edges.
 struct VertexLists<Value: Equatable & Sendable>: Sendable {
   private var offsets: [Int32]
   private var ends: [Int32]
@@ -44,6 +44,6 @@ struct DirectedEdges: Sendable {
     }
   }
 
-  /// Whether no triangle is on the other side of an edge.
+  /// Whether an edge has no triangle on its other side.
   func isOpen(_ edge: SIMD2<UInt32>) -> Bool { !targets.contains(edge.x, at: edge.y) }
 }

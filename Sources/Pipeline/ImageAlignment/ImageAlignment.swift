@@ -1,17 +1,18 @@
 import Kernels
 import SceneModel
 
-/// From photos to cameras, poses and sparse points in the world frame that everything shares.
+/// Structure from motion: from photos to cameras, poses and sparse points in the common world
+/// frame.
 package struct ImageAlignment: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// The photos are in the order of capture.
     package var isSequential = false
-    /// Look harder for features on objects of low texture.
+    /// Detects more features on objects of low texture.
     package var isHighSensitivity = false
-    /// The ratio test of matching at high sensitivity: faint features are less distinctive. What it
-    /// lets through is for the two-view geometry to reject.
+    /// Ratio of the ratio test at high sensitivity. Faint features are less distinctive; false
+    /// matches that pass are left to geometric verification.
     package var highSensitivityRatio = 0.8
-    /// Fewer registered photos are an error.
+    /// Minimum number of registered photos; fewer are an error.
     package var minimumPhotos = 3
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
@@ -28,7 +29,8 @@ package struct ImageAlignment: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The largest reconstruction of the photos; `unregistered` says why the others are missing.
+  /// Returns the largest reconstruction of the photos; `unregistered` gives the reasons why the
+  /// others are missing. Throws `PipelineError.alignmentFailed` if no usable reconstruction exists.
   package func run(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
@@ -79,7 +81,7 @@ package struct ImageAlignment: Sendable {
     return reconstruction
   }
 
-  /// The reconstruction with refined observations, or as it is where that comes to nothing.
+  /// The reconstruction with refined observations, or the unrefined one if refinement fails.
   private func refine(
     _ mapped: Reconstruction, _ features: [FeatureSet], _ cameras: [Camera], _ images: ImageStore,
     _ context: StageContext
@@ -94,8 +96,8 @@ package struct ImageAlignment: Sendable {
     }
   }
 
-  /// Refuses a reconstruction that lays parts of the scene on each other because they look alike, and
-  /// warns where it may.
+  /// Throws if the reconstruction superimposes repeated structures of the scene, and warns if it
+  /// may.
   private func checkLookAlikes(
     _ mapped: Reconstruction, _ graph: ViewGraph, _ features: [FeatureSet], _ images: ImageStore,
     _ context: StageContext
@@ -105,26 +107,27 @@ package struct ImageAlignment: Sendable {
       findings = try LookAlikeCheck(options.lookAlikes)
         .run(mapped, graph, features: features, images: images, context)
     } catch let error as KernelError where error != .outOfMemory {
-      context.notes.warn("Look-alike parts of the scene were not looked for (\(error)).")
+      context.notes.warn("The scene was not checked for repeated structure (\(error)).")
       return
     }
     switch findings.verdict {
     case .sound: break
     case .doubtful:
       context.notes.warn(
-        "Parts of the scene may look alike and lie on each other in the model: "
+        "The model may superimpose similar parts of the scene: "
           + "\(findings.reason(mapped.photos)). Check the model; \(Self.lookAlikeAdvice)")
     case .folded:
       throw PipelineError.alignmentFailed(
-        reason: "parts of the scene look alike and can't be told apart: "
+        reason: "similar parts of the scene can't be distinguished: "
           + "\(findings.reason(mapped.photos)); \(Self.lookAlikeAdvice)")
     }
   }
 
   private static let lookAlikeAdvice =
-    "put things that differ around the object, step back so that photos show them, or leave out the "
-    + "photos of one of the parts."
+    "place distinctive objects around the subject, step back so that photos show them, or leave "
+    + "out the photos of one of the similar parts."
 
+  /// Throws if the reconstruction has too few photos or no points.
   private func check(_ reconstruction: Reconstruction, _ notes: StageNotes) throws {
     let count = reconstruction.registered.count
     if count >= options.minimumPhotos, !reconstruction.points.isEmpty { return }
@@ -151,7 +154,7 @@ package struct ImageAlignment: Sendable {
     }
   }
 
-  /// Runs a step and notes its duration.
+  /// Runs a step and records its duration in seconds as a metric.
   private func timed<Value>(
     _ name: String, _ context: StageContext, _ body: () throws -> Value
   ) rethrows -> Value {

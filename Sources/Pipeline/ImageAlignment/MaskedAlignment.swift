@@ -1,19 +1,19 @@
 import Kernels
 import SceneModel
 
-/// Aligns photos by what their masks leave; where that is too little, by the whole photos.
+/// Aligns photos by the unmasked object; if that is too little, by the whole photos.
 ///
-/// What a mask leaves out may move, so that it is ignored as a rule. But around an object with hardly
-/// any texture that stands still its surroundings tell where the cameras were. They are believed only
-/// where what is seen of the object agrees, which it doesn't where the object turned and the camera
-/// stood.
+/// Masked-out areas may move and are therefore ignored by default. But if a static object has
+/// hardly any texture, its surroundings determine the camera poses. The result from whole photos is
+/// accepted only if the observations of the object are consistent with it, which they aren't if the
+/// object was rotated in front of a static camera.
 struct MaskedAlignment {
   struct Options: Hashable, Codable, Sendable {
-    /// Share of the photos that must get a pose by what the masks leave.
+    /// Minimum fraction of the photos that must be registered by the masked object alone.
     var minimumShare = 0.6
-    /// Observations inside its mask that make a photo agree with the object.
+    /// Minimum number of observations inside its mask for a photo to agree with the object.
     var minimumObservations = 8
-    /// Share of the photos with a pose that must agree.
+    /// Minimum fraction of the registered photos that must agree.
     var minimumAgreement = 0.6
 
     init() {}
@@ -24,7 +24,7 @@ struct MaskedAlignment {
 
   init(_ alignment: ImageAlignment) { self.alignment = alignment }
 
-  /// `wholePhotos` is a store of the same photos that knows no masks.
+  /// Aligns the photos; `wholePhotos` creates an image store of the same photos without masks.
   func run(
     _ ingested: IngestedPhotos, images: ImageStore, wholePhotos: () -> ImageStore,
     _ context: StageContext
@@ -46,19 +46,19 @@ struct MaskedAlignment {
         if whole.registered.count > count, try agrees(whole, images) {
           context.notes.add(wholeNotes)
           context.notes.warn(
-            "What the masks leave is too little to align the photos by; what is around the object was "
-              + "used as well. That needs an object that stands still.")
+            "The masked object alone is not enough to align the photos; its surroundings were used "
+              + "as well. This requires a static object.")
           return whole
         }
       } catch is PipelineError {
-        // The whole photos tell no more.
+        // The whole photos are no better.
       }
     }
     context.notes.add(notes)
     return try masked.get()
   }
 
-  /// Whether most photos see points of the object where the reconstruction has them.
+  /// Whether most photos have observations inside their masks.
   private func agrees(_ reconstruction: Reconstruction, _ images: ImageStore) throws -> Bool {
     var pixels = [[SIMD2<Double>]](repeating: [], count: reconstruction.photos.count)
     for observation in reconstruction.points.flatMap(\.track) {

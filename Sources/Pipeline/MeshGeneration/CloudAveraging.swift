@@ -2,10 +2,12 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Joins points that repeat each other: one mean point a voxel, weighted by consistency.
+/// Voxel downsampling: merges redundant points to one mean point per voxel, weighted by
+/// consistency.
 ///
-/// The voxel grows in steps of two with the point's footprint, so that coarse parts of a scene stay
-/// coarse. Averaging removes noise and makes Poisson faster (rule: as many samples as cells).
+/// The voxel size grows in powers of two with the point's footprint, so that coarse parts of a
+/// scene stay coarse. Averaging reduces noise and makes Poisson reconstruction faster (rule of
+/// thumb: as many samples as cells).
 struct CloudAveraging {
   struct Options: Hashable, Codable, Sendable {
     /// Side of a voxel in median footprints.
@@ -16,16 +18,17 @@ struct CloudAveraging {
 
   struct Result: Sendable {
     var cloud: PointCloud
-    /// The averaged point of every input point; −1 where the input is not finite.
+    /// The mean point of every input point; −1 for inputs that are not finite.
     var sampleOfPoint: [Int32]
-    /// Input points behind each averaged point.
+    /// Number of input points of each mean point.
     var weights: [Int32]
-    /// Side of the finest voxel in world units.
+    /// Side of the smallest voxel in world units.
     var voxelSize: Double
   }
 
   var options = Options()
 
+  /// Throws `PipelineError.noSurface` for an empty cloud.
   func run(_ cloud: PointCloud, _ context: StageContext) throws -> Result {
     guard let footprint = cloud.medianFootprint, footprint > 0 else {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
@@ -41,6 +44,7 @@ struct CloudAveraging {
     return average(cloud, grid, size)
   }
 
+  /// One mean point per occupied grid cell, with the union of its members' photos.
   private func average(_ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double) -> Result {
     let members = Members(of: grid.cells, count: grid.cellCount)
     var result = PointCloud()
@@ -96,9 +100,9 @@ struct CloudAveraging {
 }
 
 extension CloudAveraging.Result {
-  /// The averaged points that have at least `neighbours` others within `radius` spacings.
+  /// The mean points that have at least `neighbors` others within `radius` spacings.
   ///
-  /// Lone points are false matches more often than not, and each bends a Poisson surface.
+  /// Isolated points are mostly false matches, and each distorts a Poisson surface.
   func withoutStrays(
     neighbours: Int = 5, radius: Double = 4, _ control: KernelControl
   ) throws -> PointCloud {
@@ -116,12 +120,12 @@ extension CloudAveraging.Result {
   }
 }
 
-/// The elements of each group, ascending, as one array with offsets.
+/// The elements of each group, ascending, in compressed-row storage (one array with offsets).
 struct Members: Sendable {
   private var offsets: [Int32]
   private var elements: [Int32]
 
-  /// `groups` holds each element's group; elements of group −1 belong to none.
+  /// `groups` holds each element's group; −1 means none.
   init(of groups: [Int32], count: Int) {
     offsets = Array(repeating: 0, count: count + 1)
     for group in groups where group >= 0 { offsets[Int(group) + 1] += 1 }

@@ -1,33 +1,33 @@
 import Foundation
 import SceneModel
 
-/// Closes the gaps that trimming leaves, but for those that photos look through.
+/// Fills the holes that trimming leaves, except those that are observed free space.
 ///
-/// Poisson's own surface closes a small gap best. Over a large one it bulges like a balloon; there
-/// it is drawn taut, each vertex at the mean of its neighbours: a membrane across the gap. What of it
-/// is close above the support of an object stood on it.
+/// The Poisson surface itself fills a small hole best. Over a large one it bulges like a balloon;
+/// there it is replaced by a membrane, each vertex at the mean of its neighbors (a harmonic fill).
+/// Where the hole of an object is near its support plane, it is projected onto the plane.
 struct GapClosing {
   struct Options: Hashable, Codable, Sendable {
-    /// Close gaps of any size, as of an object, which has an inside.
+    /// Fill holes of any size, for an object, which has an inside.
     var closesLarge = true
-    /// A gap of less than this share of the surface's size across is small.
+    /// A hole with an extent below this share of the surface's is small.
     var smallShare = 0.05
-    /// One of less than this is closed whatever photos look through: the way through an object that
-    /// they show is not a hole in its skin.
+    /// A hole below this share is filled regardless of free space: a passage through an object is
+    /// not a hole in its surface.
     var tinyShare = 0.015
-    /// The share of a gap's area that photos may look through for it to be closed.
+    /// Maximum share of a small hole's area in free space for it to be filled.
     var smallFreeShare = 0.05
     /// The same for a membrane.
     var membraneFreeShare = 0.2
-    /// How far behind a gap it is seen whether photos look through it, in world units: a ray that
-    /// grazes the surface doesn't get there.
+    /// How far below the hole free space is evaluated, in world units: rays that graze the surface
+    /// don't reach this depth.
     var depth: Float = 0
-    /// What is lower than this share of the object's height above its support touched it. Rays that
-    /// pass just above the support don't tell that there is a hole.
+    /// Surface below this share of the object's height above its support was in contact with it.
+    /// Rays that pass just above the support are no evidence of a hole.
     var contactShare = 0.02
-    /// What is so many edges from a gap's rim, or fewer, is not put down on the support.
+    /// Vertices within this many edges of a hole's boundary are not projected onto the support.
     var bevel = 6
-    /// Iterations of the solver at most, for a membrane.
+    /// Maximum number of solver iterations for a membrane.
     var iterations = 400
 
     init() {}
@@ -35,15 +35,16 @@ struct GapClosing {
 
   var options = Options()
 
-  /// Drops the faces for which `isRemoved` says so, less those that close a gap. `isFree` tells
-  /// whether photos look through a place; `support` is what the object stands on, if anything.
+  /// Drops the faces marked in `isRemoved`, except those that fill a hole. `isFree` indicates
+  /// whether photos observe free space at a point (world frame); `support` is the plane that the
+  /// object stands on, if any.
   func run(
     _ mesh: Mesh, isRemoved: [Bool], support: StandingPlane? = nil,
     isFree: (SIMD3<Float>) -> Bool
   ) -> Mesh {
     guard let bounds = mesh.bounds, isRemoved.contains(true) else { return mesh }
     let size = (bounds.max - bounds.min).length
-    // What bulges out of the solved cube ends there: with a lid on, it closes a gap, too.
+    // A surface that leaves the solved cube is open there; with caps added, it fills holes too.
     let lid = mesh.lid(isRemoved: isRemoved)
     let (mesh, isRemoved) = (mesh.adding(lid), isRemoved + lid.triangles.map { _ in true })
     let gaps = SurfaceGaps(mesh, isRemoved: isRemoved)
@@ -58,7 +59,7 @@ struct GapClosing {
     return result
   }
 
-  /// Gives the faces of a gap the shape that closes it; false where it is to stay open.
+  /// Gives the faces of a hole their final shape; false if the hole stays open.
   private func close(
     _ gap: Int, _ gaps: SurfaceGaps, _ size: Float, _ contact: Contact?, _ mesh: inout Mesh,
     _ isFree: (SIMD3<Float>) -> Bool
@@ -67,7 +68,7 @@ struct GapClosing {
     let share = mesh.extent(of: triangles).map { Double($0 / size) } ?? 1
     let isSmall = share < options.smallShare
     guard isSmall || options.closesLarge else { return false }
-    // A balloon with more surface than what holds it is no gap: stray samples made it.
+    // A bulge with more area than the surface around it isn't a hole: stray samples caused it.
     if isSmall, gaps.areas[gap] > gaps.rimAreas[gap] { return false }
     func freeShare(_ contact: Contact? = nil) -> Double {
       mesh.freeShare(of: triangles, contact, depth: options.depth, isFree)
@@ -78,8 +79,8 @@ struct GapClosing {
     return isTiny || freeShare(contact) < options.membraneFreeShare
   }
 
-  /// Draws a membrane across a gap, and what of it touched the support down to it: not up to the
-  /// rim, which is as uneven as what photos see of the lowest part.
+  /// Spans a membrane across a hole, and projects its contact area onto the support. Not up to the
+  /// boundary, which is as uneven as the photos' coverage of the lowest part.
   private func tighten(
     _ triangles: [Triangle], of mesh: inout Mesh, _ isRim: [Bool], _ contact: Contact?
   ) {
@@ -98,7 +99,7 @@ struct GapClosing {
   }
 }
 
-/// Where an object touches its support.
+/// The contact of an object with its support.
 private struct Contact {
   private let plane: StandingPlane
   private let limit: Double
@@ -112,10 +113,10 @@ private struct Contact {
     limit = max(2 * plane.band, share * top)
   }
 
-  /// Whether a point is so close to the support that the object touched it there.
+  /// Whether a point is near enough to the support to have been in contact with it.
   func reaches(_ point: SIMD3<Float>) -> Bool { plane.height(of: SIMD3<Double>(point)) < limit }
 
-  /// The place on the support straight below a point.
+  /// The orthogonal projection of a point onto the support.
   func foot(of point: SIMD3<Float>) -> SIMD3<Float> {
     let point = SIMD3<Double>(point)
     return SIMD3<Float>(point - plane.height(of: point) * plane.normal)
@@ -123,8 +124,7 @@ private struct Contact {
 }
 
 extension Mesh {
-  /// The share of some faces' area that photos look through, and that is not in contact with the
-  /// support.
+  /// The share of some faces' area that lies in free space and not in contact with the support.
   fileprivate func freeShare(
     of faces: [Triangle], _ contact: Contact?, depth: Float,
     _ isFree: (SIMD3<Float>) -> Bool
@@ -141,7 +141,7 @@ extension Mesh {
     return all > 0 ? free / all : 0
   }
 
-  /// The diagonal of the box around some faces.
+  /// The diagonal of the box around the centers of some faces.
   fileprivate func extent(of faces: [Triangle]) -> Float? {
     Mesh(positions: faces.map { center(of: $0) }).bounds.map { ($0.max - $0.min).length }
   }

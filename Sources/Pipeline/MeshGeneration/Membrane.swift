@@ -1,14 +1,15 @@
 import SceneModel
 
-/// A part of a surface whose free vertices are drawn to the mean of their neighbours: the solution of
-/// Laplace's equation on its graph, by conjugate gradients.
+/// A part of a surface whose free vertices move to the mean of their neighbors: the solution of
+/// Laplace's equation on the mesh graph, by conjugate gradients.
 struct Membrane: Sendable {
-  /// The free vertices, by their number in the mesh.
+  /// The free vertices, by mesh index.
   private(set) var vertices: [Int] = []
-  /// Neighbours of each free vertex: free ones by their place in `vertices`, fixed ones as −1 − vertex.
+  /// Neighbors of each free vertex: free ones by index in `vertices`, fixed ones as −1 − vertex.
   private var offsets: [Int] = [0]
   private var neighbours: [Int] = []
 
+  /// `isFixed` has a value for each vertex of the mesh.
   init(_ triangles: [Triangle], isFixed: [Bool]) {
     let edges = triangles.flatMap(\.edges).flatMap { [$0, SIMD2($0.y, $0.x)] }
       .filter { !isFixed[Int($0.x)] }
@@ -27,7 +28,7 @@ struct Membrane: Sendable {
     if !vertices.isEmpty { offsets.append(neighbours.count) }
   }
 
-  /// Moves the free vertices.
+  /// Moves the free vertices to the solution; `iterations` is the maximum number of CG iterations.
   func tighten(_ positions: inout [SIMD3<Float>], iterations: Int) {
     guard !vertices.isEmpty else { return }
     var x = vertices.map { SIMD3<Double>(positions[$0]) }
@@ -51,7 +52,7 @@ struct Membrane: Sendable {
     for (place, vertex) in vertices.enumerated() { positions[vertex] = SIMD3<Float>(x[place]) }
   }
 
-  /// The sum over the neighbours of their difference to a vertex.
+  /// The residual of a vertex: the sum of differences from it to its neighbors.
   private func pull(
     _ place: Int, _ x: [SIMD3<Double>], _ positions: [SIMD3<Float>]
   ) -> SIMD3<Double> {
@@ -60,7 +61,7 @@ struct Membrane: Sendable {
     }
   }
 
-  /// The graph Laplacian of the free vertices times a vector.
+  /// One row of the graph Laplacian of the free vertices times a vector.
   private func applied(_ place: Int, _ vector: [SIMD3<Double>]) -> SIMD3<Double> {
     let range = offsets[place]..<offsets[place + 1]
     return neighbours[range].reduce(Double(range.count) * vector[place]) {
@@ -68,11 +69,12 @@ struct Membrane: Sendable {
     }
   }
 
-  /// The scalar products of the three coordinates, each a system of its own.
+  /// The scalar products of the three coordinates, each a separate linear system.
   private static func dot(_ a: [SIMD3<Double>], _ b: [SIMD3<Double>]) -> SIMD3<Double> {
     zip(a, b).reduce(SIMD3<Double>.zero) { $0 + $1.0 * $1.1 }
   }
 
+  /// Component-wise a / b; 0 where b isn't positive.
   private static func ratio(_ a: SIMD3<Double>, _ b: SIMD3<Double>) -> SIMD3<Double> {
     let isZero = b .<= 0
     return (a / b.replacing(with: 1, where: isZero)).replacing(with: 0, where: isZero)

@@ -1,7 +1,8 @@
 import SceneModel
 
 extension Mesh {
-  /// A fan over each border of removed faces; its vertices beyond the surface's own are the middles.
+  /// Caps: a triangle fan over each open boundary of the removed faces. The fans' center vertices
+  /// are numbered after the mesh's own vertices.
   func lid(isRemoved: [Bool]) -> (middles: [SIMD3<Float>], triangles: [Triangle]) {
     let edges = DirectedEdges(of: self)
     var next: [UInt32: UInt32] = [:]
@@ -25,7 +26,7 @@ extension Mesh {
     return result
   }
 
-  /// The mesh with such fans.
+  /// The mesh with the caps added.
   func adding(_ lid: (middles: [SIMD3<Float>], triangles: [Triangle])) -> Mesh {
     var mesh = self
     mesh.positions += lid.middles

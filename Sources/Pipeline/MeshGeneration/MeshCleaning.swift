@@ -1,15 +1,15 @@
 import Kernels
 import SceneModel
 
-/// Makes a mesh fit for use: large components of proper faces, edges with two faces at most, no loose
-/// vertices, with normals and colours.
+/// Cleans a mesh: keeps large components of non-degenerate faces, makes edges manifold, removes
+/// unreferenced vertices, and computes normals and colors.
 struct MeshCleaning {
   struct Options: Hashable, Codable, Sendable {
-    /// Components with a smaller share of the largest one's area go.
+    /// Components with a smaller share of the largest one's area are removed.
     var minimumComponentShare = 0.02
-    /// An edge that is shorter than this share of the surface's size has no length.
+    /// An edge shorter than this share of the surface's extent counts as degenerate.
     var coincidence: Float = 1e-6
-    /// Samples that give a vertex its colour.
+    /// Number of nearest samples that determine a vertex color.
     var colorNeighbours = 4
 
     init() {}
@@ -17,7 +17,8 @@ struct MeshCleaning {
 
   var options = Options()
 
-  /// `samples` give the colours; none are set where it is empty.
+  /// `samples` provide the colors; none are set if it is empty. Throws `PipelineError.noSurface` if
+  /// no face is left.
   func run(_ mesh: Mesh, samples: PointCloud, _ context: StageContext) throws -> Mesh {
     var result = mesh
     result.triangles = joiningCoincidentCorners(mesh)
@@ -39,9 +40,8 @@ struct MeshCleaning {
     return result
   }
 
-  /// The triangles with one vertex for those that an edge without length joins: marching cubes makes
-  /// them where the surface runs through a corner of its grid. To drop such faces without that
-  /// would leave holes.
+  /// Merges the end points of degenerate edges: marching cubes creates them where the surface
+  /// passes through a grid corner. Dropping such faces without merging would leave holes.
   private func joiningCoincidentCorners(_ mesh: Mesh) -> [Triangle] {
     guard let bounds = mesh.bounds else { return [] }
     let triangles = mesh.triangles.filter { Int(max($0.a, $0.b, $0.c)) < mesh.positions.count }
@@ -60,8 +60,8 @@ struct MeshCleaning {
     }
   }
 
-  /// Faces with three different corners and an area, each once, and without those that lie back to
-  /// back.
+  /// Faces with three distinct corners and nonzero area, without duplicates and without opposite
+  /// pairs.
   private func properTriangles(_ mesh: Mesh) -> [Triangle] {
     let proper = mesh.triangles.filter { t in
       guard t.a != t.b, t.b != t.c, t.c != t.a else { return false }
@@ -83,6 +83,7 @@ struct MeshCleaning {
     }
   }
 
+  /// Removes components with a small share of the largest one's area.
   private func keepLargeComponents(_ mesh: inout Mesh) {
     let parts = MeshComponents(mesh.triangles, vertexCount: mesh.positions.count)
     var areas = [Double](repeating: 0, count: parts.count)
@@ -95,6 +96,7 @@ struct MeshCleaning {
       .filter { areas[Int($0.1)] >= limit }.map(\.0)
   }
 
+  /// Removes vertices that no face references.
   private func removeLooseVertices(_ mesh: inout Mesh) {
     var numbers = [UInt32?](repeating: nil, count: mesh.positions.count)
     for t in mesh.triangles { for vertex in t.vertices { numbers[vertex] = 0 } }
@@ -109,7 +111,7 @@ struct MeshCleaning {
     }
   }
 
-  /// The mean colour of the nearest samples, weighted by inverse distance.
+  /// The mean color of the nearest samples, weighted by inverse distance.
   private func colors(
     _ mesh: Mesh, _ samples: PointCloud, _ control: KernelControl
   ) throws -> [SIMD3<UInt8>] {
@@ -132,7 +134,7 @@ struct MeshCleaning {
 }
 
 extension Triangle {
-  /// The same triangle, turned so that its lowest vertex comes first.
+  /// The same triangle, rotated so that its lowest index comes first.
   fileprivate var lowestFirst: Triangle {
     if a < b && a < c { return self }
     return b < c ? Triangle(b, c, a) : Triangle(c, a, b)

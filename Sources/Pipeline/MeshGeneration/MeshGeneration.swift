@@ -2,23 +2,25 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Makes the surface of the object, or of the whole scene, from the dense cloud.
+/// Reconstructs the surface of the object, or of the whole scene, from the dense cloud.
 ///
-/// Isolate, average, Poisson, trim and close, clean: one step a file.
+/// Steps: isolate, downsample, Poisson, trim and fill holes, clean; each in its own file.
 package struct MeshGeneration {
+  /// Parameters of meshing.
   package struct Options: Hashable, Codable, Sendable {
-    /// Keep the object that the photos look at and remove its support and background.
+    /// Keep the object that the photos are aimed at, and remove its support and background.
     package var isolatesObject = true
-    /// Close what no photo shows of an isolated object; otherwise large gaps stay open.
+    /// Fill the unobserved parts of an isolated object; otherwise large holes stay open.
     package var closesObject = true
-    /// Levels of the surface's octree at most; 9 resolves 1/460, 10 1/930 of the object's size.
+    /// Maximum octree depth; 9 resolves 1/460, 10 resolves 1/930 of the object's size.
     package var maximumDepth = 9
-    /// Share of the photos with masks from which on these tell the object from its surroundings.
+    /// Share of photos with masks from which on the masks determine what is the object.
     package var sufficientMaskShare = 0.5
 
     package init() {}
 
-    /// For a cloud from views of so many pixels: beyond 0.5 MP twice as fine for four times as many.
+    /// For a cloud from views of `viewPixels` pixels: from 0.5 MP on, four times the pixels double
+    /// the resolution.
     package init(viewPixels: Int) {
       let finer = log2(Double(max(500_000, viewPixels)) / 500_000) / 2
       maximumDepth = min(12, 9 + Int(finer.rounded()))
@@ -29,9 +31,10 @@ package struct MeshGeneration {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The surface with normals and colours, in the frame of the cloud. Where most photos have masks, the
-  /// object is what `silhouettes` keep.
+  /// The surface with normals and colors, in the frame of the cloud. If most photos have masks, the
+  /// object is what `silhouettes` retain.
   ///
+  /// Throws `PipelineError.noSurface` if the cloud does not determine one.
   /// Throws `PipelineError.noSurface` where the cloud does not determine one.
   package func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes? = nil,
@@ -61,20 +64,22 @@ package struct MeshGeneration {
     return mesh
   }
 
-  /// The box around what `run` keeps, from the sparse points where there is no cloud; cheap.
+  /// The box around what `run` would keep, in the frame of the cloud; from the sparse points if
+  /// there is no cloud. Cheap. Nil without points.
   package func bounds(
     _ cloud: PointCloud?, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> (min: SIMD3<Float>, max: SIMD3<Float>)? {
     try ObjectIsolation().bounds(cloud, reconstruction, context)
   }
 
-  /// The points that the surface is made of.
+  /// The points that the surface is reconstructed from.
   private struct Selection {
     var isKept: [Bool]
     var isObject: Bool
     var support: StandingPlane?
   }
 
+  /// Throws unless the cloud has at least 100 finite points with normals and footprints.
   private func check(_ cloud: PointCloud) throws {
     let finite = cloud.positions.reduce(0) {
       $1.x.isFinite && $1.y.isFinite && $1.z.isFinite ? $0 + 1 : $0
@@ -87,6 +92,7 @@ package struct MeshGeneration {
     }
   }
 
+  /// Selects the object's points by masks or by isolation, else all points of the scene.
   private func select(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ silhouettes: Silhouettes?,
     _ context: StageContext
@@ -103,7 +109,8 @@ package struct MeshGeneration {
       let result = try ObjectIsolation().run(cloud, reconstruction, context)
       if let failure = result.failure {
         context.notes.warn(
-          "The object could not be told from its surroundings: \(failure) The whole scene is kept.")
+          "The object could not be separated from its surroundings: \(failure) "
+            + "The whole scene is kept.")
       } else {
         let kept = result.isKept.filter { $0 }.count
         context.notes.count("objectPoints", Double(kept))

@@ -2,9 +2,9 @@ import Kernels
 import SceneModel
 
 extension ObjectIsolation {
-  /// The box around the isolated object, or around the scene where no object stands out; cheap.
+  /// The box around the isolated object, or around the scene if there is no clear object; cheap.
   ///
-  /// Rests on the sparse points where there is no dense cloud. Nil where there are no points.
+  /// Uses the sparse points if there is no dense cloud. Nil without points.
   func bounds(
     _ cloud: PointCloud? = nil, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> (min: SIMD3<Float>, max: SIMD3<Float>)? {
@@ -12,7 +12,7 @@ extension ObjectIsolation {
     guard points.count > 0 else { return nil }
     let result = try run(points, reconstruction, context)
     let kept = points.positions.indices.filter { result.isKept[$0] }
-    // Single stray points must not set the box.
+    // Outliers must not determine the box.
     let q = result.failure == nil && cloud != nil ? 0.0005 : 0.01
     let axes = (0..<3).compactMap { axis -> (Float, Float)? in
       let values = kept.map { points.positions[$0][axis] }.sorted()
@@ -29,7 +29,7 @@ extension ObjectIsolation {
 }
 
 extension Reconstruction {
-  /// The triangulated points as a cloud without normals; footprints are half their spacing.
+  /// The triangulated points as a cloud without normals; footprints are half the median spacing.
   func sparseCloud(_ control: KernelControl) throws -> PointCloud {
     var cloud = PointCloud()
     for point in points {

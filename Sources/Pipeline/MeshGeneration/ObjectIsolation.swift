@@ -2,45 +2,47 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Keeps the object that the photos look at and removes its support and background.
+/// Keeps the object that the photos are aimed at, and removes its support and background.
 ///
-/// The support is the dominant near-horizontal plane in the region that most photos look at; the
-/// object is what stands on it, connected, around the focus of the optical axes.
+/// The support is the dominant near-horizontal plane in the region that most photos cover; the
+/// object is the connected component above it around the focus of the optical axes.
 struct ObjectIsolation {
   struct Options: Hashable, Codable, Sendable {
     /// Side of a sample's voxel in median footprints.
     var sampleFootprints = 2.0
-    /// Samples that touch within this many sample sides are connected.
+    /// Samples within this many sample sides of each other are connected.
     var connectionSamples = 2.0
-    /// Share of the photos that must have a sample in their frame for it to find the support.
+    /// Share of the photos that must have a sample in their frame for it to enter plane detection.
     var focusCoverage = 0.4
-    /// Share of the photos that must have a sample in their frame for it to be of the object.
+    /// Share of the photos that must have a sample in their frame for it to belong to the object.
     var objectCoverage = 0.15
-    /// Farther from the focus than this share of the camera distance nothing is of the object.
+    /// Samples farther from the focus than this share of the camera distance are not the object.
     var reach = 0.9
-    /// Parts this far from the object, as share of its size, are of it.
+    /// Components within this distance of the object, as a share of its size, belong to it.
     var gap = 0.04
-    /// A part with at least this share of the main part's weight is of the object.
+    /// A component with at least this share of the main component's weight belongs to the object.
     var partnerShare = 0.25
-    /// The object's share of the samples in the middle of the view at least; less is no object.
+    /// Minimum share of the object in the samples at the center of the view.
     var minimumShare = 0.02
-    /// More than this share of the outline cut off at the region's end means no clear object.
+    /// If more than this share of the outline is truncated at the region's border, no object is
+    /// clear.
     var maximumCut = 0.25
 
     init() {}
   }
 
   struct Result: Sendable {
-    /// Whether each input point is of the object.
+    /// Whether each input point belongs to the object.
     var isKept: [Bool]
-    /// What the object stands on; nil where none was found.
+    /// The plane that the object stands on; nil if none was found.
     var support: StandingPlane?
-    /// Why there is no clear object; then everything finite is kept.
+    /// Why there is no clear object; then all finite points are kept.
     var failure: String?
   }
 
   var options = Options()
 
+  /// Classifies the points of `cloud`; a cloud without a clear object is a result, not an error.
   func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Result {
@@ -63,7 +65,7 @@ struct ObjectIsolation {
   }
 }
 
-/// The averaged samples with what decides whether they are of the object.
+/// The downsampled points with the features that decide whether they belong to the object.
 struct IsolationSamples {
   enum Outcome {
     case object([Bool], StandingPlane?)
@@ -74,14 +76,14 @@ struct IsolationSamples {
   let cloud: PointCloud
   let cell: Double
   let focus: ViewFocus
-  /// Share of the photos that have each sample in their frame.
+  /// Share of the photos that have each sample in their frame, 0…1.
   let coverage: [Float]
-  /// Distance of each sample to the focus in camera distances.
+  /// Distance of each sample from the focus in camera distances.
   let distance: [Float]
   let up: SIMD3<Double>
   let isUpKnown: Bool
 
-  /// Nil where no registered photo sees a sample.
+  /// Nil if no registered photo sees a sample.
   init?(
     _ samples: CloudAveraging.Result, _ reconstruction: Reconstruction,
     _ options: ObjectIsolation.Options
@@ -100,6 +102,7 @@ struct IsolationSamples {
     up = isUpKnown ? [0, 1, 0] : focus.meanUp
   }
 
+  /// Detects the support plane, then selects the components of the object above it.
   func isolate(_ context: StageContext) throws -> Outcome {
     let region = cloud.positions.indices.filter {
       Double(coverage[$0]) >= options.focusCoverage && distance[$0] < 1
@@ -119,20 +122,20 @@ struct IsolationSamples {
         && Double(distance[$0]) < options.reach
     }
     guard let isObject = try object(isCandidate, context) else {
-      return .failure("nothing stands out where the photos look.")
+      return .failure("there is no separate object in the photos' common view.")
     }
     let central = region.filter { distance[$0] < 0.5 }
     let share = central.filter { isObject[$0] }.count
     guard Double(share) >= options.minimumShare * Double(central.count) else {
-      return .failure("what stands out is too small.")
+      return .failure("the object in the common view is too small.")
     }
     if try cut(isObject, isAbove, context.control) > options.maximumCut {
-      return .failure("what the photos show goes on beyond their common view.")
+      return .failure("the surface in the photos extends beyond their common view.")
     }
     return .object(isObject, support)
   }
 
-  /// The candidates of the component around the focus and of what belongs to it; nil without any.
+  /// The candidates in the main component and in those that belong to it; nil without any.
   private func object(_ isCandidate: [Bool], _ context: StageContext) throws -> [Bool]? {
     let indices = cloud.positions.indices.filter { isCandidate[$0] }
     guard !indices.isEmpty else { return nil }
@@ -149,7 +152,7 @@ struct IsolationSamples {
     }
     guard let main = weights.indices.max(by: { weights[$0] < weights[$1] }), weights[main] > 0
     else { return nil }
-    // Specks are noise, however near.
+    // Tiny components are noise, however near.
     for component in weights.indices where members[component].count < 8 { weights[component] = 0 }
     var isPart = weights.map { $0 > 0 && $0 >= options.partnerShare * weights[main] }
     isPart[main] = true
@@ -161,7 +164,7 @@ struct IsolationSamples {
     return isObject
   }
 
-  /// Adds components that come near the object, in a few rounds.
+  /// Adds components near the object, in at most four rounds.
   private func attach(
     _ isPart: inout [Bool], _ weights: [Double], _ members: Members, _ indices: [Int],
     _ control: KernelControl
@@ -191,8 +194,8 @@ struct IsolationSamples {
     }
   }
 
-  /// The length over which the object goes on beyond the region of interest, in units of the
-  /// outline of a disc of the object's area.
+  /// The length along which the object continues beyond the region of interest, relative to the
+  /// circumference of a disc of the object's area.
   private func cut(_ isObject: [Bool], _ isAbove: [Bool], _ control: KernelControl) throws -> Double
   {
     let object = cloud.positions.indices.filter { isObject[$0] }
@@ -210,7 +213,7 @@ struct IsolationSamples {
 }
 
 extension Reconstruction {
-  /// The median depth of the points that each photo sees; nil for photos that see none.
+  /// The median depth of the points that each photo observes; nil for photos that observe none.
   func medianDepths(of cloud: PointCloud) -> [Double?] {
     var depths = [[Double]](repeating: [], count: photos.count)
     for index in cloud.positions.indices {

@@ -1,18 +1,19 @@
 import Kernels
 import SceneModel
 
-/// Moves the surface to where photos agree at a finer resolution than that of the dense stage: relief
-/// and edges become crisp, and noise goes (after Vu et al., "High Accuracy and Visibility-Consistent
-/// Dense Multiview Stereo", PAMI 2012).
+/// Photometric mesh refinement: moves the surface to where photos agree, at a finer resolution than
+/// the dense stage's. Sharpens relief and edges, and reduces noise (after Vu et al., "High Accuracy
+/// and Visibility-Consistent Dense Multiview Stereo", PAMI 2012).
 struct PhotoRefinement {
   struct Options: Hashable, Codable, Sendable {
-    /// Pixels of a photo at most.
+    /// Maximum number of pixels of a photo.
     var maximumPixels = 8_000_000
     var surface = SurfaceRefinement.Options()
 
     init() {}
 
-    /// For a surface from views of so many pixels: much smaller pixels tell triangles nothing more.
+    /// For a surface from views of `viewPixels` pixels: much smaller pixels add no information for
+    /// its triangles.
     init(viewPixels: Int) {
       maximumPixels = min(maximumPixels, 4 * max(1, viewPixels))
     }
@@ -20,8 +21,8 @@ struct PhotoRefinement {
 
   var options = Options()
 
-  /// `mesh` with positions moved and the normals that follow. Open borders stay as they are, and what no
-  /// two photos see or what has no texture.
+  /// `mesh` with refined positions and updated normals. Open boundaries stay unchanged, as does
+  /// what fewer than two photos see or has no texture.
   func run(_ mesh: Mesh, source: ViewSource, _ context: StageContext) throws -> Mesh {
     let refinement = try SurfaceRefinement(
       mesh, options: options.surface, context.part(from: 0, to: 0.01).control)

@@ -2,14 +2,14 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Makes a closed surface of an averaged cloud by screened Poisson reconstruction (Kazhdan and
-/// Hoppe, ACM TOG 2013), with cells about as large as the samples are apart.
+/// Reconstructs a closed surface from a downsampled cloud by screened Poisson reconstruction
+/// (Kazhdan and Hoppe, ACM TOG 2013), with cells about as large as the sample spacing.
 struct PoissonSurface {
   struct Options: Hashable, Codable, Sendable {
-    /// Levels of the octree at most. Each one costs four times the time and memory.
+    /// Maximum octree depth. Each level quadruples time and memory.
     var maximumDepth = 10
     var minimumDepth = 5
-    /// Side of the solved cube in units of the cloud's largest extent.
+    /// Side of the solved cube relative to the cloud's largest extent.
     var scale = 1.1
 
     init() {}
@@ -17,8 +17,8 @@ struct PoissonSurface {
 
   var options = Options()
 
-  /// The surface and the side of its finest cells, in world units, as is `spacing`, the distance of
-  /// the samples.
+  /// The surface and the side of its smallest cells. `spacing` is the sample spacing; both are in
+  /// world units. Throws `PipelineError.noSurface`.
   func run(
     _ cloud: PointCloud, spacing: Double, _ context: StageContext
   ) throws -> (mesh: Mesh, cell: Double) {
@@ -32,7 +32,7 @@ struct PoissonSurface {
     let extent = Double((bounds.max - bounds.min).max())
     let depth = depth(extent: extent, spacing: spacing)
     var failure = ""
-    // The solver gives up on rare inputs ("failed to close loop"); a coarser tree avoids them.
+    // The solver fails on rare inputs ("failed to close loop"); a coarser octree avoids them.
     for coarser in 0..<3 where depth - coarser >= 2 {
       solver.depth = depth - coarser
       do {

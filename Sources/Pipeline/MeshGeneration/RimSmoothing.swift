@@ -1,15 +1,15 @@
 import SceneModel
 
-/// Draws a smooth line between what is kept of a surface and what is removed.
+/// Smooths the boundary between the kept and the removed part of a surface.
 ///
-/// Where photos see less and less of a surface its samples end raggedly, and so does what they
-/// support. The share of kept surface around each vertex is found by diffusion, and the line drawn
-/// where it is a half: notches are filled with the surface as it was solved, teeth cut off.
+/// Where photo coverage fades out, samples end raggedly, and so does the surface that they support.
+/// Diffusion estimates the share of kept surface around each vertex, and the boundary is drawn at
+/// one half: notches are filled with the surface as solved, spikes are cut off.
 struct RimSmoothing: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Steps of diffusion: the line is smooth over about their square root in edges.
+    /// Diffusion steps: the boundary is smooth over about √steps edges.
     var steps = 80
-    /// What is more edges away from the line plays no part.
+    /// Only faces within this many edges of the boundary can change.
     var reach = 14
 
     init() {}
@@ -17,8 +17,8 @@ struct RimSmoothing: Sendable {
 
   var options = Options()
 
-  /// Which faces are removed with the smooth line; `canKeep` says which of those so far removed may
-  /// come back.
+  /// Which faces are removed after smoothing; `canKeep` decides which of the so far removed faces
+  /// may be restored.
   func run(_ mesh: Mesh, isRemoved: [Bool], canKeep: (Int) -> Bool) -> [Bool] {
     guard isRemoved.contains(true), isRemoved.contains(false) else { return isRemoved }
     let kept = KeptShares(mesh, isRemoved)
@@ -34,7 +34,7 @@ struct RimSmoothing: Sendable {
     return result
   }
 
-  /// The faces around the line.
+  /// The faces near the boundary.
   private func band(_ mesh: Mesh, _ kept: KeptShares) -> [Int] {
     let isNear = mesh.triangles.vertices(
       within: options.reach, of: kept.shares.map { $0 > 0 && $0 < 1 })
@@ -43,9 +43,9 @@ struct RimSmoothing: Sendable {
     }
   }
 
-  /// Draws each vertex half-way to the mean over its faces by area, again and again: where there are no
-  /// samples faces are large. Vertices at the outer border of the band see a part of their faces only,
-  /// which are like the others.
+  /// Moves each vertex value halfway to its faces' area-weighted mean, repeatedly; weighted by area
+  /// because faces are large where there are no samples. Vertices at the outer border of the band
+  /// see only some of their faces, which are similar to the others.
   private func diffuse(_ kept: KeptShares, _ mesh: Mesh, _ band: [Int]) -> [Float] {
     let triangles = band.map { mesh.triangles[$0] }
     let thirds = triangles.map { triangle in
@@ -76,7 +76,7 @@ struct RimSmoothing: Sendable {
   }
 }
 
-/// The share of each vertex's faces that are kept; 0 where it has none.
+/// The share of each vertex's faces that are kept; 0 for a vertex without faces.
 private struct KeptShares {
   var shares: [Float]
 

@@ -2,17 +2,18 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Removes what a whole scene is better without: the far background, whose depth is a guess, and
-/// specks that float.
+/// Removes unreliable parts of a whole scene: the distant background, whose depth is uncertain, and
+/// small floating components.
 struct SceneTrimming {
   struct Options: Hashable, Codable, Sendable {
-    /// Points with a footprint of more than this many medians are far background.
+    /// Points with a footprint above this many medians are distant background.
     var maximumFootprints = 8.0
-    /// Points seen from directions that differ by less than this, in degrees, have no depth.
+    /// Points whose viewing directions differ by less than this, in degrees, have no reliable
+    /// depth.
     var minimumParallaxDegrees = 1.0
-    /// Side of a voxel in which points are neighbours, in median footprints.
+    /// Side of a voxel for connecting points, in median footprints.
     var connectionFootprints = 6.0
-    /// Components with fewer points float.
+    /// Components with fewer points are removed.
     var minimumPoints = 100
     /// The same as a share of all points.
     var minimumShare = 0.0005
@@ -46,10 +47,11 @@ struct SceneTrimming {
     for component in 0..<grid.componentCount where members[component].count < minimum {
       for member in members[component] { isKept[indices[Int(member)]] = false }
     }
-    // A small cloud has nothing but specks; better those than nothing.
+    // In a small cloud all components are below the limit; keep them rather than nothing.
     return isKept.contains(true) ? isKept : cloud.positions.map { $0.x.isFinite }
   }
 
+  /// Whether two photos see the point at a sufficient triangulation angle.
   private func hasParallax(
     _ cloud: PointCloud, _ index: Int, _ centers: [SIMD3<Double>?], _ minimumCosine: Double
   ) -> Bool {

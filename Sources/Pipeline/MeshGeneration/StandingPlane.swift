@@ -5,24 +5,25 @@ import SceneModel
 struct StandingPlane: Hashable, Sendable {
   var normal: SIMD3<Double>
   var offset: Double
-  /// Half the thickness of what belongs to the support, in world units.
+  /// Half the thickness of the slab of points that belong to the support, in world units.
   var band: Double
 
+  /// Signed distance above the plane in world units.
   func height(of point: SIMD3<Double>) -> Double { normal.dot(point) - offset }
 }
 
-/// Finds the dominant near-horizontal plane under the object by RANSAC (Fischler and Bolles, CACM
-/// 1981) with a least-squares finish.
+/// Detects the dominant near-horizontal plane under the object by RANSAC (Fischler and Bolles, CACM
+/// 1981) with least-squares refinement.
 struct StandingPlaneDetection {
   struct Options: Hashable, Codable, Sendable {
     /// Planes steeper than this are walls, in degrees.
     var maximumTiltDegrees = 30.0
-    /// The same where the up direction is a guess.
+    /// The same if the up direction is only estimated from the photos.
     var maximumUnknownTiltDegrees = 60.0
     var iterations = 800
-    /// Samples that score a hypothesis.
+    /// Number of samples that score a hypothesis.
     var scoringSamples = 4000
-    /// Half the thickness of the plane that collects support, as share of the camera distance.
+    /// Inlier threshold: half the thickness of the plane, as a share of the camera distance.
     var tolerance = 0.006
     /// Share of the samples that must lie on the plane.
     var minimumShare = 0.08
@@ -34,8 +35,8 @@ struct StandingPlaneDetection {
 
   var options = Options()
 
-  /// `positions` (and `normals`, may be empty) are of equally spread samples in the region that the
-  /// photos look at; `cell` is their spacing.
+  /// Nil if no plane has enough support. `positions` and `normals` (may be empty) are of evenly
+  /// spaced samples in the region that the photos cover; `cell` is their spacing in world units.
   func run(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], up: SIMD3<Double>, isUpKnown: Bool,
     focus: ViewFocus, cell: Double
@@ -73,7 +74,7 @@ struct StandingPlaneDetection {
     return plane
   }
 
-  /// Samples on the plane, less those below it: nothing is seen under a support.
+  /// Inliers of the plane, minus samples below it: nothing is visible under a support.
   private func score(_ plane: StandingPlane, _ samples: [SIMD3<Double>]) -> Double {
     samples.reduce(0) { sum, sample in
       let height = plane.height(of: sample)
@@ -82,13 +83,14 @@ struct StandingPlaneDetection {
     }
   }
 
+  /// Whether enough cameras are above the plane.
   private func camerasAbove(_ plane: StandingPlane, _ focus: ViewFocus) -> Bool {
     let centers = focus.centers
     let above = centers.filter { plane.height(of: $0) > 0 }.count
     return Double(above) >= options.minimumCamerasAbove * Double(centers.count)
   }
 
-  /// The plane of least squares through its samples, with a band from their spread.
+  /// The least-squares plane through the inliers, with a band from their deviation (1.4826 · MAD).
   private func refined(
     _ plane: StandingPlane, _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>],
     _ up: SIMD3<Double>, _ tolerance: Double, _ cell: Double
@@ -107,7 +109,7 @@ struct StandingPlaneDetection {
 }
 
 extension StandingPlane {
-  /// The plane through three points; nil where they are nearly on a line.
+  /// The plane through three points; nil if they are close together or nearly collinear.
   init?(through points: [SIMD3<Double>], up: SIMD3<Double>, band: Double) {
     let (u, v) = (points[1] - points[0], points[2] - points[0])
     let cross = u.cross(v)
@@ -119,7 +121,7 @@ extension StandingPlane {
     self.band = band
   }
 
-  /// The plane of least squares in height over `plane`; nil where the points are on a line.
+  /// The least-squares plane in height over `plane`; nil if the points are collinear.
   init?(fitting points: [SIMD3<Double>], near plane: StandingPlane) {
     let (u, v) = plane.normal.orthonormalPair
     let mean = points.reduce(.zero, +) / Double(points.count)
@@ -150,8 +152,8 @@ extension SIMD3 where Scalar == Double {
 }
 
 extension StandingPlane {
-  /// The level plane through the lowest points of an object; nil where up isn't known, or where photos
-  /// show the underside, which then needs no plane to be closed by.
+  /// The level plane through the lowest points of an object; nil if the up direction isn't known,
+  /// or if photos show the underside, which then requires no plane to be filled.
   init?(under object: PointCloud, up: WorldFrame.Up) {
     let heights = object.positions.map { Double($0.y) }
     guard up != .unknown, object.normals.count == object.count,

@@ -1,15 +1,15 @@
 import SceneModel
 
-/// The removed faces of a mesh by the gap that they close.
+/// The removed faces of a mesh, grouped by the hole that they fill.
 struct SurfaceGaps: Sendable {
   let count: Int
-  /// Whether the kept faces go all around a gap.
+  /// Whether kept faces surround a hole completely.
   let isEnclosed: [Bool]
-  /// Vertices between kept and removed faces.
+  /// Vertices of kept faces; on a hole's faces these are its boundary vertices.
   let isRim: [Bool]
-  /// The area of each gap.
+  /// The area of each hole.
   let areas: [Float]
-  /// The area of the largest connected part that a gap borders on.
+  /// The area of the largest connected kept part adjacent to each hole.
   let rimAreas: [Float]
   private let removed: [Int]
   private let members: Members
@@ -21,7 +21,7 @@ struct SurfaceGaps: Sendable {
       for vertex in triangle.vertices { isKept[vertex] = true }
     }
     isRim = isKept
-    // Gaps that meet at a vertex only are two: faces of one have edges in common.
+    // Holes that touch only at a vertex are separate: faces of one hole share edges.
     var numbers: [SIMD2<UInt32>: UInt32] = [:]
     let byEdges = removed.map { face in
       let edges = mesh.triangles[face].edges.map { edge -> UInt32 in
@@ -43,6 +43,7 @@ struct SurfaceGaps: Sendable {
     rimAreas = Self.rimAreas(mesh, faceAreas, isRemoved, removed, components)
   }
 
+  /// The area of the largest kept component that each hole touches.
   private static func rimAreas(
     _ mesh: Mesh, _ faceAreas: [Float], _ isRemoved: [Bool], _ removed: [Int],
     _ gaps: MeshComponents
@@ -65,9 +66,10 @@ struct SurfaceGaps: Sendable {
     return result
   }
 
+  /// The mesh's face indices in a hole.
   func faces(of gap: Int) -> [Int] { members[gap].map { removed[Int($0)] } }
 
-  /// A gap is enclosed when it has a rim and all of its edges have a face on both sides.
+  /// A hole is enclosed if it has a boundary and all of its edges have faces on both sides.
   private static func areEnclosed(
     _ mesh: Mesh, _ removed: [Int], _ components: MeshComponents, _ isKept: [Bool]
   ) -> [Bool] {

@@ -2,25 +2,25 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Removes what Poisson made up: faces that are far from any sample, faces without support that
-/// photos look through, and what masks leave out. `RimSmoothing` evens the line between; `GapClosing`
-/// decides which of the gaps are closed again.
+/// Removes surface that Poisson reconstruction extrapolated: faces far from any sample, weakly
+/// supported faces in observed free space, and what the masks exclude. `BoundarySmoothing` smooths
+/// the boundary; `HoleFilling` decides which of the holes are filled again.
 struct SurfaceTrimming {
   struct Options: Hashable, Codable, Sendable {
-    /// A face this many spacings from the nearest sample has no support.
+    /// Faces farther than this many spacings from the nearest sample are unsupported.
     var maximumSpacings = 2.5
-    /// Faces this many spacings from any sample go where photos look through them.
+    /// Faces farther than this many spacings from any sample are removed if photos see through
+    /// them.
     var contradictedSpacings = 1.5
-    /// Photos that must look through a face.
+    /// Number of photos that must see through a face.
     var contradictingPhotos = 3
-    /// A notch in the rim of what is supported is filled no farther than so many spacings from a
-    /// sample.
+    /// Maximum distance from a sample, in spacings, at which a notch in the boundary is filled.
     var notchSpacings = 5.0
-    /// How far before its point a ray ends, in spacings.
+    /// How far in front of its point a ray ends, in spacings.
     var clearanceSpacings = 5.0
-    /// Side of the cells of free space, in spacings.
+    /// Side of the free-space cells, in spacings.
     var cellSpacings = 2.0
-    /// Points that rays are cast to, at most.
+    /// Maximum number of points that rays are cast to.
     var maximumRayPoints = 500_000
     var rim = RimSmoothing.Options()
     var closing = GapClosing.Options()
@@ -30,8 +30,9 @@ struct SurfaceTrimming {
 
   var options = Options()
 
-  /// `samples` support the surface; `scene` is all that photos see, the background included.
-  /// `support` is what an object stands on.
+  /// `samples` support the surface; `scene` is all that the photos observe, including the
+  /// background; `spacing` is the sample spacing in world units; `support` is the plane that the
+  /// object stands on.
   func run(
     _ mesh: Mesh, samples: PointCloud, scene: PointCloud, spacing: Double,
     support: StandingPlane? = nil, silhouettes: Silhouettes? = nil,
@@ -81,6 +82,8 @@ struct SurfaceTrimming {
     }
   }
 
+  /// Casts rays from the camera centers to a subset of the scene's points, and counts the photos
+  /// that see through each cell.
   private func freeSpace(
     _ bounds: (min: SIMD3<Float>, max: SIMD3<Float>), _ scene: PointCloud, _ spacing: Double,
     _ reconstruction: Reconstruction, _ control: KernelControl
@@ -99,7 +102,7 @@ struct SurfaceTrimming {
 }
 
 extension Triangle {
-  /// The largest of the corners' values.
+  /// The maximum of the corners' values.
   fileprivate func maximum(of values: [Float]) -> Float {
     max(values[Int(a)], values[Int(b)], values[Int(c)])
   }

@@ -1,9 +1,9 @@
 import SceneModel
 
-/// What the photos look at: the point nearest to all optical axes, and which part of space most of
-/// them hold in their frame.
+/// The focus of the photos: the point nearest to all optical axes, and the share of photos that
+/// have a point in their frame.
 struct ViewFocus: Sendable {
-  /// World.
+  /// World frame.
   var point: SIMD3<Double>
   /// Median distance of the cameras to `point`, in world units.
   var distance: Double
@@ -18,10 +18,10 @@ struct ViewFocus: Sendable {
     var axis: SIMD3<Double> { rotation.row2 }
   }
 
-  /// Nil without a registered photo or where all is in one place.
+  /// Nil without a registered photo or if all cameras coincide.
   ///
-  /// `depths` holds the median depth of what each photo sees, nil where nothing is known. It
-  /// decides where nearly parallel axes don't meet.
+  /// `depths` holds the median depth of each photo's points, nil if unknown. It determines the
+  /// focus along nearly parallel axes.
   init?(_ reconstruction: Reconstruction, depths: [Double?]) {
     views = reconstruction.registered.compactMap { id in
       guard let pose = reconstruction.poses[id.index] else { return nil }
@@ -53,10 +53,10 @@ struct ViewFocus: Sendable {
     distance = median
   }
 
-  /// Camera centres in photo order.
+  /// Camera centers in photo order, world frame.
   var centers: [SIMD3<Double>] { views.map(\.pose.center) }
 
-  /// The mean of the directions that are up in the photos; zero when they cancel out.
+  /// The mean of the photos' up directions; zero if they cancel out.
   var meanUp: SIMD3<Double> {
     views.reduce(SIMD3<Double>.zero) { $0 - $1.rotation.row1 }.normalized
   }
@@ -76,7 +76,8 @@ struct ViewFocus: Sendable {
     return Double(count) / Double(views.count)
   }
 
-  /// The point with the least weighted squared distance to the axes, drawn weakly to the anchors.
+  /// The point with the least weighted squared distance to the axes, weakly attracted to the
+  /// anchors (iteratively reweighted by the caller).
   private static func intersect(
     _ views: [View], _ anchors: [SIMD3<Double>], _ weights: [Double]
   ) -> SIMD3<Double>? {

@@ -1,24 +1,29 @@
 import Foundation
 import SceneModel
 
-/// What a dense cloud is worth: how much denser it is than the sparse points, how much of them it
-/// covers, and how many points it has a cubic metre.
+/// Quality metrics of a dense cloud: density relative to the sparse points, coverage of the sparse
+/// points, and points per cubic meter.
 package struct CloudMetrics: Sendable {
+  /// Parameters of the metrics.
   package struct Options: Hashable, Codable, Sendable {
-    /// A sparse point is covered where the nearest dense point is within so many of its footprints.
+    /// A sparse point is covered if the nearest dense point is within this many of its footprints.
     package var coverageFootprints = 3.0
-    /// Share of the points beyond each side of the box whose volume counts, so that strays don't.
+    /// Share of the points trimmed at each side of the box whose volume counts, so that outliers
+    /// don't enlarge it.
     package var boxQuantile = 0.01
 
     package init() {}
   }
 
+  /// The measured figures.
   package struct Values: Hashable, Sendable {
+    /// Points of the dense cloud.
     package var points: Int
+    /// Points of the sparse reconstruction.
     package var sparsePoints: Int
     /// Share of the sparse points that the cloud covers.
     package var sparseCoverage: Double
-    /// Nil where the unit isn't the metre, or where the points are all in a plane.
+    /// Points per m³; nil if the unit isn't the meter or the points are coplanar.
     package var pointsPerCubicMeter: Double?
 
     /// Dense points for each sparse point.
@@ -29,7 +34,7 @@ package struct CloudMetrics: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Measures `cloud` and puts the figures into the report.
+  /// Measures `cloud` and records the figures in the report.
   @discardableResult
   package func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ notes: StageNotes
@@ -42,11 +47,12 @@ package struct CloudMetrics: Sendable {
     return values
   }
 
+  /// The share of the sparse points, 0…1, that have a dense point within reach.
   private func coverage(of points: [ScenePoint], by cloud: PointCloud) -> Double {
     let places = points.map { SIMD3<Float>($0.position) }
       .filter { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite }
     guard !places.isEmpty, cloud.count > 0 else { return 0 }
-    // A few points that are far away shall not make the cells large for all.
+    // A few distant points must not enlarge the cells for all.
     let typical = stride(from: 0, to: cloud.count, by: 1 + cloud.count / 10_000)
       .map { cloud.footprints[$0] }.sorted()
     let factor = Float(options.coverageFootprints)
@@ -58,7 +64,8 @@ package struct CloudMetrics: Sendable {
     return Double(grid.markedCount) / Double(points.count)
   }
 
-  /// Points in a unit of volume of the box that holds all but the outermost.
+  /// Points per unit of volume of the box that holds all but the outermost points; nil for a box
+  /// without volume.
   private func density(_ cloud: PointCloud) -> Double? {
     guard cloud.count > 0 else { return nil }
     let outer = Int(options.boxQuantile * Double(cloud.count))
@@ -75,6 +82,7 @@ package struct CloudMetrics: Sendable {
     return volume > 0 ? Double(inside) / volume : nil
   }
 
+  /// Records the metrics, and logs them as one sentence.
   private func report(_ values: Values, _ notes: StageNotes) {
     notes.count("sparsePoints", Double(values.sparsePoints))
     notes.count("pointsPerSparsePoint", values.pointsPerSparsePoint)
@@ -96,15 +104,15 @@ package struct CloudMetrics: Sendable {
   private func percent(_ ratio: Double) -> String { String(format: "%.0f %%", 100 * ratio) }
 }
 
-/// Places by the cells of a grid around them, to mark those that many points come near to: a k-d tree
-/// of the points would take longer to build.
+/// A uniform grid over sparse points that marks those near any dense point. Faster to build than a
+/// k-d tree of the dense points.
 private struct PlaceGrid {
   private let places: [SIMD3<Float>]
   private let inverseCell: Float
   private var cells: [SIMD3<Int32>: [Int32]] = [:]
   private var isMarked: [Bool]
 
-  /// Each place is in its own cell and those around it, which are `reach` wide.
+  /// Inserts each point into its own cell and the 26 adjacent ones; cells are `reach` wide.
   init(_ places: [SIMD3<Float>], reach: Float) {
     self.places = places
     inverseCell = 1 / max(reach, .leastNormalMagnitude)
@@ -120,6 +128,7 @@ private struct PlaceGrid {
 
   var markedCount: Int { isMarked.count { $0 } }
 
+  /// Marks all points within `distance` (at most `reach`) of `point`.
   mutating func mark(_ point: SIMD3<Float>, within distance: Float) {
     guard let cell = cell(of: point), let near = cells[cell] else { return }
     for index in near {
@@ -128,7 +137,7 @@ private struct PlaceGrid {
     }
   }
 
-  /// Nil where the point is too far away to number its cell, or not a number.
+  /// Nil if the point isn't finite or its cell index would overflow.
   private func cell(of point: SIMD3<Float>) -> SIMD3<Int32>? {
     let scaled = (point * inverseCell).rounded(.down)
     guard (0..<3).allSatisfy({ abs(scaled[$0]) < 1e9 }) else { return nil }

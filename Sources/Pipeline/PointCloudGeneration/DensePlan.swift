@@ -1,14 +1,14 @@
 import Kernels
 import SceneModel
 
-/// Which files of a workspace the dense stage has to make: what is there already stays.
+/// The files of a workspace that the dense stage must compute; valid existing files are reused.
 ///
-/// Goes backwards from the cloud, so that no step looks for what a later one no longer needs.
+/// Resolved backwards from the cloud, so that inputs of finished steps are not checked.
 struct DensePlan: Sendable {
-  /// Positions of views, ascending, by step.
+  /// Indices of views, ascending, by step.
   private(set) var missing: [PatchWorkspace.Step: [Int]] = [:]
 
-  /// What a step needs of some views, all of them where none are named.
+  /// Plans what `target` requires for the given views; for all views if `indices` is nil.
   init(
     _ target: PatchWorkspace.Step, of indices: [Int]? = nil, _ views: DenseViews,
     _ workspace: PatchWorkspace, _ control: KernelControl
@@ -22,16 +22,18 @@ struct DensePlan: Sendable {
     }
   }
 
+  /// Indices of the views that lack the file of `step`.
   subscript(step: PatchWorkspace.Step) -> [Int] { missing[step] ?? [] }
 
-  /// Bytes that the missing files take, about.
+  /// Approximate size of the missing files in bytes.
   func byteCount(_ views: DenseViews) -> Int {
     missing.reduce(0) { sum, entry in
       sum + entry.value.reduce(0) { $0 + views.views[$1].pixelCount } * entry.key.bytesPerPixel
     }
   }
 
-  /// The views whose file can't be used; reads all of it, so that damage is found before the work.
+  /// The views whose file is missing or invalid. Reads each file in full, so that damage is
+  /// detected before any work starts.
   private static func absent(
     _ step: PatchWorkspace.Step, _ indices: [Int], _ views: DenseViews,
     _ workspace: PatchWorkspace, _ control: KernelControl
@@ -44,7 +46,7 @@ struct DensePlan: Sendable {
 }
 
 extension PatchWorkspace.Step {
-  /// What a file takes for each pixel of its view; the cloud's is a guess above what is usual.
+  /// Bytes of a file per pixel of its view; for the cloud, an estimate above the usual size.
   fileprivate var bytesPerPixel: Int {
     switch self {
     case .view: 3

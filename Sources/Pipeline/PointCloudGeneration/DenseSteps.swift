@@ -1,8 +1,8 @@
 import Kernels
 import SceneModel
 
-/// The steps of the dense stage, each for the views that the plan names. A step reads what the one
-/// before left in the workspace, and leaves its own there.
+/// The steps of the dense stage, each for the views that the plan lists. A step reads the results
+/// of the previous one from the workspace and writes its own there.
 struct DenseSteps {
   private let views: DenseViews
   private let workspace: PatchWorkspace
@@ -13,7 +13,7 @@ struct DenseSteps {
   private let photos: SharedValues<PatchView>
   private let halves: SharedValues<PatchView>
 
-  /// `share` says which of several jobs that work at the same time this is.
+  /// `share` identifies this job among several concurrent ones.
   init(
     _ views: DenseViews, _ workspace: PatchWorkspace, _ plan: DensePlan, _ masks: PatchMasks,
     _ options: PointCloudGeneration.Options, share: PointCloudGeneration.Share? = nil
@@ -29,6 +29,7 @@ struct DenseSteps {
     halves = SharedValues(count: count, capacity: options.keptBytes / 4 / pixels)
   }
 
+  /// Runs all steps in order, up to the per-view clouds.
   func run(
     _ reconstruction: Reconstruction, _ images: ImageStore, _ context: StageContext
   ) throws {
@@ -44,7 +45,7 @@ struct DenseSteps {
     try fuse(parts.next(.cloud))
   }
 
-  /// Frees the photos from distortion, at the stage's resolution.
+  /// Undistorts the photos at the stage's resolution.
   private func makeViews(
     _ reconstruction: Reconstruction, _ images: ImageStore, _ context: StageContext
   ) throws {
@@ -59,7 +60,7 @@ struct DenseSteps {
     }
   }
 
-  /// Seeds, optimises and expands within each view, at half the resolution.
+  /// Seeds, optimizes and expands patches within each view, at half the resolution.
   private func makeCoarsePatches(_ context: StageContext) throws {
     try forEach(.coarse, context) { [self] index, control in
       let view = views.views[index]
@@ -70,15 +71,15 @@ struct DenseSteps {
           seeds: view.points.compactMap { map.view.seed(at: $0) }, options: options.patches,
           control: control)
       } catch KernelError.degenerate {
-        // A view that shows none of its sparse points has no patches but those of other views.
+        // A view without visible sparse points gets patches from other views only.
       }
       try masks.apply(to: map, index)
       try workspace.write(map.patchBytes, views.key(.coarse, index))
     }
   }
 
-  /// Makes the patches at the view's resolution, each by the sources that its coarse patch is
-  /// visible in.
+  /// Optimizes the patches at the view's full resolution, each against the sources in which its
+  /// coarse patch is visible.
   private func refine(_ context: StageContext) throws {
     let maps = makeMaps()
     let coarseMap = { @Sendable [self] (index: Int) in try map(index, .coarseCompleted, in: maps) }
@@ -115,7 +116,7 @@ struct DenseSteps {
     notePeaks(maps, context.notes)
   }
 
-  /// Expands patches across views and into holes, and makes those at edges anew.
+  /// Expands patches across views and into holes, and re-estimates those at depth edges.
   private func complete(
     _ patches: PatchWorkspace.Step, _ states: PatchWorkspace.Step,
     to completed: PatchWorkspace.Step, _ context: StageContext
@@ -137,7 +138,7 @@ struct DenseSteps {
     notePeaks(maps, context.notes)
   }
 
-  /// Makes each view's points of the cloud.
+  /// Fuses each view's accepted patches into its points of the cloud.
   private func fuse(_ context: StageContext) throws {
     let maps = makeMaps()
     let map = { @Sendable [self] (index: Int) in
@@ -155,7 +156,7 @@ struct DenseSteps {
     }
   }
 
-  /// Puts the views' points together, in the order of the views.
+  /// Concatenates the views' points in view order.
   func cloud(_ context: StageContext) throws -> PointCloud {
     var (cloud, accepted) = (PointCloud(), 0)
     for index in views.indices {
@@ -170,36 +171,38 @@ struct DenseSteps {
     return cloud
   }
 
+  /// Records the share of accepted pixels, and warns if the cloud is too sparse.
   private func warnOfGaps(_ ratio: Double, _ notes: StageNotes) {
     notes.count("acceptedPixelRatio", ratio)
     guard ratio < options.sparseRatio else { return }
     notes.warn(
-      "Only \((1000 * ratio).rounded() / 10) % of the photos' area could be measured, so the "
-        + "model has large gaps: take more photos, from places further to the side of each other.")
+      "Only \((1000 * ratio).rounded() / 10) % of the photos' area could be reconstructed, so the "
+        + "model has large holes: take more photos, from positions further apart.")
   }
 }
 
 extension DenseSteps {
-  /// Calls `body` for each view that lacks a step's file.
+  /// Calls `body` for each view that lacks the step's file.
   private func forEach(
     _ step: PatchWorkspace.Step, _ context: StageContext,
     _ body: @escaping @Sendable (Int, KernelControl) throws -> Void
   ) throws {
     let indices = inOrderOfWork(plan[step])
     _ = try context.control.parallelUnits(indices.count) { [self] unit, control in
-      // Another job may have made it since the plan.
+      // A concurrent job may have written it since planning.
       if share != nil, workspace.contains(views.key(step, indices[unit])) { return }
       try body(indices[unit], control)
     }
   }
 
-  /// Of several jobs each begins with its own share and then helps the others from their ends.
+  /// With several jobs, each starts with its own share and then helps the others, from the end.
   private func inOrderOfWork(_ indices: [Int]) -> [Int] {
     guard let share else { return indices }
     let own = indices.filter { share.contains($0) }
     return own + indices.reversed().filter { !share.contains($0) }
   }
 
+  /// View `index` at the stage's resolution, shared between threads.
   private func photo(_ index: Int) throws -> PatchView {
     try photos.value(index) {
       let (view, key) = (views.views[index], views.key(.view, index))
@@ -210,10 +213,12 @@ extension DenseSteps {
     }
   }
 
+  /// View `index` at half the stage's resolution.
   private func half(_ index: Int) throws -> PatchView {
     try halves.value(index) { try photo(index).halved() }
   }
 
+  /// A cache of patch maps by view, bounded by the memory budget.
   private func makeMaps() -> SharedValues<PatchMap> {
     SharedValues(
       count: views.views.count,
@@ -221,7 +226,7 @@ extension DenseSteps {
         / max(1, PatchMap.bytesPerPixel * views.largestPixelCount))
   }
 
-  /// A view's patches as a step left them, with those that another accepted.
+  /// A view's patches as written by step `patches`, with the acceptance states of step `states`.
   private func map(
     _ index: Int, _ patches: PatchWorkspace.Step, _ states: PatchWorkspace.Step? = nil,
     in maps: SharedValues<PatchMap>
@@ -234,13 +239,14 @@ extension DenseSteps {
     }
   }
 
-  /// Reports how many maps and views were in memory at once.
+  /// Records the peak numbers of maps and views in memory.
   private func notePeaks(_ maps: SharedValues<PatchMap>, _ notes: StageNotes) {
     let before = notes.counts["peakMaps"] ?? 0
     notes.count("peakMaps", max(before, Double(maps.peakCount)))
     notes.count("peakViews", Double(photos.peakCount))
   }
 
+  /// Reads a file of this run; throws if it was changed or deleted.
   private func read(
     _ key: PatchWorkspace.Key, into buffer: UnsafeMutableRawBufferPointer
   ) throws {
@@ -249,13 +255,13 @@ extension DenseSteps {
     }
   }
 
-  /// Shares the stage's progress between the steps by what they have to do.
+  /// Divides the stage's progress among the steps in proportion to their expected work.
   private struct Progress {
     private let context: StageContext
     private let shares: [PatchWorkspace.Step: Double]
     private var done = 0.0
 
-    /// Usual shares of the time.
+    /// Relative cost of each step per view.
     private static let costs: [(PatchWorkspace.Step, Double)] = [
       (.view, 0.03), (.coarse, 0.13), (.coarseStates, 0.02), (.coarseCompleted, 0.06),
       (.patches, 0.35), (.states, 0.08), (.completed, 0.17), (.completedStates, 0.08),

@@ -2,29 +2,29 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The views that take part in the dense stage, with what each step needs to know of them.
+/// The views that take part in the dense stage, with their cameras, sources and file fingerprints.
 struct DenseViews: Sendable {
   struct View: Sendable {
     var photo: ID<Photo>
-    /// Without distortion, at the stage's resolution.
+    /// Pinhole camera without distortion, at the stage's resolution.
     var camera: Camera
     var cameraFromWorld: RigidTransform
-    /// Positions in `views` of those that it is compared with, the best first.
+    /// Indices in `views` of the source views, best first.
     var sources: [Int]
-    /// Sparse points that the photo observes.
+    /// Sparse points that the photo observes, in world coordinates.
     var points: [SIMD3<Double>]
-    /// Share of the photo that its mask leaves.
+    /// Share of the photo inside its mask, 0…1.
     var objectShare: Double
 
     var pixelCount: Int { camera.width * camera.height }
   }
 
-  /// In the order of the photos.
+  /// In photo order.
   let views: [View]
-  /// By step, the fingerprint of each view's file.
+  /// For each step, the fingerprint of each view's file.
   private let fingerprints: [PatchWorkspace.Step: [UInt64]]
 
-  /// Throws `PipelineError.noSurface` where no two photos can be compared.
+  /// Throws `PipelineError.noSurface` if no two photos share enough points.
   init(
     _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options
   ) throws {
@@ -49,13 +49,13 @@ struct DenseViews: Sendable {
 
   var indices: Range<Int> { views.indices }
   var pixelCount: Int { views.reduce(0) { $0 + $1.pixelCount } }
-  /// Pixels that may show the object.
+  /// Pixels inside the masks.
   var objectPixelCount: Double {
     views.reduce(0) { $0 + Double($1.pixelCount) * $1.objectShare }
   }
   var largestPixelCount: Int { views.map(\.pixelCount).max() ?? 0 }
 
-  /// What a view's file of a step must be.
+  /// What a view's file of a step must match.
   func key(_ step: PatchWorkspace.Step, _ index: Int) -> PatchWorkspace.Key {
     let view = views[index]
     let divisor = step.isCoarse ? 2 : 1
@@ -81,8 +81,8 @@ struct DenseViews: Sendable {
 }
 
 extension DenseViews {
-  /// Each step's fingerprint holds those of the files that it reads, so that what depends on a
-  /// change is made again, and nothing else.
+  /// Each step's fingerprint includes those of its input files, so that exactly the files that
+  /// depend on a change are recomputed.
   private static func fingerprints(
     _ views: [View], _ reconstruction: Reconstruction, _ images: ImageStore,
     _ options: PointCloudGeneration.Options
@@ -109,7 +109,7 @@ extension DenseViews {
     let completed = chain(states, views) { fingerprint, _ in fingerprint.add(completes) }
     let completedStates = chain(completed, views)
     let clouds = chain(completedStates, views) { fingerprint, view in
-      // Points name the photos that see them.
+      // Points list the photos that observe them.
       for photo in [view.photo] + view.sources.map({ views[$0].photo }) {
         fingerprint.add(photo.index)
       }
@@ -121,8 +121,8 @@ extension DenseViews {
     ]
   }
 
-  /// The fingerprints of a step that reads the files of a view and its sources, and what it takes
-  /// besides.
+  /// The fingerprints of a step that reads the files of a view and its sources; `add` contributes
+  /// further inputs.
   private static func chain(
     _ inputs: [UInt64], _ views: [View],
     _ add: (inout Fingerprint, View) -> Void = { _, _ in }
@@ -137,13 +137,14 @@ extension DenseViews {
     }
   }
 
+  /// The fingerprint of a view's photo, cameras and pose, and of the program.
   private static func fingerprint(
     _ view: View, _ photo: UInt64, _ reconstruction: Reconstruction
   ) -> UInt64 {
     var fingerprint = Fingerprint()
     fingerprint.add(ProgramIdentity.fingerprint)
     fingerprint.add(photo)
-    // The photo's own camera, and the one that it gives at this resolution.
+    // The photo's original camera, and the pinhole camera derived from it at this resolution.
     for camera in [reconstruction.camera(of: view.photo), view.camera] {
       fingerprint.add(camera.width)
       fingerprint.add(camera.height)

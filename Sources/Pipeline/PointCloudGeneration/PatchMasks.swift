@@ -1,17 +1,17 @@
 import Kernels
 import SceneModel
 
-/// Keeps the patches of views inside the masks of their photos.
+/// Restricts the patches of views to the masks of their photos.
 ///
-/// Every step that makes patches is followed by this one, so that what a mask leaves out neither passes
-/// the filter nor grows back.
+/// Applied after every step that creates patches, so that masked-out areas neither pass the filter
+/// nor grow back.
 struct PatchMasks: Sendable {
   private let views: DenseViews
   private let reconstruction: Reconstruction
   private let images: ImageStore
   private let maximumPixels: Int
 
-  /// `maximumPixels` are those of a view.
+  /// `maximumPixels` is the pixel limit of a view.
   init(
     _ views: DenseViews, _ reconstruction: Reconstruction, _ images: ImageStore,
     maximumPixels: Int
@@ -20,8 +20,8 @@ struct PatchMasks: Sendable {
     (self.images, self.maximumPixels) = (images, maximumPixels)
   }
 
-  /// Removes the patches of view `index` that lie outside; `map` may have half the view's resolution,
-  /// and nobody else may use it yet.
+  /// Removes the patches of view `index` outside its mask. `map` may have half the view's
+  /// resolution; the caller must have exclusive access to it.
   func apply(to map: PatchMap, _ index: Int) throws {
     let view = views.views[index]
     guard
@@ -29,8 +29,8 @@ struct PatchMasks: Sendable {
         view.photo, of: reconstruction, maximumPixels: maximumPixels)
     else { return }
     let isReduced = map.view.width < mask.width
-    // Pixels on the rim have some of the background's colour; at half the resolution they stay, for
-    // the sake of the best of their four.
+    // Boundary pixels mix in background color. At half resolution they stay: one of their four
+    // pixels may be fully inside.
     try map.removePatches(
       outside: mask.resized(width: map.view.width, height: map.view.height),
       least: isReduced ? 64 : 192)

@@ -3,25 +3,25 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// A folder with what the dense stage has made of each view so far, a file a view and step.
+/// A folder with the intermediate results of the dense stage, one file per view and step.
 ///
 /// ```
 /// 0012.view             the photo without distortion, RGB
 /// 0012.coarse           its patches at half the resolution
 /// 0012.coarseStates     which of them passed the filter
-/// 0012.coarseCompleted  the same with what grew into the others and was made anew at edges
+/// 0012.coarseCompleted  the same, with holes filled and the patches at edges re-estimated
 /// 0012.patches          the patches at the view's resolution
 /// 0012.states           which of them passed the filter
-/// 0012.completed        the same, completed as the coarse ones
+/// 0012.completed        the same, completed like the coarse ones
 /// 0012.completedStates  which of those passed the filter
 /// 0012.cloud            its points of the fused cloud
 /// ```
-/// A file is there whole or not at all, and holds the fingerprint of all that it was made from: one
-/// that is cut off, damaged, or of other photos, cameras, options or another program counts as
-/// missing. Several processes may work in one folder. Its files may be deleted at any time between
-/// runs. Numbers are in the machine's byte order, which the first word tells.
+/// A file exists completely or not at all, and contains the fingerprint of all its inputs: one that
+/// is truncated, damaged, or made from other photos, cameras, options or by another program counts
+/// as missing. Several processes may work in one folder. Files may be deleted at any time between
+/// runs. Numbers are in native byte order, detected from the magic number.
 final class PatchWorkspace: Sendable {
-  /// A step whose results are kept, in the order in which they are made.
+  /// A step whose results are stored, in order of execution.
   enum Step: String, CaseIterable, Sendable {
     case view
     case coarse, coarseStates, coarseCompleted
@@ -31,7 +31,7 @@ final class PatchWorkspace: Sendable {
     /// At half the view's resolution.
     var isCoarse: Bool { self == .coarse || self == .coarseStates || self == .coarseCompleted }
 
-    /// The steps whose files, of a view and its sources, it reads.
+    /// The steps whose files, of a view and its sources, this step reads.
     var inputs: [Step] {
       switch self {
       case .view: []
@@ -47,23 +47,23 @@ final class PatchWorkspace: Sendable {
     }
   }
 
-  /// What a file must be to be of use.
+  /// What a file must match to be valid.
   struct Key: Hashable, Sendable {
     var step: Step
     var photo: ID<Photo>
     /// Pixels of the view.
     var width: Int
     var height: Int
-    /// Of all that the file is made from.
+    /// Of all inputs of the file.
     var fingerprint: UInt64
   }
 
   let folder: URL
-  /// Whether it goes away at the end.
+  /// Whether the folder is removed at the end.
   let isTemporary: Bool
 
-  /// Opens or makes the folder; without one a temporary one in `temporaryParent`, which `close`
-  /// removes.
+  /// Opens or creates the folder; nil creates a temporary one in `temporaryParent`, which `close`
+  /// removes. Throws `WorkspaceError.notWritable`.
   init(folder: URL?, temporaryParent: URL = PatchWorkspace.temporaryParent) throws {
     self.folder =
       folder ?? temporaryParent.appendingPathComponent("photogrammetry-\(UUID().uuidString)")
@@ -81,7 +81,7 @@ final class PatchWorkspace: Sendable {
     if isTemporary { try? FileManager.default.removeItem(at: folder) }
   }
 
-  /// Throws where the disk has no room for so many bytes.
+  /// Throws `WorkspaceError.noSpace` if the disk has fewer than `needed` free bytes.
   func checkSpace(_ needed: Int) throws {
     let values = try? FileManager.default.attributesOfFileSystem(forPath: folder.path)
     guard let free = (values?[.systemFreeSize] as? NSNumber)?.intValue, free < needed else {
@@ -91,7 +91,7 @@ final class PatchWorkspace: Sendable {
       folder: folder.path, needed: needed, free: free, isTemporary: isTemporary)
   }
 
-  /// Writes a view's file, or replaces it.
+  /// Writes or replaces a view's file.
   func write(_ payload: UnsafeRawBufferPointer, _ key: Key) throws {
     let header = Header(key, payload)
     do {
@@ -104,7 +104,8 @@ final class PatchWorkspace: Sendable {
     }
   }
 
-  /// Reads a file into `buffer`, which has its very size; false where the file is of no use.
+  /// Reads a file into `buffer`, which must have the exact payload size; false if the file is
+  /// missing or invalid.
   func read(_ key: Key, into buffer: UnsafeMutableRawBufferPointer) -> Bool {
     guard let file = InputFile(url(key)), let header = Header(file), header.isFor(key),
       header.byteCount == buffer.count, file.byteCount == Header.byteCount + buffer.count,
@@ -113,7 +114,7 @@ final class PatchWorkspace: Sendable {
     return header == Header(key, UnsafeRawBufferPointer(buffer))
   }
 
-  /// Reads a file of any size; nil where it is of no use.
+  /// Reads a file of any size; nil if it is missing or invalid.
   func bytes(_ key: Key) -> [UInt8]? {
     guard let file = InputFile(url(key)), let header = Header(file), header.isFor(key),
       header.byteCount == file.byteCount - Header.byteCount
@@ -127,16 +128,18 @@ final class PatchWorkspace: Sendable {
     return bytes.withUnsafeBytes { header == Header(key, $0) } ? bytes : nil
   }
 
-  /// Whether a file is there and of use; reads all of it.
+  /// Whether a valid file exists; reads it in full to verify the checksum.
   func contains(_ key: Key) -> Bool { bytes(key) != nil }
 
+  /// The path of a view's file: four-digit photo index and step name.
   func url(_ key: Key) -> URL {
     let number = String(key.photo.index)
     let padding = String(repeating: "0", count: max(0, 4 - number.count))
     return folder.appendingPathComponent("\(padding)\(number).\(key.step.rawValue)")
   }
 
-  /// `TMPDIR`, else the folder that is meant for large files: `/tmp` is often memory.
+  /// `TMPDIR` if set, else `/var/tmp`, the folder for large temporary files: `/tmp` is often in
+  /// memory.
   static var temporaryParent: URL {
     let large = "/var/tmp"
     let isChosen = ProcessInfo.processInfo.environment["TMPDIR"]?.isEmpty == false
@@ -146,13 +149,13 @@ final class PatchWorkspace: Sendable {
 }
 
 extension PatchWorkspace {
-  /// The beginning of a file.
+  /// The header of a file.
   private struct Header: Equatable {
     /// "PATCHES1" in ASCII.
     private static let magic: UInt64 = 0x3153_4548_4354_4150
     static let byteCount = MemoryLayout<SIMD8<UInt64>>.size
 
-    /// Magic number, step, fingerprint, width, height, bytes that follow, their checksum, 0.
+    /// Magic number, step, fingerprint, width, height, payload size, payload checksum, 0.
     let words: SIMD8<UInt64>
 
     init(_ key: Key, _ payload: UnsafeRawBufferPointer) {
@@ -167,7 +170,7 @@ extension PatchWorkspace {
       self.words = words
     }
 
-    /// Nil where the file has none.
+    /// Nil if the file has no valid header.
     init?(_ file: borrowing InputFile) {
       var words = SIMD8<UInt64>(repeating: 0)
       guard withUnsafeMutableBytes(of: &words, { file.read(into: $0) }), words[0] == Self.magic,
@@ -178,6 +181,7 @@ extension PatchWorkspace {
 
     var byteCount: Int { Int(words[5]) }
 
+    /// Whether the file has the step, fingerprint and size of `key`.
     func isFor(_ key: Key) -> Bool {
       words[1] == Self.number(of: key.step) && words[2] == key.fingerprint
         && words[3] == UInt64(key.width) && words[4] == UInt64(key.height)
@@ -189,7 +193,7 @@ extension PatchWorkspace {
   }
 }
 
-/// Why the dense stage can't keep what it makes.
+/// Why the dense stage can't store its intermediate results.
 enum WorkspaceError: LocalizedError, Equatable, Sendable {
   case noSpace(folder: String, needed: Int, free: Int, isTemporary: Bool)
   case notWritable(folder: String, isTemporary: Bool)

@@ -1,7 +1,7 @@
 import SceneModel
 
 extension PointCloud {
-  /// The cloud as bytes: counts of points and of photo indices, then one array after the other.
+  /// Serializes the cloud: counts of points and of photo indices, then one array after the other.
   func encoded() -> [UInt8] {
     var bytes: [UInt8] = []
     bytes.reserveCapacity(16 + count * 36 + photoIndices.count * 2)
@@ -20,7 +20,8 @@ extension PointCloud {
     return bytes
   }
 
-  /// Appends what `encoded` made; false, with nothing appended, where it isn't that.
+  /// Appends a cloud serialized by `encoded`; returns false, with nothing appended, if the bytes
+  /// are malformed.
   mutating func append(encoded bytes: ArraySlice<UInt8>) -> Bool {
     bytes.withUnsafeBytes { bytes in
       guard bytes.count >= 16 else { return false }
@@ -49,7 +50,7 @@ extension PointCloud {
   }
 }
 
-/// Reads arrays that follow each other; the caller has checked that they are there.
+/// Reads consecutive arrays; the caller has checked the bounds.
 private struct ArrayReader {
   let bytes: UnsafeRawBufferPointer
   var offset: Int

@@ -2,26 +2,31 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Patch multi-view stereo: seeds patches from the sparse points, optimises and expands them over
-/// every view, filters them by visibility and fuses them to one oriented, coloured cloud.
+/// Patch-based multi-view stereo: seeds patches from the sparse points, optimizes and expands them
+/// over every view, filters them by visibility consistency and fuses them into one oriented,
+/// colored cloud.
 ///
 /// Y. Furukawa, J. Ponce: Accurate, dense, and robust multiview stereopsis, PAMI 2010. The schedule
-/// is our own: a grid of patches a view, coarse to fine. Each step works on one view and reads what
-/// the step before made of it and of its sources, from files: memory is bounded by a view and its
-/// sources a thread, whatever the number of photos, and a run goes on where another ended.
+/// differs from the paper: one patch grid per view, coarse to fine. Each step processes one view
+/// and reads the results of the previous step for it and its sources from files. Memory is
+/// therefore bounded by one view and its sources per thread, independent of the number of photos,
+/// and an interrupted run can be resumed.
 package struct PointCloudGeneration {
+  /// Parameters of the dense stage.
   package struct Options: Hashable, Codable, Sendable {
-    /// Pixels of a view at the finest level.
+    /// Pixels of a view at full resolution.
     package var maximumPixelsPerView = 1_000_000
+    /// Optimization of the patches, at all resolutions.
     package var patches = PatchStereo.Options()
+    /// Filter of the patches at full resolution.
     package var filter = PatchStereo.FilterOptions()
-    /// Of the patches at half the resolution, where smaller islands may grow.
+    /// For the patches at half resolution, where smaller islands may still grow.
     package var coarseFilter = PatchStereo.FilterOptions(minimumIsland: 10)
-    /// Whether patches grow into what the filter rejected, and are made anew at edges.
+    /// Whether patches expand into what the filter rejected, and are re-estimated at depth edges.
     package var completes = true
-    /// Share of the photos' pixels below which the cloud is called sparse in a warning.
+    /// Share of the photos' pixels below which a warning calls the cloud sparse.
     package var sparseRatio = 0.05
-    /// Bytes of views and patches that are kept in memory although nobody works on them.
+    /// Size in bytes of the cache of views and patch maps that are not in use.
     package var keptBytes = 512 << 20
 
     package init(maximumPixelsPerView: Int = 1_000_000) {
@@ -29,12 +34,12 @@ package struct PointCloudGeneration {
     }
   }
 
-  /// Every `count`-th view, from `index` on: what one of several jobs does.
+  /// Every `count`-th view, starting at `index`: the part of one of several jobs.
   package struct Share: Hashable, Sendable {
     package var index: Int
     package var count: Int
 
-    /// `index` is 0…`count` − 1.
+    /// `index` is in 0..<`count`.
     package init(index: Int, of count: Int) {
       self.index = index
       self.count = count
@@ -44,15 +49,19 @@ package struct PointCloudGeneration {
   }
 
   package var options: Options
-  /// Where the temporary folder is made.
+  /// Parent of the temporary folder.
   var temporaryParent = PatchWorkspace.temporaryParent
 
   package init(options: Options = Options()) {
     self.options = options
   }
 
-  /// Makes the cloud. `folder` holds the files of each view and stays, for a later run to go on with;
-  /// without one they are in a temporary folder that goes away.
+  /// Computes the fused cloud, in the reconstruction's frame.
+  ///
+  /// `folder` receives the intermediate files of each view and is kept, so that a later run can
+  /// resume from it; without one, a temporary folder is used and removed. Throws
+  /// `PipelineError.noSurface` if no surface is found, and `WorkspaceError` if the folder can't be
+  /// used.
   package func run(
     _ reconstruction: Reconstruction, images: ImageStore, folder: URL? = nil,
     _ context: StageContext
@@ -71,16 +80,18 @@ package struct PointCloudGeneration {
       context.part(from: 0.99, to: 1))
     guard cloud.count > 0 else {
       throw PipelineError.noSurface(
-        reason: "no patch of surface looks alike in three photos or more.")
+        reason: "no surface patch is consistent in three or more photos.")
     }
     context.notes.count("points", Double(cloud.count))
     return cloud
   }
 
-  /// Makes the patches of a share of the views, with what they need of other views, and leaves all in
-  /// `folder`. That is two thirds of the work: once all shares are made, by processes at the same
-  /// time or one after the other, `run` completes and fuses them. Jobs at the same time share the
-  /// coarse patches of all views between them.
+  /// Computes the patches of a share of the views, with what they require from other views, and
+  /// leaves all results in `folder`.
+  ///
+  /// This is two thirds of the work: once all shares are finished, by concurrent processes or in
+  /// sequence, `run` completes and fuses them. Concurrent jobs divide the coarse patches of all
+  /// views among themselves.
   package func run(
     _ share: Share, of reconstruction: Reconstruction, images: ImageStore, folder: URL,
     _ context: StageContext
@@ -106,7 +117,7 @@ package struct PointCloudGeneration {
     PatchMasks(views, reconstruction, images, maximumPixels: options.maximumPixelsPerView)
   }
 
-  /// Photos without a mask may have seen what those with one leave out.
+  /// Drops points outside the masks: photos without a mask may observe what the masks exclude.
   private func insideMasks(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ images: ImageStore,
     _ context: StageContext
@@ -118,13 +129,14 @@ package struct PointCloudGeneration {
     return result
   }
 
+  /// Records view counts, and logs how many views are reused.
   private func tellReuse(_ reused: Int, _ views: DenseViews, _ notes: StageNotes) {
     let count = views.views.count
     notes.count("views", Double(count))
     notes.count("viewMegapixels", Double(views.pixelCount) / 1e6)
     notes.count("reusedViews", Double(reused))
     if reused > 0 {
-      notes.tell("The patches of \(reused) of \(count) views were there from an earlier run.")
+      notes.tell("Reused the patches of \(reused) of \(count) views from an earlier run.")
     }
   }
 }

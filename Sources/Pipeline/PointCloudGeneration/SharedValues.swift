@@ -1,9 +1,9 @@
 import SceneModel
 
-/// Values by index that are made when somebody first asks for one and shared while anybody holds
-/// them; the latest used are kept a while longer.
+/// A cache of values by index: created on first use, shared while any caller holds them, and the
+/// most recently used kept a while longer.
 ///
-/// Thread-safe: a value that two threads ask for at once is made by one of them.
+/// Thread-safe: of several threads that request the same value at once, one creates it.
 final class SharedValues<Value: AnyObject & Sendable>: Sendable {
   private struct Weak {
     weak var value: Value?
@@ -14,7 +14,7 @@ final class SharedValues<Value: AnyObject & Sendable>: Sendable {
   }
 
   private struct State {
-    /// The latest used last.
+    /// Most recently used last.
     var kept: [(index: Int, value: Value)] = []
     var live: [Weak] = []
     var peakCount = 0
@@ -24,15 +24,16 @@ final class SharedValues<Value: AnyObject & Sendable>: Sendable {
   private let capacity: Int
   private let state = Locked(State())
 
-  /// `capacity` bounds the values that are kept between calls, not those that callers hold.
+  /// `capacity` limits the values that are cached between calls, not those that callers hold.
   init(count: Int, capacity: Int) {
     slots = (0..<count).map { _ in Slot() }
     self.capacity = max(0, capacity)
   }
 
-  /// The most values that lived at once.
+  /// The peak number of values alive at once.
   var peakCount: Int { state.withLock { $0.peakCount } }
 
+  /// The cached value at `index`, or a new one from `make`.
   func value(_ index: Int, _ make: () throws -> Value) throws -> Value {
     var isNew = false
     let value = try slots[index].content.withLock { content in
@@ -46,9 +47,9 @@ final class SharedValues<Value: AnyObject & Sendable>: Sendable {
     return value
   }
 
-  /// Keeps a value that was just used, and counts those alive.
+  /// Caches a value that was just used, and updates the peak count.
   private func note(_ value: Value, _ index: Int, isNew: Bool) {
-    // Freed after the lock.
+    // Released after the lock.
     var dropped: [(index: Int, value: Value)] = []
     state.withLock { state in
       state.kept.removeAll { $0.index == index }

@@ -1,23 +1,24 @@
 import Foundation
 import SceneModel
 
-/// Chooses the views that a reference view is compared with: those that share many sparse points
-/// seen at a good angle and a similar scale (Goesele et al., ICCV 2007; Schönberger et al., 2016).
+/// Selects the source views of each reference view: those that share many sparse points seen at a
+/// suitable triangulation angle and a similar scale (Goesele et al., ICCV 2007; Schönberger et al.,
+/// 2016).
 struct SourceSelection {
   struct Options: Hashable, Codable, Sendable {
     var maximumSources = 8
-    /// Triangulation angle in degrees that is best for stereo.
+    /// Optimal triangulation angle for stereo in degrees.
     var bestAngleDegrees = 11.0
-    /// Widths, in degrees, of the bell below and above the best angle.
+    /// Standard deviations, in degrees, of the Gaussian weight below and above the optimal angle.
     var narrowWidthDegrees = 5.0
     var wideWidthDegrees = 14.0
-    /// Views that share fewer points are no sources.
+    /// Views that share fewer points are not sources.
     var minimumSharedPoints = 5
   }
 
   var options = Options()
 
-  /// For each photo id its sources, the best first; empty for photos that are not registered.
+  /// The sources of each photo by id, best first; empty for photos that are not registered.
   func run(_ reconstruction: Reconstruction) -> [[ID<Photo>]] {
     let count = reconstruction.photos.count
     var scores = [[Double]](repeating: [Double](repeating: 0, count: count), count: count)
@@ -45,6 +46,7 @@ struct SourceSelection {
     }
   }
 
+  /// Gaussian weight of the triangulation angle, times the squared ratio of distances.
   private func weight(
     of point: SIMD3<Double>, from a: SIMD3<Double>, and b: SIMD3<Double>
   ) -> Double {

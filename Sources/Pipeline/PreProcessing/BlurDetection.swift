@@ -1,18 +1,19 @@
 import SceneModel
 
-/// Finds photos that are too blurred to use, by comparison with the rest of the set.
+/// Detects photos that are too blurred to use, by comparison with the rest of the set.
 ///
-/// Sets differ in sharpness as a whole, so a photo is refused only when it is far below the set's
-/// median and not sharp by any standard either.
+/// The sharpness of whole sets differs, so a photo is rejected only if it is far below the set's
+/// median and not sharp in absolute terms either.
 package struct BlurDetection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Photos below this share of the median sharpness are suspect.
+    /// Photos below this fraction of the median sharpness are suspect.
     package var minimumShareOfMedian = 0.3
-    /// Photos at least this sharp are kept whatever the others are: see `RasterImage.sharpness()`.
+    /// Photos with at least this sharpness are always kept: see `RasterImage.sharpness()`.
     package var alwaysSharp = 0.75
-    /// With fewer photos than this the median says nothing and only hopeless ones are refused.
+    /// With fewer photos, the median is not meaningful and only extremely blurred photos are
+    /// rejected.
     package var minimumPhotos = 3
-    /// Sharpness of a hopeless photo.
+    /// Sharpness below which a photo is extremely blurred.
     package var hopeless = 0.1
 
     package init() {}
@@ -22,7 +23,7 @@ package struct BlurDetection: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Whether each photo is too blurred, by its sharpness.
+  /// Returns for each sharpness whether the photo is too blurred.
   package func run(_ sharpness: [Double]) -> [Bool] {
     guard sharpness.count >= options.minimumPhotos else {
       return sharpness.map { $0 < options.hopeless }

@@ -1,9 +1,10 @@
 import SceneModel
 
-/// Gives photos of one body, lens, zoom and size the same camera.
+/// Assigns the same camera to photos with the same body, lens, zoom setting and size.
 ///
-/// Photos held at 90° or upside down get a camera of their own, since the principal point turns
-/// with the photo. Photos without metadata share one camera a size: sets mostly come from one.
+/// Photos rotated by 90° or upside down get a separate camera, because the principal point rotates
+/// with the photo. Photos without metadata share one camera per size: sets mostly come from one
+/// camera.
 package struct CameraGrouping: Sendable {
   private struct Key: Hashable {
     var make: String?
@@ -17,13 +18,15 @@ package struct CameraGrouping: Sendable {
     var height: Int
   }
 
+  /// Estimates the focal length of each camera.
   package var focalLength: FocalLengthEstimation
 
+  /// Groups photos, with initial focal lengths from `focalLength`.
   package init(_ focalLength: FocalLengthEstimation = FocalLengthEstimation()) {
     self.focalLength = focalLength
   }
 
-  /// The cameras in order of their first photo, and the camera of each photo.
+  /// Returns the cameras in order of their first photo, and the camera ID of each photo.
   package func run(_ photos: [InspectedPhoto]) -> (cameras: [Camera], ids: [ID<Camera>]) {
     var cameras: [Camera] = []
     var idsByKey: [Key: ID<Camera>] = [:]

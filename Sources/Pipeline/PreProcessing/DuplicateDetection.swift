@@ -1,19 +1,19 @@
 import SceneModel
 
-/// Finds photos that are the same picture: copies of a file, and re-encoded or resized ones.
+/// Detects photos that are the same picture: copies of a file, and re-encoded or resized ones.
 ///
-/// Photos taken one after the other must never count as duplicates: even a turn by a degree moves
-/// edges by more than what encoding changes, so that every part of the picture has to agree.
+/// Consecutive photos must never count as duplicates. Even a rotation by one degree shifts edges by
+/// more than encoding changes them; therefore every part of the picture must agree.
 package struct DuplicateDetection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Root mean square difference, in gray levels, that any block of two thumbnails may have.
+    /// Maximum root mean square difference, in gray levels, of any block of two thumbnails.
     package var maximumBlockDifference = 2.0
-    /// What is allowed on top, as a share of the block's standard deviation: encoders lose more of
-    /// strong texture, and photos taken one after the other differ by more than the whole of it.
+    /// Additional tolerance as a fraction of the block's standard deviation: encoders lose more in
+    /// strong texture, while consecutive photos differ by more than the standard deviation itself.
     package var maximumShareOfContrast = 0.15
-    /// Side of a block in pixels of the thumbnail.
+    /// Side of a block in thumbnail pixels.
     package var blockSide = 16
-    /// Relative difference of the aspects of one picture in two sizes.
+    /// Maximum relative difference between the aspect ratios of one picture in two sizes.
     package var maximumAspectDifference = 0.01
 
     package init() {}
@@ -23,8 +23,8 @@ package struct DuplicateDetection: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// For every photo the index of the photo that it repeats, nil for those to keep. Of two copies
-  /// the larger is kept, of equal ones the first.
+  /// Returns for every photo the index of the photo that it duplicates, or nil for the ones to
+  /// keep. Of two copies the larger one is kept; of equally large ones, the first.
   package func run(_ photos: [InspectedPhoto], _ context: StageContext) throws -> [Int?] {
     var originals = [Int?](repeating: nil, count: photos.count)
     let order = photos.indices.sorted { a, b in
@@ -69,7 +69,7 @@ package struct DuplicateDetection: Sendable {
     difference(a, b, 0..<a.height, 0..<a.width)
   }
 
-  /// Root mean square difference inside a rectangle of two images of one size.
+  /// Root mean square difference within a rectangle of two images of the same size, in gray levels.
   private func difference(
     _ a: RasterImage, _ b: RasterImage, _ rows: Range<Int>, _ columns: Range<Int>
   ) -> Double {
@@ -83,7 +83,7 @@ package struct DuplicateDetection: Sendable {
     return (Double(sum) / Double(rows.count * columns.count)).squareRoot()
   }
 
-  /// Standard deviation inside a rectangle.
+  /// Standard deviation within a rectangle, in gray levels.
   private func deviation(_ a: RasterImage, _ rows: Range<Int>, _ columns: Range<Int>) -> Double {
     var (sum, squares) = (0, 0)
     for y in rows {

@@ -1,17 +1,17 @@
 import ImageFiles
 import SceneModel
 
-/// The focal length in pixels from a photo's metadata.
+/// The initial focal length in pixels from a photo's metadata.
 ///
-/// In this order: the 35 mm equivalent, the sensor's width from the focal plane resolution, and an
-/// assumption. EXIF lengths are a few percent off as a rule, so that alignment refines them.
+/// In order of preference: the 35 mm equivalent, the sensor width from the focal plane resolution,
+/// and an assumption. Values from EXIF are typically off by a few percent; alignment refines them.
 package struct FocalLengthEstimation: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Focal length where nothing is known, as a multiple of the photo's longer side. 1.2 is a
+    /// Assumed focal length without metadata, as a multiple of the photo's longer side. 1.2 is a
     /// horizontal field of view of 45°, between the main cameras of phones and standard lenses.
     package var assumedFactor = 1.2
-    /// Width in millimetres of 35 mm film. Cameras that round the equivalent mostly compare widths,
-    /// not diagonals; for sensors of the shape 3:2 there is no difference.
+    /// Width of 35 mm film in millimeters. Cameras that round the equivalent mostly compare widths,
+    /// not diagonals; for 3:2 sensors there is no difference.
     package var filmWidth = 36.0
 
     package init() {}
@@ -21,7 +21,7 @@ package struct FocalLengthEstimation: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Pixels, and whether they come from the metadata; the size is the photo's.
+  /// Returns the focal length in pixels of a photo of the given size, and its source.
   package func run(
     _ metadata: PhotoMetadata, width: Int, height: Int
   ) -> (focalLength: Double, calibration: Camera.Calibration) {
@@ -34,16 +34,18 @@ package struct FocalLengthEstimation: Sendable {
     return (options.assumedFactor * side, .assumed)
   }
 
+  /// Focal length relative to the longer side, from the 35 mm equivalent.
   private func filmRatio(_ metadata: PhotoMetadata) -> Double? {
     guard let equivalent = metadata.focalLengthIn35mmFilm else { return nil }
-    // On a full-frame body both lengths are the same, and the true one isn't rounded.
+    // For a full-frame body both focal lengths are equal, and the actual one isn't rounded.
     if let exact = metadata.focalLength, abs(exact - equivalent) <= 0.5 {
       return exact / options.filmWidth
     }
     return equivalent / options.filmWidth
   }
 
-  /// Focal length by sensor width. Resized photos keep the size that the resolution belongs to.
+  /// Focal length relative to the sensor width. Resized photos keep the original size in their
+  /// metadata, which the focal plane resolution refers to.
   private func sensorRatio(_ metadata: PhotoMetadata, _ width: Int, _ height: Int) -> Double? {
     guard let focalLength = metadata.focalLength,
       let resolution = metadata.focalPlaneResolution

@@ -1,24 +1,25 @@
 import Foundation
 
-/// Tells the masks of an input folder from its photos, by their names, and finds the mask of a photo.
+/// Separates the masks of an input folder from its photos, by file name, and finds the mask of a
+/// photo.
 ///
-/// Beside a photo `IMG_1.jpg` its mask is called `IMG_1_mask.png`, as Metashape writes it,
-/// `IMG_1.mask.png` or, as RealityCapture has it, `IMG_1.jpg.mask.png`. In a folder of masks it may
-/// have one of these names, the photo's own (`IMG_1.png`), or the photo's with a second suffix, as
-/// COLMAP wants it (`IMG_1.jpg.png`). Any image format will do, and upper and lower case are alike.
+/// In the photo's folder, the mask of `IMG_1.jpg` is named `IMG_1_mask.png` (Metashape),
+/// `IMG_1.mask.png` or `IMG_1.jpg.mask.png` (RealityCapture). In a folder of masks it may have one
+/// of these names, the photo's name (`IMG_1.png`), or the photo's name with a second extension
+/// (`IMG_1.jpg.png`, COLMAP). Any image format is accepted; names are case-insensitive.
 struct MaskFiles {
-  /// Folders of masks that are looked for inside the folder of photos.
+  /// Names of mask folders that are looked up inside the folder of photos.
   static let folderNames = ["masks", "mask", ".mask"]
 
-  /// The files that are no masks, in their order.
+  /// The files that are not masks, in their original order.
   private(set) var photos: [URL] = []
   /// Masks without a photo.
   private(set) var strays: [URL] = []
-  /// The masks by the name, without suffix, of what they belong to.
+  /// The masks by the lowercase file name or stem of their photo.
   private var masks: [String: URL] = [:]
 
-  /// `files` are those of the folder of photos, `maskFiles` those of a folder of masks, which come
-  /// first.
+  /// `files` are those of the folder of photos, `maskFiles` those of a folder of masks, which take
+  /// precedence.
   init(files: [URL], maskFiles: [URL]) {
     let names = Set(files.flatMap(Self.names))
     for file in maskFiles {
@@ -35,8 +36,8 @@ struct MaskFiles {
   /// The mask of a photo; nil without one.
   func mask(of photo: URL) -> URL? { Self.names(of: photo).lazy.compactMap { masks[$0] }.first }
 
-  /// Puts masks that lie beside their photos aside. Where there are such, files that are called like
-  /// masks of photos that aren't there are none either.
+  /// Removes masks that are stored next to their photos from `files`. If there are any, files that
+  /// are named like masks of missing photos don't count as photos either.
   private mutating func separate(_ files: [URL], _ names: Set<String>) {
     let owners = files.map(Self.ownerBeside)
     let isMask = owners.map { owner in owner.map { names.contains($0) } ?? false }
@@ -51,13 +52,14 @@ struct MaskFiles {
     }
   }
 
-  /// The whole name and the name without suffix.
+  /// The lowercase file name with and without extension.
   private static func names(of file: URL) -> [String] {
     let name = file.lastPathComponent.lowercased()
     return [name, (name as NSString).deletingPathExtension]
   }
 
-  /// What a file beside the photos is the mask of; nil where it isn't called like a mask.
+  /// The name of the photo that a file in the same folder is the mask of; nil if it isn't named
+  /// like a mask.
   private static func ownerBeside(_ file: URL) -> String? {
     guard isImageName(file) else { return nil }
     let stem = names(of: file)[1]
@@ -78,14 +80,14 @@ struct MaskFiles {
 }
 
 extension MaskFiles {
-  /// The files of `folder`, told apart; masks come from `maskFolder`, or from a folder inside of it
-  /// where none is named.
+  /// Classifies the files of `folder`. Masks come from `maskFolder`, or from a mask folder inside
+  /// `folder` if it is nil.
   init(folder: URL, maskFolder: URL?) throws {
     let files = try PhotoFolder.files(in: folder)
     let named = maskFolder.map { [$0] }
     let inner = Self.folderNames.map { folder.appendingPathComponent($0, isDirectory: true) }
     let source = (named ?? inner.filter(Self.isFolder)).first
-    // In the folder of photos itself every photo would be its own mask.
+    // In the folder of photos itself, every photo would be its own mask.
     let isElsewhere =
       source?.resolvingSymlinksInPath().standardizedFileURL.path
       != folder.resolvingSymlinksInPath().standardizedFileURL.path

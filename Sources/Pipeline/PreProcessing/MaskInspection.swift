@@ -3,36 +3,36 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Reads the mask of one photo and judges whether it fits.
+/// Reads the mask of one photo and validates it.
 ///
-/// A mask has no EXIF data as a rule: programs write it in the orientation of the photo that they show,
-/// or in that of the stored one. Its aspect tells which, except where both orientations have the same;
-/// then the other masks of the set decide, see `PhotoIngestion`.
+/// A mask usually has no EXIF data: programs write it in the orientation in which they display the
+/// photo, or in that of the stored photo. The aspect ratio reveals which, unless it is the same for
+/// both; then the other masks of the set decide, see `PhotoIngestion`.
 struct MaskInspection: Sendable {
-  /// A mask that fits, and what is not known of its orientation.
+  /// A valid mask, and what remains ambiguous about its orientation.
   struct Found: Sendable {
     var mask: PhotoMask
-    /// The orientation may as well be this one.
+    /// An alternative orientation that is equally possible.
     var otherOrientation: Int?
-    /// The mask's aspect is that of the stored photo and not that of the photo turned upright, or the
-    /// other way round; nil where that tells nothing.
+    /// True if only the aspect ratio of the stored photo fits the mask, false if only that of the
+    /// upright photo fits; nil if this is undetermined.
     var isAsStored: Bool?
   }
 
-  /// A photo as it is stored.
+  /// A photo in stored orientation.
   struct Stored: Sendable {
     var name: String
     var width: Int
     var height: Int
-    /// EXIF orientation that turns it upright.
+    /// EXIF orientation that rotates it upright.
     var orientation: Int
   }
 
-  /// How far a side may be from what the aspect of the photo asks for, relative, beyond a pixel of
-  /// rounding.
+  /// Maximum relative deviation of a side from the photo's aspect ratio, in addition to one pixel
+  /// of rounding.
   static let aspectTolerance = 0.005
 
-  /// The mask in a file of its own; throws where it can't be used.
+  /// Reads a mask from its file; throws if it is unusable.
   func file(_ url: URL, of photo: Stored) throws(MaskFault) -> Found {
     let image: RasterImage
     let bytes: [UInt8]
@@ -62,8 +62,8 @@ struct MaskInspection: Sendable {
       : Found(mask: mask, isAsStored: isStored)
   }
 
-  /// The mask that the alpha channel of a photo is; nil without one, or where nothing is transparent.
-  /// Throws where it can't be used.
+  /// Reads the mask from the alpha channel of a photo; nil without one, or if nothing is
+  /// transparent. Throws if it is unusable.
   func alpha(_ bytes: [UInt8], of photo: Stored) throws(MaskFault) -> Found? {
     let image: RasterImage?
     do throws(ImageError) {
@@ -80,15 +80,16 @@ struct MaskInspection: Sendable {
       : Found(mask: PhotoMask(file: nil, orientation: photo.orientation, coverage: coverage))
   }
 
+  /// The fraction of marked pixels, above 0; throws if nothing is marked.
   private func coverage(
     _ image: RasterImage, _ name: String, _ photo: Stored
   ) throws(MaskFault) -> Double {
     let marked = image.pixels.reduce(0) { $0 + ($1 == 0 ? 0 : 1) }
-    guard marked > 0 else { throw MaskFault(name, photo.name, "nothing in it is marked") }
+    guard marked > 0 else { throw MaskFault(name, photo.name, "no pixel is marked") }
     return Double(marked) / Double(image.pixels.count)
   }
 
-  /// Whether the mask, turned by `orientation`, has the aspect of the photo turned upright.
+  /// Whether the mask, rotated by `orientation`, has the aspect ratio of the upright photo.
   private func fits(_ mask: RasterImage, turned orientation: Int, _ photo: Stored) -> Bool {
     let (width, height) = Self.size(mask.width, mask.height, turned: orientation)
     let (w, h) = Self.size(photo.width, photo.height, turned: photo.orientation)
@@ -106,12 +107,12 @@ struct MaskInspection: Sendable {
     let (width, height) = Self.size(photo.width, photo.height, turned: photo.orientation)
     return MaskFault(
       url.lastPathComponent, photo.name,
-      "it has \(mask.width) × \(mask.height) pixels, and the photo, \(width) × \(height), another "
-        + "aspect")
+      "it has \(mask.width) × \(mask.height) pixels, but the photo has another aspect ratio "
+        + "(\(width) × \(height))")
   }
 }
 
-/// Why a mask is not used.
+/// The reason why a mask is not used.
 struct MaskFault: Error {
   var mask: RefusedMask
 
@@ -119,6 +120,6 @@ struct MaskFault: Error {
   init(_ name: String, _ photo: String, _ reason: String) {
     mask = RefusedMask(
       name: name,
-      reason: "\(name) is not used as a mask: \(reason). \(photo) is used whole.")
+      reason: "\(name) is not used as a mask: \(reason). \(photo) is used without a mask.")
   }
 }

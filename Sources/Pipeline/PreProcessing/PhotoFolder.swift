@@ -2,12 +2,13 @@ import Foundation
 
 /// The files of an input folder.
 package enum PhotoFolder {
-  /// Folders of masks that are looked for inside it.
+  /// Names of mask folders that are looked up inside the folder of photos.
   package static let maskFolderNames = MaskFiles.folderNames
 
-  /// Regular files that are not hidden, not those of subfolders, in natural order: `IMG_2` before
-  /// `IMG_10`, upper and lower case alike, so that sequences come in the order of capture. The
-  /// index in the result is a file's sample id.
+  /// Returns the regular files that are not hidden, without those of subfolders, in natural,
+  /// case-insensitive order (`IMG_2` before `IMG_10`), so that sequences are in the order of
+  /// capture. The index in the result is a file's sample ID. Throws
+  /// `PipelineError.unreadableFolder`.
   package static func files(in folder: URL) throws -> [URL] {
     func unreadable(_ reason: String) -> PipelineError {
       .unreadableFolder(path: folder.path, reason: reason)
@@ -37,7 +38,8 @@ package enum PhotoFolder {
   }
 }
 
-/// Compares digit runs as numbers; names that differ only in case or zeros compare byte by byte.
+/// Compares runs of digits as numbers; names that differ only in case or leading zeros compare byte
+/// by byte.
 struct NaturalSortKey: Comparable {
   private enum Part: Equatable {
     case number(digits: [UInt8])

@@ -2,47 +2,49 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// What a folder of files gives: the usable photos, their cameras, and every other file by name and
-/// reason.
+/// The contents of an input folder: the usable photos, their cameras, and every rejected file with
+/// the reason.
 package struct IngestedPhotos: Sendable {
-  /// Ids are dense in the order of the files.
+  /// IDs are dense, in the order of the files.
   package var photos: [Photo]
+  /// Initial cameras from the metadata.
   package var cameras: [Camera]
-  /// In the order of the files.
+  /// Rejected files, in the order of the files.
   package var refused: [RefusedPhoto]
-  /// Of other sensors, by sample id.
+  /// Readings of other sensors, by sample ID.
   package var readings: [Int: SensorReading] = [:]
-  /// All files of the folder but masks and readings; a sample id is an index into them.
+  /// All files of the folder except masks and sensor readings; a sample ID is an index into them.
   package var files: [URL]
-  /// Masks that are not used, in the order of the files; their photos are.
+  /// Masks that are not used, in the order of the files; their photos are used.
   package var refusedMasks: [RefusedMask]
   /// XXH64 of each photo's file, by photo id.
   package var contentHashes: [UInt64]
-  /// Most pixels of a photo that the memory budget lets stages work on; give it to `ImageStore`.
+  /// Maximum pixels of a photo that stages may process within the memory budget; pass it to
+  /// `ImageStore`.
   package var processingPixels: Int
-  /// Some photo has more than `processingPixels`.
+  /// Whether a photo has more than `processingPixels`.
   package var isDownsampled: Bool
 }
 
 /// Validates the files of a folder: the first stage of a run.
 ///
-/// Every file is read and decoded once; its name plays no part, but for masks and what other sensors
-/// told: see `MaskFiles` and `SensorFiles`. What can't be used is refused with a reason, and the rest goes on. Where masks are not to be used, they
-/// still are no photos.
+/// Every file is read and decoded once. File names are irrelevant, except for masks and sensor
+/// readings: see `MaskFiles` and `SensorFiles`. Unusable files are rejected with a reason, and the
+/// run continues with the rest. If masks are disabled, mask files are still not treated as photos.
 package struct PhotoIngestion: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     package var inspection = PhotoInspection.Options()
     package var duplicates = DuplicateDetection.Options()
     package var blur = BlurDetection.Options()
     package var focalLength = FocalLengthEstimation.Options()
-    /// Photos beyond this number are refused.
+    /// Maximum number of photos; further ones are rejected.
     package var maximumPhotos = 1000
-    /// Bytes that working on one photo may take.
+    /// Maximum number of bytes used to process one photo.
     package var memoryBudget = 1 << 30
-    /// Bytes that a stage needs for a pixel of a photo; the scale space of feature detection needs
-    /// most.
+    /// Bytes that a stage needs per pixel of a photo; the scale space of feature detection needs
+    /// the most.
     package var bytesPerPixel = 64
-    /// A folder of masks in the place of the one inside the folder of photos.
+    /// A folder of masks that replaces the one inside the folder of photos.
     package var maskFolder: URL?
 
     package init() {}
@@ -52,12 +54,12 @@ package struct PhotoIngestion: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Throws when the folder can't be listed; what is in it never ends the run.
+  /// Validates the files of a folder. Throws only if the folder can't be listed or on cancellation.
   package func run(folder: URL, _ context: StageContext) throws -> IngestedPhotos {
     try run(MaskFiles(folder: folder, maskFolder: options.maskFolder), context)
   }
 
-  /// Validates the given files in their order; masks are among them.
+  /// Validates the given files, masks included, in their order.
   package func run(files: [URL], _ context: StageContext) throws -> IngestedPhotos {
     try run(MaskFiles(files: files, maskFiles: []), context)
   }
@@ -99,7 +101,7 @@ package struct PhotoIngestion: Sendable {
     return result
   }
 
-  /// Reads files in blocks, so that what lies beyond the maximum is not even opened.
+  /// Reads files in blocks, so that files beyond the maximum are not even opened.
   private func inspect(
     _ files: [URL], _ masks: MaskFiles, _ context: StageContext
   ) throws -> ([InspectedPhoto], [RefusedPhoto]) {
@@ -134,7 +136,7 @@ package struct PhotoIngestion: Sendable {
     return (accepted, refused)
   }
 
-  /// Turns every error but cancellation into a refusal.
+  /// Converts every error except cancellation to a rejection.
   private static func refusing(
     _ file: URL, _ sampleID: Int, _ body: () throws -> InspectedPhoto
   ) throws -> Result<InspectedPhoto, Refusal> {
@@ -156,7 +158,7 @@ package struct PhotoIngestion: Sendable {
     Refusal(
       RefusedPhoto(
         sampleID: sampleID, name: file.lastPathComponent, fault: .tooMany,
-        end: "a run takes \(options.maximumPhotos) photos; leave some out"))
+        end: "a run accepts \(options.maximumPhotos) photos; leave some out"))
   }
 
   private func refusal(
@@ -166,8 +168,8 @@ package struct PhotoIngestion: Sendable {
       sampleID: photo.sampleID, name: photo.url.lastPathComponent, fault: fault, end: end)
   }
 
-  /// Gives the masks of photos whose stored and upright sizes are equal the orientation that the
-  /// aspects of the others tell: one program wrote them all.
+  /// Resolves the orientation of masks for photos whose stored and upright sizes are equal: the
+  /// majority of the other masks decides, since one program wrote them all.
   private func settleOrientations(_ photos: inout [InspectedPhoto]) {
     let told = photos.compactMap { $0.mask?.isAsStored }
     guard told.count(where: { $0 }) > told.count(where: { !$0 }) else { return }

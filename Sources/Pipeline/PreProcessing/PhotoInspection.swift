@@ -3,8 +3,9 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// What is kept of a photo after it was decoded once: enough to compare it with the others.
+/// What is kept of a photo after decoding it once: enough to compare it with the others.
 package struct InspectedPhoto: Sendable {
+/// Index among all files of the folder.
   package var sampleID: Int
   package var url: URL
   /// Size in pixels, upright.
@@ -15,24 +16,25 @@ package struct InspectedPhoto: Sendable {
   package var contentHash: UInt64
   /// See `RasterImage.sharpness()`.
   package var sharpness: Double
-  /// The whole photo, upright and gray, at most `PhotoInspection.thumbnailSide` pixels a side.
+  /// The whole photo, upright and gray, with at most `PhotoInspection.thumbnailSide` pixels per
+  /// side.
   package var thumbnail: RasterImage
-  /// Which of its pixels show the object.
+  /// The mask of the photo, if it has one.
   var mask: MaskInspection.Found?
-  /// The mask that it has and that can't be used.
+  /// The photo's mask if it is unusable.
   var refusedMask: RefusedMask?
 }
 
-/// Reads and decodes one file and judges what can be judged without the other photos.
+/// Reads and decodes one file and makes all checks that don't depend on the other photos.
 package struct PhotoInspection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     package var limits = ImageCodec.Limits()
-    /// Photos with fewer pixels show too little to align.
+    /// Minimum number of pixels; smaller photos show too little to align.
     package var minimumPixels = 100_000
-    /// Pixels of the shorter side.
+    /// Minimum number of pixels of the shorter side.
     package var minimumSide = 240
-    /// Pixels of the copy that sharpness is measured on, so that the measure means the same for
-    /// photos of all sizes.
+    /// Pixels of the copy that sharpness is measured on, which makes photos of all sizes
+    /// comparable.
     package var sharpnessPixels = 1_000_000
     /// Whether masks are read.
     package var usesMasks = true
@@ -47,7 +49,8 @@ package struct PhotoInspection: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// `mask` is a file that tells which pixels show the object; else the alpha channel does.
+  /// Inspects one file. `mask` is the mask file of the photo; without it, the alpha channel is
+  /// used. Throws `Refusal` if the photo is unusable.
   package func run(_ url: URL, sampleID: Int, mask: URL? = nil) throws -> InspectedPhoto {
     let name = url.lastPathComponent
     func refusal(_ fault: RefusedPhoto.Fault, _ sentenceEnd: String) -> Refusal {
@@ -63,7 +66,7 @@ package struct PhotoInspection: Sendable {
         throw refusal(
           .tooSmall,
           "it has \(header.width) × \(header.height) pixels; photos need \(options.minimumSide) "
-            + "or more a side and \(options.minimumPixels) or more in all")
+            + "or more per side and \(options.minimumPixels) or more in total")
       }
       let metadata = PhotoMetadata(bytes)
       let upright = try ImageCodec.decode(bytes, limits: options.limits)
@@ -73,7 +76,7 @@ package struct PhotoInspection: Sendable {
       do {
         sharpness = try reduced.sharpness()
       } catch KernelError.degenerate {
-        throw refusal(.blurred, "it shows nothing: it is badly exposed, or the lens was covered")
+        throw refusal(.blurred, "it is blank: it is badly exposed, or the lens was covered")
       }
       var photo = InspectedPhoto(
         sampleID: sampleID, url: url, width: upright.width, height: upright.height,
@@ -90,7 +93,8 @@ package struct PhotoInspection: Sendable {
 }
 
 extension InspectedPhoto {
-  /// Reads the mask in a file, or in the alpha channel of the photo, whose content is `bytes`.
+  /// Reads the mask from a file, or from the alpha channel of the photo, whose file content is
+  /// `bytes`.
   fileprivate mutating func findMask(_ file: URL?, _ bytes: [UInt8]) {
     let isTurned = metadata.orientation >= 5
     let stored = MaskInspection.Stored(
@@ -108,7 +112,7 @@ extension InspectedPhoto {
   }
 }
 
-/// Why a file is not used, as an error.
+/// The rejection of a file, as an error.
 struct Refusal: Error {
   var photo: RefusedPhoto
 
@@ -134,13 +138,13 @@ extension ImageError {
 }
 
 extension RasterImage {
-  /// Reduced by area averaging to at most `maximumPixels`.
+  /// The image reduced by area averaging to at most `maximumPixels`.
   func reduced(to maximumPixels: Int) throws -> RasterImage {
     let size = ImageStore.size(width: width, height: height, maximumPixels: maximumPixels)
     return try resized(width: size.width, height: size.height)
   }
 
-  /// Reduced so that the longer side has at most `side` pixels.
+  /// The image reduced so that the longer side has at most `side` pixels.
   func fitted(to side: Int) throws -> RasterImage {
     let scale = min(1, Double(side) / Double(max(width, height)))
     return try resized(

@@ -3,14 +3,14 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Tells what phones write beside photos from the photos: for `IMG_1.HEIC` the map of disparities
-/// `IMG_1_depth.TIF` and the direction of gravity `IMG_1_gravity.TXT`, three numbers in the frame of
-/// the phone. Apple's sample app for taking photos for Object Capture, and what grew out of it, name
-/// them so. Upper and lower case are alike.
+/// Separates the files that phones write next to photos from the photos: for `IMG_1.HEIC` the
+/// disparity map `IMG_1_depth.TIF` and the direction of gravity `IMG_1_gravity.TXT`, three numbers
+/// in the frame of the phone. These are the names used by Apple's sample app that captures photos
+/// for Object Capture, and by apps derived from it. Names are case-insensitive.
 struct SensorFiles {
-  /// The other files, in their order.
+  /// The other files, in their original order.
   private(set) var photos: [URL] = []
-  /// By the lowercase name of their photo, without suffix.
+  /// Depth and gravity files by the lowercase stem of their photo.
   private var depth: [String: URL] = [:]
   private var gravity: [String: URL] = [:]
 
@@ -30,8 +30,8 @@ struct SensorFiles {
     }
   }
 
-  /// What lies beside a photo, whose sensor's pixels are turned by `orientation`; nil for nothing.
-  /// `problems` are sentences about files that can't be used.
+  /// The readings stored next to a photo whose sensor pixels are rotated upright by `orientation`;
+  /// nil if there are none. `problems` are messages about unusable files.
   func reading(
     beside photo: URL, orientation: Int, _ problems: inout [String]
   ) -> SensorReading? {
@@ -42,7 +42,7 @@ struct SensorFiles {
         SensorReading.gravity(ofPhone: $0, orientation: orientation)
       }
       if reading.gravity == nil {
-        problems.append("\(file.lastPathComponent) is not used: it holds no direction.")
+        problems.append("\(file.lastPathComponent) is not used: it contains no direction.")
       }
     }
     if let file = depth[name] {
@@ -73,15 +73,15 @@ struct SensorFiles {
     return map
   }
 
-  /// What may be done about a photo that can't be read is of no use here.
+  /// The reason why a depth file is unusable; the remedies for photos don't apply to it.
   private static func reason(_ error: ImageError) -> String {
     switch error {
-    case .unsupportedFormat, .notAnImage: "it is no image of 32-bit floating-point numbers"
+    case .unsupportedFormat, .notAnImage: "it is not an image of 32-bit floating-point numbers"
     case .tooLarge, .damaged, .unreadable: error.errorDescription ?? "it can't be read"
     }
   }
 
-  /// Three numbers with commas between them.
+  /// Three numbers separated by commas.
   private static func gravity(_ file: URL) -> SIMD3<Double>? {
     let limits = {
       var limits = ImageCodec.Limits(); limits.maximumFileSize = 4096; return limits

@@ -1,28 +1,28 @@
 import Kernels
 import SceneModel
 
-/// Where the triangles are in the textures.
+/// Placement of the triangles in the textures.
 struct AtlasLayout: Sendable {
   /// Side of the square textures in texels.
   var side: Int
-  /// The texture of each triangle; each of `0..<count` has some.
+  /// The texture index of each triangle; every texture in `0..<count` has triangles.
   var atlases: [Int]
   var count: Int
   /// Texel coordinates of each triangle's three corners; origin top left, y down.
   var corners: [SIMD2<Float>]
-  /// Texels for a photo's pixel, along a line.
+  /// Linear ratio of texels to photo pixels.
   var magnification: Float
 
   /// The triangles of one texture, ascending.
   func faces(in atlas: Int) -> [Int] { atlases.indices.filter { atlases[$0] == atlas } }
 
-  /// The corners as one texture has them: triangles of others have no area there.
+  /// The corners with those of other textures' triangles set to zero, so that these have no area.
   func corners(in atlas: Int) -> [SIMD2<Float>] {
     guard count > 1 else { return corners }
     return corners.indices.map { atlases[$0 / 3] == atlas ? corners[$0] : .zero }
   }
 
-  /// The same layout with textures of another size.
+  /// The same layout for textures of another size.
   func scaled(toSide side: Int) -> AtlasLayout {
     var result = self
     let factor = Float(side) / Float(self.side)
@@ -33,27 +33,28 @@ struct AtlasLayout: Sendable {
   }
 }
 
-/// Packs all charts into one square texture, or into several where the photos show more than one
-/// holds and more are allowed.
+/// Packs all charts into one square texture, or into several if one can't hold the photos' detail
+/// and more are allowed.
 struct AtlasPacking: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Upper bound of the textures' side.
+    /// Maximum texture side in texels.
     var maximumSide = 4096
     var maximumAtlases = 1
-    /// Texels for a photo's pixel, along a line, that keep all of its detail. The smallest texture
-    /// that has as many is taken, and filled; beyond its bounds there are more textures.
+    /// Texels per photo pixel, linear, that preserve all detail. The smallest texture size that
+    /// provides it is chosen and filled; beyond `maximumSide` further textures are added.
     var sufficientMagnification: Float = 1.5
-    /// More would show nothing but the interpolation.
+    /// Upper bound of the linear magnification; more would only store interpolated values.
     var maximumMagnification: Float = 4
-    /// The share of a texture that charts may be expected to fill.
+    /// Share of a texture that charts are expected to fill.
     var expectedUsage: Float = 0.7
   }
 
   var options = Options()
 
+  /// Packs the charts; throws if the run is canceled.
   func run(_ map: ChartMap, _ context: StageContext) throws -> AtlasLayout {
     let (side, count) = usefulSize(map)
-    // Pixels have y down, the charts' planes y up.
+    // Pixel y points down, chart-plane y points up.
     let corners = map.corners.map { SIMD2($0.x, -$0.y) }
     let packing = ChartPacking(
       side: side, atlasCount: count, padding: max(2, side / 1024),
@@ -73,7 +74,7 @@ struct AtlasPacking: Sendable {
     return layout
   }
 
-  /// The side, halved while half of it holds all detail, and how many textures hold it.
+  /// The smallest side that preserves all detail, and the number of textures required.
   private func usefulSize(_ map: ChartMap) -> (side: Int, count: Int) {
     var area: Float = 0
     for face in map.charts.indices {
@@ -88,7 +89,7 @@ struct AtlasPacking: Sendable {
     return (side, max(1, Int(min(needed, Float(options.maximumAtlases)))))
   }
 
-  /// Says how large the texture is, and why not larger.
+  /// Records the texture size, and logs why it isn't larger.
   private func note(_ layout: AtlasLayout, _ notes: StageNotes) {
     notes.count("textureSide", Double(layout.side))
     notes.count("textures", Double(layout.count))
@@ -99,13 +100,13 @@ struct AtlasPacking: Sendable {
     func name(_ count: Int, _ side: Int) -> String { "\(count == 1 ? "" : "\(count) × ")\(side)²" }
     if !isFilled {
       notes.tell(
-        "The texture is \(name(layout.count, layout.side)), not "
-          + "\(name(options.maximumAtlases, options.maximumSide)) as the level allows: it has "
-          + "\(texels) texels a pixel of the photos, along a line, and they show no more.")
+        "The texture size is \(name(layout.count, layout.side)), not "
+          + "\(name(options.maximumAtlases, options.maximumSide)) as the detail level allows: it "
+          + "has \(texels) texels per photo pixel (linear), which preserves all detail.")
     } else if layout.magnification < 1 {
       notes.tell(
-        "The photos show more than the level's texture holds: it has \(texels) texels a pixel of "
-          + "the photos, along a line.")
+        "The photos have more detail than the detail level's texture: it has \(texels) "
+          + "texels per photo pixel (linear).")
     }
   }
 }

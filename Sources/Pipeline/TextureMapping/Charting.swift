@@ -2,31 +2,33 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The surface cut into pieces that lie flat.
+/// The surface cut into flattened charts.
 struct ChartMap: Sendable {
-  /// The chart of each triangle.
+  /// The chart index of each triangle.
   var charts: [Int32]
-  /// Plane coordinates in world units of each triangle's three corners, counter-clockwise, y up.
+  /// Plane coordinates, in world units, of each triangle's three corners; counter-clockwise, y up.
   var corners: [SIMD2<Float>]
-  /// Photo pixels a world unit by chart: the resolution that its texture is worth.
+  /// Photo pixels per world unit for each chart: the resolution that its texture requires.
   var densities: [Float]
 }
 
-/// Cuts the surface into charts of triangles that face one way and lays each on a plane.
+/// Segments the surface into charts of similarly oriented triangles, and projects each onto a
+/// plane.
 ///
-/// Colours are taken in space, so charts need not follow the photos: few large ones with even
-/// resolution pack better than one for every patch of a photo.
+/// Colors are sampled in space, so charts need not follow the choice of photos: a few large charts
+/// of uniform resolution pack better than one per photo patch.
 struct Charting: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var clustering = ChartClustering()
-    /// Resolution of charts that no photo sees, relative to the typical one.
+    /// Resolution of charts that no photo sees, relative to the typical chart.
     var unseenDensity: Float = 0.3
-    /// Limits of a chart's resolution relative to the typical one.
+    /// Bounds of a chart's resolution relative to the typical chart.
     var densityRange: ClosedRange<Float> = 0.3...2
   }
 
   var options = Options()
 
+  /// `labels` holds the photo chosen for each triangle, −1 for none.
   func run(
     _ mesh: Mesh, rated: RatedViews, labels: [Int32], _ context: StageContext
   ) throws -> ChartMap {
@@ -44,7 +46,7 @@ struct Charting: Sendable {
     return result
   }
 
-  /// Projects triangles along the axis, turned so that their bounding rectangle is small.
+  /// Projects triangles along the axis, rotated to a small bounding rectangle.
   private func lay(
     _ faces: [Int], of mesh: Mesh, along axis: SIMD3<Float>, into corners: inout [SIMD2<Float>]
   ) {
@@ -65,7 +67,7 @@ struct Charting: Sendable {
     }
   }
 
-  /// The rotation, of 30 in a quarter turn, that makes the bounding rectangle smallest.
+  /// The rotation, out of 30 within a quarter turn, with the smallest bounding rectangle.
   private static func smallestTurn(of points: [SIMD2<Float>]) -> (cos: Float, sin: Float) {
     var best: (area: Float, turn: (cos: Float, sin: Float)) = (.infinity, (1, 0))
     for step in 0..<30 {
@@ -89,6 +91,7 @@ struct Charting: Sendable {
     [turn.cos * p.x - turn.sin * p.y, turn.sin * p.x + turn.cos * p.y]
   }
 
+  /// The area-weighted resolution of the chosen photos by chart, in photo pixels per world unit.
   private func densities(
     _ mesh: Mesh, _ rated: RatedViews, _ labels: [Int32], _ charts: [Int32], count: Int
   ) -> [Float] {
@@ -98,7 +101,7 @@ struct Charting: Sendable {
     for face in charts.indices where labels[face] >= 0 && areas[face] > 0 {
       guard let index = rated.views.index(of: face, in: labels[face]) else { continue }
       let entry = rated.views.entries[index]
-      // Foreshortening takes resolution in one direction only.
+      // Foreshortening reduces the resolution in one direction only.
       sums[Int(charts[face])] +=
         (entry.area / (areas[face] * entry.cosine)).squareRoot()
         * areas[face]

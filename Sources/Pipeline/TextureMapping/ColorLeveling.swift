@@ -1,31 +1,33 @@
 import Kernels
 import SceneModel
 
-/// What is added to the photos' colours at each corner, so that they meet without a seam.
+/// Color offsets added to the photos at each corner, so that they match without a seam.
 struct LevelingOffsets: Sendable {
-  /// By share of the corners' weights, RGB.
+  /// One per share of `CornerWeights`; RGB, 0…255.
   var offsets: [SIMD3<Float>]
-  /// A colour for each vertex: the photos' agreed one, interpolated where no photo sees it.
+  /// A color for each vertex: the photos' consensus, interpolated where no photo sees it.
   var vertexColors: [SIMD3<Float>]
 }
 
-/// Global colour adjustment at the vertices (Waechter, Moehrle and Goesele, ECCV 2014).
+/// Global color adjustment at the vertices (Waechter, Moehrle and Goesele, ECCV 2014).
 ///
-/// Unknown is an offset for every vertex and photo that colours it. Photos that meet at a vertex
-/// shall agree there; along edges the offset of a photo shall not change; and, beyond the paper,
-/// it leads to the mean colour of all photos, so that no photo's shading is spread over others.
+/// The unknowns are an offset for every vertex and photo that colors it. Photos that meet at a
+/// vertex are made to agree there; a photo's offset varies little along edges; and, beyond the
+/// paper, colors are attracted to the mean of all photos, so that no photo's shading spreads over
+/// others.
 struct ColorLeveling: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Weight of the agreement of two photos at a vertex.
     var seam = 4.0
     /// Weight of equal offsets at both ends of an edge.
     var smoothness = 1.0
-    /// Weight of the mean colour of all photos.
+    /// Weight of the mean color of all photos.
     var consensus = 0.02
   }
 
   var options = Options()
 
+  /// Solves for the offsets of all shares in `weights`.
   func run(
     _ rated: RatedViews, weights: CornerWeights, mesh: Mesh, topology: MeshTopology,
     _ context: StageContext
@@ -66,6 +68,7 @@ struct ColorLeveling: Sendable {
     return result
   }
 
+  /// Adds the consensus and seam equations of one vertex, whose unknowns are `range`.
   private func addSeams(
     _ range: Range<Int>, _ colors: [SIMD3<Float>?], _ nodes: Nodes, _ agreed: SIMD3<Float>,
     to system: inout SparseLeastSquares
@@ -76,7 +79,7 @@ struct ColorLeveling: Sendable {
         system.add(a, value: .zero, weight: options.consensus)
         continue
       }
-      // The interpolated colour stays as it is; photos come to it.
+      // The interpolated color is fixed; photos adapt to it.
       let weight = view < 0 ? 1000 : options.consensus
       system.add(a, value: SIMD3<Double>(agreed - color), weight: weight)
       for b in range.lowerBound..<a {
@@ -86,7 +89,7 @@ struct ColorLeveling: Sendable {
     }
   }
 
-  /// A vertex's colour in a view: the mean of the triangles around it.
+  /// A vertex's color in a view: the area-weighted mean over its triangles.
   private static func color(
     of vertex: Int, in view: Int32, _ rated: RatedViews, _ topology: MeshTopology,
     _ areas: [Float]
@@ -101,7 +104,7 @@ struct ColorLeveling: Sendable {
   }
 }
 
-/// The unknowns: every view that colours a corner at a vertex.
+/// The unknowns: every view that colors a corner at a vertex.
 private struct Nodes {
   private(set) var items: [(vertex: Int, view: Int32)] = []
   private var offsets: [Int32] = [0]
@@ -129,7 +132,7 @@ private struct Nodes {
   }
 }
 
-/// The agreed colours of the triangles, at the vertices.
+/// The triangles' consensus colors, averaged at the vertices.
 struct VertexColors: Sendable {
   private var colors: [SIMD3<Float>?]
   private let topology: MeshTopology
@@ -148,8 +151,8 @@ struct VertexColors: Sendable {
     }
   }
 
-  /// Vertices without colour get the smoothest continuation of those around them; pieces without
-  /// any colour the mean of all.
+  /// Interpolates vertices without color harmonically; components without any color get the mean of
+  /// all.
   func filled(_ control: KernelControl) throws -> [SIMD3<Float>] {
     let known = colors.compactMap { $0 }
     let mean =

@@ -2,27 +2,28 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Gains of the photos' channels, so that triangles seen by several photos have one colour in all.
+/// Per-channel gains of the photos, so that triangles seen by several photos have the same color in
+/// all.
 ///
-/// Least squares on logarithms with Huber weights; the triangles' colours are eliminated.
+/// Least squares on logarithms with Huber weights; the triangles' colors are eliminated.
 struct ExposureCompensation: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Residuals beyond this, in natural logarithms, count less.
+    /// Residuals beyond this, in natural logarithms, are down-weighted.
     var huber = 0.1
     var rounds = 3
-    /// How strongly gains are held at 1, as a share of the observations' weight.
+    /// Weight of the prior gain of 1, as a share of the observations' weight.
     var prior = 0.02
-    /// Gains stay within 1 / maximum … maximum.
+    /// Gains are limited to 1 / maximum … maximum.
     var maximumGain: Float = 2.5
-    /// Observations more oblique than this cosine don't count.
+    /// Observations at a smaller cosine (more oblique) are ignored.
     var minimumCosine: Float = 0.35
-    /// Triangles that are looked at, at least, of a surface that has more: every nth.
+    /// On surfaces with more triangles, every nth is used, so that at least this many remain.
     var sufficientFaces = 200_000
   }
 
   var options = Options()
 
-  /// Gains by view.
+  /// One gain per view.
   func run(_ views: FaceViews, viewCount: Int, _ context: StageContext) throws -> [ExposureGain] {
     var logGains = [SIMD3<Double>](repeating: .zero, count: viewCount)
     let step = max(1, views.faceCount / max(1, options.sufficientFaces))
@@ -46,6 +47,7 @@ struct ExposureCompensation: Sendable {
     }
   }
 
+  /// Adds the robustly weighted log colors of one triangle in one channel.
   private func add(
     _ face: Int, _ channel: Int, of views: FaceViews, _ gains: [SIMD3<Double>],
     to system: inout PairwiseDifferences
@@ -54,7 +56,7 @@ struct ExposureCompensation: Sendable {
     for index in views.range(of: face) {
       let entry = views.entries[index]
       let value = entry.color[channel]
-      // Near black and white the sensor no longer follows the light.
+      // Near black and white the sensor response isn't linear.
       guard entry.cosine >= options.minimumCosine, value > 6, value < 246 else { continue }
       items.append(
         (Int(entry.view), log(Double(value + ExposureGain.foot)), Double(entry.cosine)))
@@ -70,7 +72,7 @@ struct ExposureCompensation: Sendable {
   }
 }
 
-/// What pairs of views say about the difference of their logarithmic gains in one channel.
+/// Pairwise differences of views' logarithmic gains in one channel.
 private struct PairwiseDifferences {
   let count: Int
   private var weights: [Double]
@@ -95,7 +97,7 @@ private struct PairwiseDifferences {
     }
   }
 
-  /// The gains' logarithms; `prior` holds them at 0, relative to a view's mean weight.
+  /// The logarithmic gains; `prior` pulls them to 0, relative to a view's mean weight.
   func solve(prior: Double, _ control: KernelControl) throws -> [Double] {
     let total = weights.reduce(0, +)
     guard total > 0 else { return Array(repeating: 0, count: count) }

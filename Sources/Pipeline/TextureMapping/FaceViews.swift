@@ -1,7 +1,7 @@
 import Kernels
 import SceneModel
 
-/// What the views show of each triangle.
+/// The observations of each triangle in the views.
 struct FaceViews: Sendable {
   /// Observations of triangle i: `entries[offsets[i]..<offsets[i + 1]]`, ascending by view.
   private(set) var offsets: [Int32]
@@ -9,7 +9,7 @@ struct FaceViews: Sendable {
 
   var faceCount: Int { offsets.count - 1 }
 
-  /// Groups observations, given view by view, by triangle.
+  /// Groups observations, listed by view, by triangle.
   init(faceCount: Int, observationsByView: [[FaceObservation]]) {
     offsets = Array(repeating: 0, count: faceCount + 1)
     for observations in observationsByView {
@@ -31,12 +31,12 @@ struct FaceViews: Sendable {
 
   func range(of face: Int) -> Range<Int> { Int(offsets[face])..<Int(offsets[face + 1]) }
 
-  /// The place in `entries` of what a view shows of a triangle; nil where it doesn't see it.
+  /// The index in `entries` of a view's observation of a triangle; nil if the view doesn't see it.
   func index(of face: Int, in view: Int32) -> Int? {
     range(of: face).first { entries[$0].view == view }
   }
 
-  /// Keeps the entries that pass.
+  /// Keeps the entries that satisfy the predicate.
   mutating func filter(_ isIncluded: (Int) -> Bool) {
     var kept: [FaceObservation] = []
     kept.reserveCapacity(entries.count)
@@ -50,21 +50,21 @@ struct FaceViews: Sendable {
   }
 }
 
-/// Finds which triangles each photo sees, and how: rays to the corners and the middle decide
-/// visibility.
+/// Determines which triangles each photo sees, and how well: rays to the corners and the center
+/// test visibility.
 struct ViewObservation: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var rays = RayScene.ObservationOptions()
-    /// Pixels of the views that are looked at; triangles' mean colours need no more.
+    /// Maximum pixels of the views; sufficient for triangles' mean colors.
     var maximumPixels = 2_000_000
-    /// Observations kept of one triangle, those of the largest area.
+    /// Maximum observations kept per triangle; those with the largest area.
     var maximumViews = 24
   }
 
   var options = Options()
 
-  /// Observations with areas in pixels of the full photos; views are numbered as `views` lists them.
-  /// Only the first `faceCount` triangles of the scene are asked for, or all of them.
+  /// Observations with areas in pixels of the full-size photos; views are numbered as in `views`.
+  /// Restricted to the first `faceCount` triangles of the scene; nil means all.
   func run(
     _ scene: RayScene, faceCount: Int? = nil, views: [ID<Photo>], source: ViewSource,
     _ context: StageContext
@@ -86,6 +86,7 @@ struct ViewObservation: Sendable {
     return result
   }
 
+  /// Keeps the largest observations of each triangle.
   private func limit(_ views: inout FaceViews) {
     var isKept = [Bool](repeating: true, count: views.entries.count)
     for face in 0..<views.faceCount {
@@ -100,10 +101,10 @@ struct ViewObservation: Sendable {
   }
 }
 
-/// Where views come from: the image store, or images in memory.
+/// Provider of views: the image store, or images in memory.
 struct ViewSource: Sendable {
   var reconstruction: Reconstruction
-  /// The view of a photo, at most so many pixels large.
+  /// The undistorted view of a photo; the second argument is the maximum number of pixels.
   var view: @Sendable (ID<Photo>, Int) throws -> PinholeView
 
   init(
@@ -119,14 +120,14 @@ struct ViewSource: Sendable {
     }
   }
 
-  /// Pixels of a full photo, in the mean of those that are registered.
+  /// Mean pixel count of the registered photos.
   var pixelsPerPhoto: Float {
     let cameras = reconstruction.registered.map { reconstruction.camera(of: $0) }
     let sum = cameras.reduce(Float(0)) { $0 + Float($1.width) * Float($1.height) }
     return sum / Float(max(1, cameras.count))
   }
 
-  /// Pixels of the full photo for one of the view.
+  /// Ratio of full-size photo pixels to pixels of the view, by area.
   func areaFactor(of view: PinholeView) -> Float {
     let full = reconstruction.camera(of: view.photo).focalLength
     let ratio = full / view.camera.focalLength

@@ -1,38 +1,38 @@
 import Kernels
 import SceneModel
 
-/// Makes the maps that are not colour from the dense surface.
+/// Bakes the non-color maps from the dense surface.
 struct MapBaking: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// How far the dense surface may be from the textured one, as a share of the mesh's diagonal.
+    /// Maximum distance of the dense from the textured surface, as a share of the mesh's diagonal.
     var reach: Float = 0.01
-    /// Rays a texel for ambient occlusion; sixteen texels share theirs.
+    /// Ambient-occlusion rays per texel; sixteen texels share theirs.
     var occlusionRays = 6
     /// Length of these rays, as a share of the mesh's diagonal.
     var occlusionReach: Float = 0.3
-    /// Texels of the maps that vary little, ambient occlusion and roughness, in all textures
-    /// together: a side is halved while there are more.
+    /// Maximum texels of the low-frequency maps, ambient occlusion and roughness, over all
+    /// textures: their side is halved until they fit.
     var smoothTexels = 5_000_000
-    /// One value for the whole surface: photos alone don't tell gloss from colour. UsdPreviewSurface
-    /// models of photogrammetry programs commonly use it for unpolished things.
+    /// One value for the whole surface: photos alone don't separate gloss from color.
+    /// UsdPreviewSurface models of photogrammetry programs commonly use it for unpolished objects.
     var roughness: Float = 0.9
   }
 
   var options = Options()
 
-  /// What all textures of a model are baked from.
+  /// The inputs shared by all textures of a model.
   struct Prepared {
     fileprivate var maps: Set<TextureMap>
     fileprivate var options: Options
     fileprivate var scene: RayScene
     fileprivate var layout: AtlasLayout
-    /// The layout of the maps that vary little.
+    /// The layout of the low-frequency maps.
     fileprivate var smooth: AtlasLayout
     fileprivate var source: BakeSource?
     fileprivate var diagonal: Float
   }
 
-  /// Gets ready to bake `maps` onto `mesh`, whose triangles are those of `scene`.
+  /// Prepares baking of `maps` onto `mesh`, whose triangles are those of `scene`.
   func prepared(
     _ maps: Set<TextureMap>, mesh: Mesh, scene: RayScene, dense: Mesh, layout: AtlasLayout,
     charts: [Int32], _ context: StageContext
@@ -49,6 +49,7 @@ struct MapBaking: Sendable {
       diagonal: diagonal)
   }
 
+  /// The dense surface with the tangent frames of the textured one.
   private func source(
     _ mesh: Mesh, _ dense: Mesh, _ layout: AtlasLayout, _ charts: [Int32], reach: Float,
     _ context: StageContext
@@ -64,7 +65,7 @@ struct MapBaking: Sendable {
 }
 
 extension MapBaking.Prepared {
-  /// Bakes the maps of the triangles of one texture, whose canvas it is.
+  /// Bakes the maps for the triangles of one texture; `canvas` is that texture's.
   func run(
     on canvas: TextureCanvas, atlas: Int, _ context: StageContext
   ) throws -> [TextureMap: RasterImage] {
@@ -90,6 +91,7 @@ extension MapBaking.Prepared {
     return images
   }
 
+  /// A canvas at the resolution of the low-frequency maps.
   private func smoothCanvas(
     _ canvas: TextureCanvas, _ atlas: Int, _ context: StageContext
   ) throws -> TextureCanvas {
@@ -100,12 +102,12 @@ extension MapBaking.Prepared {
 }
 
 /// Tangents at the corners as viewers derive them from texture coordinates: those of the triangles,
-/// weighted by the angle at the vertex, joined within a chart (Mikkelsen's tangent space).
+/// weighted by the angle at the vertex, merged within a chart (Mikkelsen's tangent space).
 struct TangentFrames: Sendable {
-  /// `texels` are texture coordinates with y down, three a triangle. The fourth component is the
-  /// sign of the bitangent, which points up in the texture.
+  /// `texels` holds texture coordinates with y down, three per triangle. The fourth component of
+  /// the result is the sign of the bitangent, which points up in the texture.
   func run(_ mesh: Mesh, texels: [SIMD2<Float>], charts: [Int32]) -> [SIMD4<Float>] {
-    // Around a vertex few charts meet: lists are shorter than dictionaries.
+    // Few charts meet at a vertex: lists are shorter than dictionaries.
     var sums = [[(chart: Int32, sum: SIMD3<Float>)]](repeating: [], count: mesh.positions.count)
     for (face, triangle) in mesh.triangles.enumerated() {
       let tangent = Self.tangent(mesh, face, texels)
@@ -133,7 +135,7 @@ struct TangentFrames: Sendable {
     return result
   }
 
-  /// The direction in space in which u grows.
+  /// The direction in space of increasing u.
   private static func tangent(
     _ mesh: Mesh, _ face: Int, _ texels: [SIMD2<Float>]
   ) -> SIMD3<Float> {

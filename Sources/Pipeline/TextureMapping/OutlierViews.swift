@@ -1,35 +1,37 @@
 import SceneModel
 
-/// Finds the views of triangles that show something else than the surface: a passer-by, a hand, a
-/// reflection.
+/// Detects views of triangles that show transient occluders or reflections instead of the surface:
+/// a passer-by, a hand, a highlight.
 ///
-/// Per triangle, views far from the median colour stand out, as in Waechter et al. (ECCV 2014). What
-/// stands out in one photo over many pixels is a thing, and a thing has parts that look like the
-/// surface behind it, and a blurred rim: from there on, less is enough (the hysteresis of Canny,
-/// PAMI 1986), and the triangles beside it go as well. Where one or two photos see the surface, no
-/// median tells; there the thing goes on as long as the photo shows its colour.
+/// Per triangle, views far from the median color are outliers, as in Waechter et al. (ECCV 2014). A
+/// connected outlier region of sufficient area in one photo is an occluder. Parts of an occluder
+/// resemble the surface behind it, and its boundary is blurred: next to it a lower threshold
+/// applies (hysteresis as in Canny, PAMI 1986), and adjacent triangles are rejected too. Where only
+/// one or two photos see the surface, there is no meaningful median; there the region grows as long
+/// as the photo shows the occluder's color.
 struct OutlierViews: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Views that disagree with the median by more stand out; gray levels 0…255.
+    /// Views that differ from the median by more are outliers; gray levels, 0…255.
     var colorTolerance: Float = 14
     /// The same in standard deviations of the views.
     var deviations: Float = 3
-    /// The least number of views that tell which of them is the odd one.
+    /// Minimum number of views for a meaningful median.
     var minimumViews = 3
-    /// Pixels of a photo that stand out side by side and are a thing; in large photos it takes more.
+    /// Minimum area of a connected outlier region, in pixels of a photo; larger in large photos.
     var thingArea: Float = 400
-    /// Share of the tolerance that is enough beside what stands out.
+    /// Share of the tolerance that suffices next to outliers (the low hysteresis threshold).
     var weakShare: Float = 0.5
-    /// How like a thing's colour one beside it must be, if nothing else tells: 0 is the surface's.
+    /// Minimum similarity to the occluder's color for a neighbor without other evidence: 0 is the
+    /// surface's color, 1 the occluder's.
     var likeness: Float = 0.7
-    /// Rings of triangles around a thing that its rim may reach.
+    /// Rings of triangles around an occluder that its blurred boundary may cover.
     var rings = 2
   }
 
   var options = Options()
 
-  /// For each entry whether it is to be left out. A triangle whose views are all beside things
-  /// keeps them; one that only shows things keeps none.
+  /// Whether each entry is rejected. A triangle whose views are all rejected only for their
+  /// proximity to occluders keeps them; one whose views all show occluders keeps none.
   func run(
     _ views: FaceViews, topology: MeshTopology, _ context: StageContext
   ) throws -> [Bool] {
@@ -43,7 +45,7 @@ struct OutlierViews: Sendable {
       strangers.append(
         extend(thing, over: views, neighbors, first.excess, look, &isStranger))
     }
-    // Two things on one triangle outvote its surface; without them it is judged anew.
+    // Two occluders can outvote the surface of a triangle; without them it is re-evaluated.
     let second = try rated(views, without: isStranger, context)
     for entry in views.entries.indices where second.excess[entry] > 1 { isStranger[entry] = true }
     var isOutlier = isStranger
@@ -54,8 +56,8 @@ struct OutlierViews: Sendable {
     return isOutlier
   }
 
-  /// The median colour of each triangle, and how far each view is from it, as a share of what is
-  /// tolerated. Of two views neither stands out, but they may differ.
+  /// The median color of each triangle, and each view's deviation from it relative to the
+  /// tolerance. With two views neither is an outlier, but their difference is recorded.
   private func rated(
     _ views: FaceViews, without isStranger: [Bool]?, _ context: StageContext
   ) throws -> (medians: [SIMD3<Float>], excess: [Float]) {
@@ -69,6 +71,7 @@ struct OutlierViews: Sendable {
     return (medians, excess)
   }
 
+  /// Evaluates the views of one triangle; returns their median color.
   private func rate(
     _ entries: [Int], of views: FaceViews, _ excess: inout [Float]
   ) -> SIMD3<Float> {
@@ -94,7 +97,8 @@ struct OutlierViews: Sendable {
 
   private static func largest(_ v: SIMD3<Float>) -> Float { pointwiseMax(v, -v).max() }
 
-  /// Connected entries of one view that stand out a little, of which many stand out clearly.
+  /// Regions of connected entries of one view above the low threshold that contain a sufficient
+  /// area above the high one.
   private func things(
     _ excess: [Float], _ views: FaceViews, _ neighbors: FaceNeighbors
   ) -> [[Int]] {
@@ -114,13 +118,13 @@ struct OutlierViews: Sendable {
     return things
   }
 
-  /// Whether enough views see the triangle of an entry to tell which is the odd one.
+  /// Whether enough views see the entry's triangle for a meaningful median.
   private func isJudged(_ entry: Int, _ views: FaceViews) -> Bool {
     views.range(of: Int(views.entries[entry].face)).count >= options.minimumViews
   }
 
-  /// Follows a thing by its colour over triangles that too few views see, or that other things
-  /// hide as well. Returns all of it.
+  /// Grows an occluder region by color over triangles that too few views see, or that other
+  /// occluders also hide. Returns the whole region.
   private func extend(
     _ thing: [Int], over views: FaceViews, _ neighbors: FaceNeighbors, _ excess: [Float],
     _ look: Look, _ isStranger: inout [Bool]
@@ -136,6 +140,7 @@ struct OutlierViews: Sendable {
     }
   }
 
+  /// Marks the rings of triangles around an occluder region.
   private func grow(
     _ thing: [Int], _ views: FaceViews, _ neighbors: FaceNeighbors, _ isOutlier: inout [Bool]
   ) {
@@ -153,7 +158,7 @@ struct OutlierViews: Sendable {
     }
   }
 
-  /// What sets a thing's colours apart from the surface behind it: the mean of both.
+  /// The mean color of an occluder and of the surface behind it.
   private struct Look {
     private var thing = SIMD3<Float>.zero
     private var surface = SIMD3<Float>.zero
@@ -166,7 +171,7 @@ struct OutlierViews: Sendable {
       }
     }
 
-    /// Where a colour is on the line from the surface's, 0, to the thing's, 1.
+    /// Position of a color on the line from the surface's color, 0, to the occluder's, 1.
     func share(of color: SIMD3<Float>) -> Float {
       let way = thing - surface
       return (color - surface).dot(way) / max(way.squaredLength, 1e-6)
@@ -174,9 +179,9 @@ struct OutlierViews: Sendable {
   }
 }
 
-/// The triangles that share an edge with each triangle.
+/// The edge-adjacent triangles of each triangle.
 struct FaceNeighbors: Sendable {
-  /// Three a triangle, −1 where there is none.
+  /// Three per triangle; −1 for none.
   private var faces: [Int32]
 
   init(_ topology: MeshTopology, faceCount: Int) {
@@ -193,7 +198,7 @@ struct FaceNeighbors: Sendable {
     faces[place] = neighbor
   }
 
-  /// `start`, then what the same view shows beside it and accepts, and so on.
+  /// Flood fill from `start` over the same view's entries of adjacent triangles that `accepts`.
   func flood(
     from start: [Int], in views: FaceViews, where accepts: (Int) -> Bool
   ) -> [Int] {
@@ -206,7 +211,7 @@ struct FaceNeighbors: Sendable {
     return group
   }
 
-  /// Calls `body` with what the same view shows of the triangles beside that of `entry`.
+  /// Calls `body` with the same view's entries of the triangles adjacent to that of `entry`.
   func forEach(beside entry: Int, in views: FaceViews, _ body: (Int) -> Void) {
     let (face, view) = (Int(views.entries[entry].face), views.entries[entry].view)
     for place in 3 * face..<3 * face + 3 where faces[place] >= 0 {

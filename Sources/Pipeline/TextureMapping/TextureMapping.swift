@@ -2,19 +2,21 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Colours a surface with the photos it was made from (Waechter, Moehrle and Goesele, "Let There Be
-/// Color!", ECCV 2014) and bakes what the simplified surface lost into maps.
+/// Colors a surface from the photos that it was reconstructed from (Waechter, Moehrle and Goesele,
+/// "Let There Be Color!", ECCV 2014), and bakes detail that simplification removed into maps.
 package struct TextureMapping: Sendable {
+  /// Parameters of texturing.
   package struct Options: Sendable {
-    /// Upper bound of the textures' side in texels; it is halved while the photos don't fill it.
+    /// Maximum texture side in texels; halved while the photos have less detail.
     package var textureSide = 4096
-    /// Upper bound of the number of textures; more than one only where the photos fill it.
+    /// Maximum number of textures; more than one only if the photos fill it.
     package var maximumAtlases = 1
+    /// The maps to produce.
     package var maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
 
-    /// What stands out over so large a share of a photo is a thing before the surface.
+    /// Minimum area of a transient occluder, as a share of a photo.
     var thingShare: Float = 0.001
-    /// Triangles of what is cut off but stands before the surface in photos, at most.
+    /// Maximum triangles of the cropped-away surface that is kept as an occluder.
     var occluderTriangles = 100_000
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()
@@ -40,8 +42,10 @@ package struct TextureMapping: Sendable {
 
   package init(options: Options = Options()) { self.options = options }
 
-  /// Textures `mesh`, whose maps are baked from `dense`, the surface before simplification. Photos
-  /// don't see through `occluders`, which get no texture.
+  /// Textures `mesh`; its maps are baked from `dense`, the surface before simplification.
+  /// `occluders` block the photos' view of the mesh but get no texture.
+  ///
+  /// Throws `PipelineError.noSurface` for an empty mesh.
   package func run(
     _ mesh: Mesh, dense: Mesh, occluders: Mesh = Mesh(), reconstruction: Reconstruction,
     images: ImageStore, _ context: StageContext
@@ -97,8 +101,7 @@ package struct TextureMapping: Sendable {
     return assembled(mesh, layout, maps)
   }
 
-  /// The scene with what stands before the mesh, behind it in the order of triangles; nil where there
-  /// is nothing.
+  /// The mesh's scene with the occluders appended after its triangles; nil without occluders.
   private func occluded(
     _ mesh: Mesh, by occluders: Mesh, _ context: StageContext
   ) throws -> RayScene? {
@@ -116,8 +119,8 @@ package struct TextureMapping: Sendable {
       control)
   }
 
-  /// The maps of each texture, one texture after the other: while one is painted, it takes three
-  /// times the memory of its image.
+  /// The maps of each texture, one texture at a time: painting one takes three times the memory of
+  /// its image.
   private func images(
     of layout: AtlasLayout, scene: RayScene, _ baking: MapBaking.Prepared,
     _ painting: TexturePainting, _ context: StageContext
@@ -142,6 +145,7 @@ package struct TextureMapping: Sendable {
     return images
   }
 
+  /// The mesh with normals; throws if it is empty.
   private func checked(_ input: Mesh) throws -> Mesh {
     guard !input.triangles.isEmpty else {
       throw PipelineError.noSurface(reason: "there is nothing to texture")
@@ -151,8 +155,8 @@ package struct TextureMapping: Sendable {
     return mesh
   }
 
-  /// Puts the triangles in the order of their textures. Corners with equal coordinates at one vertex
-  /// share them, within a texture.
+  /// Orders the triangles by texture. Corners with equal coordinates at one vertex share them
+  /// within a texture.
   private func assembled(
     _ mesh: Mesh, _ layout: AtlasLayout, _ maps: [[TextureMap: RasterImage]]
   ) -> TexturedMesh {

@@ -1,24 +1,24 @@
 import Kernels
 import SceneModel
 
-/// Takes the colours from the photos, one photo after the other.
+/// Paints the textures from the photos, one photo at a time.
 struct TexturePainting: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Pixels that a view has at most.
+    /// Maximum pixels of a view.
     var maximumPixels = 8_000_000
   }
 
   var options = Options()
   var weights: CornerWeights
   var leveling: LevelingOffsets
-  /// By view number, as `views`.
+  /// By view number, as are `views`.
   var gains: [ExposureGain]
   var views: [ID<Photo>]
   var source: ViewSource
-  /// Texels for a photo's pixel, along a line.
+  /// Linear ratio of texels to photo pixels.
   var magnification: Float
 
-  /// Paints `faces` on the canvas.
+  /// Paints `faces` onto the canvas.
   func run(on canvas: TextureCanvas, faces: [Int], _ context: StageContext) throws {
     var paints = [[FacePaint]](repeating: [], count: views.count + 1)
     for face in faces {
@@ -46,13 +46,14 @@ struct TexturePainting: Sendable {
     }
   }
 
-  /// A small texture needs no large photos: two pixels a texel are enough.
+  /// Maximum pixels of a photo's view: for small textures, two pixels per texel (linear) suffice.
   private func pixels(of photo: ID<Photo>) -> Int {
     let camera = source.reconstruction.camera(of: photo)
     let useful = Float(camera.width * camera.height) * 4 * magnification * magnification
     return min(options.maximumPixels, max(100_000, Int(min(useful, 1e9))))
   }
 
+  /// The weights and offsets of one triangle's corners, by view.
   private static func paints(
     of face: Int, _ weights: CornerWeights, _ leveling: LevelingOffsets
   ) -> [(view: Int32, value: FacePaint)] {
@@ -90,7 +91,7 @@ extension FacePaint {
     }
   }
 
-  /// Corners where a view has no weight take the mean offset of the others.
+  /// Sets the offset of corners without weight to the mean of the others.
   fileprivate mutating func fillMissingOffsets() {
     let all = [offsets.0, offsets.1, offsets.2]
     let used = (0..<3).filter { weights[$0] > 0 }

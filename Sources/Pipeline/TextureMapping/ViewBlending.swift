@@ -1,14 +1,14 @@
 import SceneModel
 
-/// Which views colour a corner of a triangle, and how much of each.
+/// The views that color each corner of a triangle, with their weights.
 struct CornerWeights: Sendable {
   struct Share: Hashable, Sendable {
-    /// −1 stands for the colour that is interpolated where no photo sees the surface.
+    /// −1 stands for the color interpolated where no photo sees the surface.
     var view: Int32
     var weight: Float
   }
 
-  /// Shares of corner i: `shares[offsets[i]..<offsets[i + 1]]`, ascending by view; they add up to 1.
+  /// Shares of corner i: `shares[offsets[i]..<offsets[i + 1]]`, ascending by view; they sum to 1.
   fileprivate(set) var offsets: [Int32] = [0]
   fileprivate(set) var shares: [Share] = []
 
@@ -18,18 +18,18 @@ struct CornerWeights: Sendable {
   }
 }
 
-/// Softens the change from one photo to the next: weights of the photos at the corners, to be
-/// interpolated over the triangles.
+/// Blends between photos: weights of the photos at the corners, interpolated over the triangles.
 ///
-/// A vertex takes the shares of the triangles around it; a triangle uses only photos that see it.
+/// A vertex averages the labels of its triangles; a triangle uses only photos that see it.
 struct ViewBlending: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// How many rings of triangles the change spreads over, beyond the one at the change.
+    /// Rings of triangles that the transition covers, beyond those at the label boundary.
     var rings = 0
   }
 
   var options = Options()
 
+  /// `labels` holds the photo chosen for each triangle, −1 for none.
   func run(
     _ rated: RatedViews, labels: [Int32], mesh: Mesh, topology: MeshTopology,
     _ context: StageContext
@@ -53,14 +53,14 @@ struct ViewBlending: Sendable {
     return result
   }
 
-  /// Averages the shares of each vertex with those of its neighbours.
+  /// Averages the shares of each vertex with those of its neighbors.
   private func spread(
     _ shares: [[CornerWeights.Share]], _ topology: MeshTopology
   ) -> [[CornerWeights.Share]] {
     var collected = shares
     for edge in topology.edges {
       let (low, high) = (Int(edge.low), Int(edge.high))
-      // Inside of one photo's area there is nothing to average.
+      // Inside one photo's area there is nothing to average.
       if shares[low].count == 1, shares[low].map(\.view) == shares[high].map(\.view) { continue }
       collected[low] += shares[high]
       collected[high] += shares[low]
@@ -68,7 +68,7 @@ struct ViewBlending: Sendable {
     return collected.map(merged)
   }
 
-  /// One share a view, ascending, adding up to 1.
+  /// One share per view, ascending, normalized to a sum of 1.
   private func merged(_ shares: [CornerWeights.Share]) -> [CornerWeights.Share] {
     var result: [CornerWeights.Share] = []
     for share in shares.sorted(by: { $0.view < $1.view }) {
@@ -82,6 +82,7 @@ struct ViewBlending: Sendable {
     return result.map { .init(view: $0.view, weight: $0.weight / total) }
   }
 
+  /// The shares of views that see the triangle; the triangle's label if there are none.
   private func usable(
     _ shares: [CornerWeights.Share], _ face: Int, _ label: Int32, _ rated: RatedViews
   ) -> [CornerWeights.Share] {

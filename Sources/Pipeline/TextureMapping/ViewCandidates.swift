@@ -1,28 +1,29 @@
 import Kernels
 import SceneModel
 
-/// The data term: which photos may colour a triangle, and how well.
+/// The data term: which photos may color a triangle, and how well.
 ///
-/// Prefers views that show the triangle large, frontal and sharp; leaves out those that show
+/// Prefers views that show the triangle large, frontal and sharp; excludes those that show
 /// something else.
 struct ViewCandidates: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var outliers = OutlierViews.Options()
-    /// Exponent of the cosine in the quality, beyond its effect on the area.
+    /// Exponent of the cosine in the quality, in addition to its effect on the area.
     var cosinePower = 1
-    /// Factor on the quality next to an occluding edge or the object's outline, and where the photo
-    /// is overexposed.
+    /// Factor on the quality next to an occluding edge or the object's outline, and for
+    /// overexposure.
     var uncertainFactor: Float = 0.1
-    /// At the outline, observations more oblique than this cosine show the background where the
-    /// surface is a little too large; they are left out.
+    /// At the outline, observations below this cosine show background if the surface is slightly
+    /// too large; they are excluded.
     var minimumCosineAtOutline: Float = 0.5
-    /// Mean values of a channel from which on a photo may be overexposed, and above which it is.
+    /// Channel means at which overexposure becomes possible and certain, 0…255.
     var brightRange: ClosedRange<Float> = 225...248
   }
 
   var options = Options()
 
-  /// The views without outliers, a quality for each entry, and the agreed colour of each triangle.
+  /// The views without outliers, a quality for each entry, and the consensus color of each
+  /// triangle.
   func run(
     _ views: FaceViews, gains: [ExposureGain], topology: MeshTopology, _ context: StageContext
   ) throws -> RatedViews {
@@ -47,6 +48,7 @@ struct ViewCandidates: Sendable {
     return rated
   }
 
+  /// Computes the qualities and the consensus color of one triangle.
   private func rate(_ face: Int, _ gains: [ExposureGain], _ rated: inout RatedViews) {
     let range = rated.views.range(of: face)
     guard !range.isEmpty else { return }
@@ -69,7 +71,7 @@ struct ViewCandidates: Sendable {
     rated.colors[face] = sum / weight
   }
 
-  /// 1, or less where the colour may be another thing's, or lost in the light.
+  /// 1, or less if the color may belong to another surface or be overexposed.
   private func trust(in entry: FaceObservation, _ gain: ExposureGain) -> Float {
     let bright = options.brightRange
     let excess =
@@ -80,11 +82,11 @@ struct ViewCandidates: Sendable {
   }
 }
 
-/// Views with exposure-compensated colours that may colour each triangle.
+/// Views with exposure-compensated colors that may color each triangle.
 struct RatedViews: Sendable {
   var views: FaceViews
-  /// By entry of `views`; larger is better, comparable within a triangle.
+  /// By entry of `views`; larger is better, comparable only within a triangle.
   var qualities: [Float]
-  /// The colour on which the views of a triangle agree; nil where none sees it.
+  /// The consensus color of a triangle's views, 0…255; nil if none sees it.
   var colors: [SIMD3<Float>?]
 }

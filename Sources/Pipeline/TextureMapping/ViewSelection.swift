@@ -1,18 +1,19 @@
 import Kernels
 import SceneModel
 
-/// Chooses the photo that colours each triangle: a Markov random field with the candidates' quality
-/// as data term and the Potts model as smoothness (Lempitsky and Ivanov, CVPR 2007).
+/// Selects the photo that colors each triangle: a Markov random field with the candidates' quality
+/// as data term and the Potts model as smoothness term (Lempitsky and Ivanov, CVPR 2007).
 struct ViewSelection: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Cost of a change of photo along an edge of mean length; a triangle's worst photo costs 1.
+    /// Cost of a label change along an edge of mean length; a triangle's worst photo costs at most
+    /// 1.
     var smoothness: Float = 0.5
     var iterations = 20
   }
 
   var options = Options()
 
-  /// The view of each triangle; −1 where no photo sees it.
+  /// The view of each triangle; −1 if no photo sees it.
   func run(
     _ rated: RatedViews, mesh: Mesh, topology: MeshTopology, _ context: StageContext
   ) throws -> [Int32] {

@@ -1,2 +1,2 @@
-/// A part of an entity's description.
+/// A component of an entity.
 public protocol Component {}

@@ -1,60 +1,60 @@
-/// What a surface is made of.
+/// The material of a surface.
 public protocol Material: Sendable {}
 
-/// What materials have in common.
+/// Types that materials share.
 public enum MaterialParameters {
   /// A texture in a material.
   public struct Texture: Hashable, Sendable {
     /// The image.
     public var resource: TextureResource
 
-    /// Creates a texture of an image.
+    /// Creates a texture from an image.
     public init(_ resource: TextureResource) { self.resource = resource }
   }
 }
 
-/// A material by colour, relief, roughness and occlusion.
+/// A material with color, normals, roughness, metalness and ambient occlusion.
 public struct PhysicallyBasedMaterial: Material {
   /// A texture in a material.
   public typealias Texture = MaterialParameters.Texture
 
-  /// The colour.
+  /// The color.
   public var baseColor = BaseColor()
-  /// The relief that is finer than the mesh.
+  /// Normals with more detail than the mesh.
   public var normal = Normal()
-  /// How rough the surface is.
+  /// The roughness.
   public var roughness = Roughness()
-  /// How much the surface is like metal.
+  /// The metalness.
   public var metallic = Metallic()
-  /// How much ambient light reaches the surface.
+  /// The ambient occlusion.
   public var ambientOcclusion = AmbientOcclusion()
 
   /// Creates a material without textures.
   public init() {}
 
-  /// The colour of a surface.
+  /// The color of a surface.
   public struct BaseColor: Hashable, Sendable {
-    /// Red, green and blue, as sRGB has them.
+    /// Red, green and blue in sRGB.
     public var texture: Texture?
 
-    /// Creates a colour from its texture.
+    /// Creates a color from a texture.
     public init(texture: Texture? = nil) { self.texture = texture }
   }
 
-  /// The relief of a surface.
+  /// The normals of a surface.
   public struct Normal: Hashable, Sendable {
     /// Normals in tangent space; (0.5, 0.5, 1) is flat, y points up.
     public var texture: Texture?
 
-    /// Creates a relief from its texture.
+    /// Creates normals from a texture.
     public init(texture: Texture? = nil) { self.texture = texture }
   }
 
   /// The roughness of a surface.
   public struct Roughness: Hashable, Sendable {
-    /// The factor of the texture, or the roughness where there is none.
+    /// The factor of the texture, or the roughness if there is no texture.
     public var scale: Float
-    /// Roughness from black, smooth, to white, rough.
+    /// Roughness from black (smooth) to white (rough).
     public var texture: Texture?
 
     /// Creates a roughness from a factor and a texture.
@@ -64,14 +64,14 @@ public struct PhysicallyBasedMaterial: Material {
     }
   }
 
-  /// How much a surface is like metal.
+  /// The metalness of a surface.
   public struct Metallic: Hashable, Sendable {
-    /// From 0, not at all, to 1.
+    /// From 0 (dielectric) to 1 (metal).
     public var scale: Float
-    /// From black, not at all, to white.
+    /// Metalness from black (dielectric) to white (metal).
     public var texture: Texture?
 
-    /// Creates a value from a factor and a texture.
+    /// Creates a metalness from a factor and a texture.
     public init(scale: Float = 0, texture: Texture? = nil) {
       self.scale = scale
       self.texture = texture
@@ -80,10 +80,10 @@ public struct PhysicallyBasedMaterial: Material {
 
   /// The ambient light that reaches a surface.
   public struct AmbientOcclusion: Hashable, Sendable {
-    /// Light from black, none, to white, all.
+    /// Ambient light from black (none) to white (all).
     public var texture: Texture?
 
-    /// Creates an occlusion from its texture.
+    /// Creates an ambient occlusion from a texture.
     public init(texture: Texture? = nil) { self.texture = texture }
   }
 }

@@ -1,4 +1,4 @@
-/// The values of one kind of a mesh's vertices or triangles.
+/// The values of one vertex or triangle attribute of a mesh.
 public struct MeshBuffer<Element: Sendable>: RandomAccessCollection, Sendable {
   /// The values.
   public let elements: [Element]
@@ -6,12 +6,12 @@ public struct MeshBuffer<Element: Sendable>: RandomAccessCollection, Sendable {
   /// Creates a buffer from its values.
   public init(_ elements: [Element]) { self.elements = elements }
 
-  /// The place of the first value.
+  /// The index of the first value.
   public var startIndex: Int { elements.startIndex }
-  /// The place after the last value.
+  /// The index after the last value.
   public var endIndex: Int { elements.endIndex }
 
-  /// The value at a place.
+  /// The value at an index.
   public subscript(position: Int) -> Element { elements[position] }
 }
 
@@ -23,14 +23,14 @@ where Element.ID == String {
   /// Creates a collection from its elements.
   public init(_ elements: [Element]) { self.elements = elements }
 
-  /// The place of the first element.
+  /// The index of the first element.
   public var startIndex: Int { elements.startIndex }
-  /// The place after the last element.
+  /// The index after the last element.
   public var endIndex: Int { elements.endIndex }
 
-  /// The element at a place.
+  /// The element at an index.
   public subscript(position: Int) -> Element { elements[position] }
 
-  /// The element of a name; nil where there is none.
+  /// The element with a name; nil if there is none.
   public subscript(id: String) -> Element? { elements.first { $0.id == id } }
 }

@@ -1,13 +1,13 @@
-/// A mesh and what it is made of.
+/// A mesh and its materials.
 public struct ModelComponent: Component, Sendable {
-  /// The shape.
+  /// The mesh.
   public var mesh: MeshResource
-  /// What the parts of the mesh are made of, by their `materialIndex`.
+  /// The materials, indexed by the `materialIndex` of the mesh parts.
   public var materials: [any Material]
-  /// How far the model may reach beyond the bounds of the mesh.
+  /// The margin around the bounds of the mesh, in meters.
   public var boundsMargin: Float = 0
 
-  /// Creates a model from its parts.
+  /// Creates a model from a mesh and its materials.
   public init(mesh: MeshResource, materials: [any Material]) {
     self.mesh = mesh
     self.materials = materials

@@ -1,9 +1,9 @@
 import SceneModel
 
-/// A model in memory: what `Request.modelEntity` asks for.
+/// A model in memory: the result of `Request.modelEntity`.
 ///
-/// There is no renderer here, so that an entity is what it carries: its mesh with the textures in
-/// `model`, and its place. It has no parent and no children. It may be used from any thread.
+/// There is no renderer here, so an entity is its content: the mesh with textures in `model`, and
+/// its transform. It has no parent and no children. It may be used from any thread.
 public final class ModelEntity: Identifiable, Sendable {
   private struct State {
     var name = ""
@@ -14,15 +14,15 @@ public final class ModelEntity: Identifiable, Sendable {
 
   private let state: Locked<State>
 
-  /// Creates an entity without a model at the origin.
+  /// Creates an entity at the origin without a model.
   public init() { state = Locked(State()) }
 
-  /// Creates an entity with a model at the origin.
+  /// Creates an entity at the origin with a model.
   public init(mesh: MeshResource, materials: [any Material] = []) {
     state = Locked(State(model: ModelComponent(mesh: mesh, materials: materials)))
   }
 
-  /// A number of the entity's own.
+  /// The identity of the entity.
   public var id: UInt64 { UInt64(UInt(bitPattern: ObjectIdentifier(self))) }
 
   /// The name of the entity.
@@ -31,19 +31,19 @@ public final class ModelEntity: Identifiable, Sendable {
     set { state.withLock { $0.name = newValue } }
   }
 
-  /// Whether the entity is to be shown.
+  /// Whether the entity is visible.
   public var isEnabled: Bool {
     get { state.withLock { $0.isEnabled } }
     set { state.withLock { $0.isEnabled = newValue } }
   }
 
-  /// The place of the entity in the world.
+  /// The transform from the entity to the world.
   public var transform: Transform {
     get { state.withLock { $0.transform } }
     set { state.withLock { $0.transform = newValue } }
   }
 
-  /// The mesh of the entity and what it is made of.
+  /// The mesh of the entity and its materials.
   public var model: ModelComponent? {
     get { state.withLock { $0.model } }
     set { state.withLock { $0.model = newValue } }
@@ -51,7 +51,7 @@ public final class ModelEntity: Identifiable, Sendable {
 }
 
 extension ModelEntity {
-  /// The shift of the entity.
+  /// The translation of the entity.
   public var position: SIMD3<Float> {
     get { transform.translation }
     set { transform.translation = newValue }
@@ -63,25 +63,25 @@ extension ModelEntity {
     set { transform.rotation = newValue }
   }
 
-  /// The factors along the entity's axes.
+  /// The scale along the entity's axes.
   public var scale: SIMD3<Float> {
     get { transform.scale }
     set { transform.scale = newValue }
   }
 
-  /// The place of the entity as a matrix, in the space of another or of the world.
+  /// The transform of the entity as a matrix, relative to another entity or to the world.
   public func transformMatrix(relativeTo referenceEntity: ModelEntity?) -> float4x4 {
     if referenceEntity === self { return matrix_identity_float4x4 }
     guard let reference = referenceEntity?.transform.matrix else { return transform.matrix }
     return reference.inverse * transform.matrix
   }
 
-  /// The box around the model, in the space of another entity or of the world.
+  /// The bounding box of the model, relative to another entity or to the world.
   ///
   /// - Parameters:
   ///   - recursive: Has no effect: there are no children.
-  ///   - referenceEntity: The entity whose space it is; the world's where it is nil.
-  ///   - excludeInactive: Whether an entity that isn't enabled counts as empty.
+  ///   - referenceEntity: The entity that defines the frame; nil for the world.
+  ///   - excludeInactive: Whether a disabled entity counts as empty.
   public func visualBounds(
     recursive: Bool = true, relativeTo referenceEntity: ModelEntity?, excludeInactive: Bool = false
   ) -> BoundingBox {

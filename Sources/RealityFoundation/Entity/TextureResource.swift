@@ -2,19 +2,19 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// An image on a surface.
+/// An image that textures a surface.
 public final class TextureResource: Sendable {
-  /// What the values of an image mean.
+  /// The meaning of the values of an image.
   public enum Semantic: Hashable, Sendable {
-    /// Colours, as sRGB has them.
+    /// Colors in sRGB.
     case color
-    /// Numbers.
+    /// Plain numbers.
     case raw
     /// Normals in tangent space.
     case normal
   }
 
-  /// What the values mean.
+  /// The meaning of the values.
   public let semantic: Semantic?
   private let image: RasterImage
 
@@ -23,26 +23,26 @@ public final class TextureResource: Sendable {
     self.semantic = semantic
   }
 
-  /// The texels of a row.
+  /// The width in texels.
   public var width: Int { image.width }
-  /// The texels of a column.
+  /// The height in texels.
   public var height: Int { image.height }
-  /// The number of images of falling size; there is only the full one.
+  /// The number of mipmap levels; only the full resolution exists.
   public var mipmapLevelCount: Int { 1 }
 
-  /// The bytes of a texel: 3 for red, green and blue, 1 for gray.
+  /// The number of bytes per texel: 3 for red, green and blue, 1 for gray.
   ///
-  /// This engine's own; on a Mac textures are read by Metal.
+  /// An extension of this engine; on macOS textures are read through Metal.
   public var channelCount: Int { image.channels }
 
   /// All texels, the top row first.
   ///
-  /// This engine's own; on a Mac textures are read by Metal.
+  /// An extension of this engine; on macOS textures are read through Metal.
   public var texels: [UInt8] { image.pixels }
 
-  /// The image as a PNG file.
+  /// The image as PNG data.
   ///
-  /// This engine's own; on a Mac textures are read by Metal.
+  /// An extension of this engine; on macOS textures are read through Metal.
   public func pngRepresentation() throws -> Data { Data(try ImageCodec.encodePNG(image)) }
 }
 

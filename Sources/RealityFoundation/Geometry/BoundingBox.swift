@@ -5,7 +5,7 @@
   /// The corner with the largest coordinates.
   public var max: SIMD3<Float>
 
-  /// A box that contains nothing, not even a point.
+  /// A box that contains no point.
   public static let empty = BoundingBox(
     min: SIMD3(repeating: .infinity), max: SIMD3(repeating: -.infinity))
 
@@ -21,13 +21,13 @@
   /// Whether the box contains nothing.
   public var isEmpty: Bool { any(min .> max) }
 
-  /// The middle of the box; the origin for an empty box.
+  /// The center; the origin for an empty box.
   public var center: SIMD3<Float> { isEmpty ? .zero : (min + max) * 0.5 }
 
-  /// The lengths of the edges; zero for an empty box.
+  /// The edge lengths; zero for an empty box.
   public var extents: SIMD3<Float> { isEmpty ? .zero : max - min }
 
-  /// The radius of the sphere around the box; zero for an empty box.
+  /// The radius of the circumscribed sphere; zero for an empty box.
   public var boundingRadius: Float { length(extents) / 2 }
 }
 
@@ -42,13 +42,13 @@ extension BoundingBox {
     BoundingBox(min: pointwiseMin(min, other.min), max: pointwiseMax(max, other.max))
   }
 
-  /// Grows the box to contain the point.
+  /// Extends the box to contain the point.
   public mutating func formUnion(_ point: SIMD3<Float>) { self = union(point) }
 
-  /// Grows the box to contain the other.
+  /// Extends the box to contain the other one.
   public mutating func formUnion(_ other: BoundingBox) { self = union(other) }
 
-  /// Whether the point is inside or on the surface.
+  /// Whether the point is inside or on the boundary.
   public func contains(_ point: SIMD3<Float>) -> Bool {
     all(min .<= point) && all(point .<= max)
   }
@@ -63,7 +63,7 @@ extension BoundingBox {
     all(min .<= other.max) && all(other.min .<= max) && !isEmpty && !other.isEmpty
   }
 
-  /// The square of the distance to the point: zero inside, infinite for an empty box.
+  /// The squared distance to the point: zero inside, infinite for an empty box.
   public func distanceSquared(toPoint point: SIMD3<Float>) -> Float {
     isEmpty
       ? .infinity : length_squared(point - point.clamped(lowerBound: min, upperBound: max))

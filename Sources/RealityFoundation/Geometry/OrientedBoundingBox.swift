@@ -1,8 +1,8 @@
-/// A box turned about its centre.
+/// A box rotated about its center.
 public struct OrientedBoundingBox: Hashable, Sendable {
-  /// The rotation about the centre of the box.
+  /// The rotation about the center of the box.
   public var orientation: simd_quatf
-  /// The box before it is turned.
+  /// The box before the rotation.
   public var boundingBox: BoundingBox
 
   /// Creates a box from its rotation and its extent.

@@ -2,15 +2,15 @@
 @frozen public struct Transform: Hashable, Codable, Sendable, Component {
   /// The factors along the axes.
   public var scale: SIMD3<Float>
-  /// The rotation, of unit length.
+  /// The rotation, a unit quaternion.
   public var rotation: simd_quatf
-  /// The shift along the axes.
+  /// The translation along the axes.
   public var translation: SIMD3<Float>
 
-  /// The transform that changes nothing.
+  /// The identity transform.
   public static let identity = Transform()
 
-  /// Creates the transform that changes nothing.
+  /// Creates the identity transform.
   public init() {
     scale = SIMD3(repeating: 1)
     rotation = simd_quatf(ix: 0, iy: 0, iz: 0, r: 1)
@@ -28,9 +28,9 @@
     self.translation = translation
   }
 
-  /// Creates the transform of a matrix without shear.
+  /// Decomposes a matrix without shear.
   ///
-  /// A reflection is taken as a negative scale along x; an axis of length zero keeps no direction.
+  /// A reflection becomes a negative scale along x; an axis of length zero loses its direction.
   public init(matrix: float4x4) {
     self.init()
     self.matrix = matrix

@@ -1,20 +1,21 @@
-/// What is known about a camera's optics.
+/// The calibration of a camera.
 public final class AVCameraCalibrationData: Sendable {
-  /// Focal lengths and principal point in pixels of the reference dimensions, by columns.
+  /// Focal lengths and principal point in pixels of the reference dimensions, stored by columns.
   public let intrinsicMatrix: simd_float3x3
   /// The size in pixels that `intrinsicMatrix` refers to.
   public let intrinsicMatrixReferenceDimensions: CGSize
-  /// The camera's place relative to the device's main camera: a rotation and a shift in millimetres.
+  /// The pose relative to the device's main camera: a rotation and a translation in millimeters.
   public let extrinsicMatrix: simd_float4x4
-  /// The size of a pixel in millimetres.
+  /// The size of a pixel in millimeters.
   public let pixelSize: Float
-  /// Where the lens distortion is centred, in pixels of the reference dimensions.
+  /// The center of the lens distortion, in pixels of the reference dimensions.
   public let lensDistortionCenter: CGPoint
-  /// Radial magnifications from the centre to the farthest corner, as 32-bit floats.
+  /// Radial magnifications from the center to the farthest corner, as 32-bit floats.
   public let lensDistortionLookupTable: Data?
-  /// The magnifications that undo `lensDistortionLookupTable`.
+  /// The magnifications that invert `lensDistortionLookupTable`.
   public let inverseLensDistortionLookupTable: Data?
 
+  /// Creates a calibration; the distortion tables default to none.
   package init(
     intrinsicMatrix: simd_float3x3, intrinsicMatrixReferenceDimensions: CGSize,
     extrinsicMatrix: simd_float4x4 = matrix_identity_float4x4, pixelSize: Float = 0,

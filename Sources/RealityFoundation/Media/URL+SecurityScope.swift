@@ -1,6 +1,6 @@
 extension URL {
-  /// Asks for access to what the user has chosen. There are no sandboxes here: what the process may
-  /// read it can read at once, so this is true where there is something to be read or written.
+  /// Requests access to a resource that the user has chosen. There is no sandbox here, so this
+  /// returns whether there is something to read or write.
   public func startAccessingSecurityScopedResource() -> Bool {
     guard isFileURL else { return false }
     let manager = FileManager.default
@@ -8,6 +8,6 @@ extension URL {
       || manager.isWritableFile(atPath: deletingLastPathComponent().path)
   }
 
-  /// Gives the access back; has no effect.
+  /// Ends the access; has no effect.
   public func stopAccessingSecurityScopedResource() {}
 }

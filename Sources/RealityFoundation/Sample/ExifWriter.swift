@@ -2,22 +2,22 @@ import Formats
 
 /// Writes the EXIF data of a photo (CIPA DC-008): a TIFF structure without pixels.
 struct ExifWriter {
-  /// The content of a field.
+  /// The value of a field.
   enum Value: Hashable {
     case text(String)
     case short(UInt16)
-    /// Non-negative numbers to six decimals.
+    /// Non-negative numbers with six decimals, at most 4000.
     case rationals([Double])
   }
 
-  /// Fields by tag: the image's, the camera's and those of the place.
+  /// Fields by tag: of the image, Exif and GPS directories.
   var image: [UInt16: Value] = [:]
   var camera: [UInt16: Value] = [:]
   var place: [UInt16: Value] = [:]
 
-  /// The structure in big-endian order.
+  /// The structure in big-endian byte order.
   var bytes: [UInt8] {
-    // Two pointers join the directories; their sizes are known before their content.
+    // The image directory points to the other two, so their offsets are computed first.
     let pointers = (camera.isEmpty ? 0 : 1) + (place.isEmpty ? 0 : 1)
     let cameraOffset = 8 + size(image, extra: pointers)
     let placeOffset = cameraOffset + (camera.isEmpty ? 0 : size(camera))
@@ -57,9 +57,9 @@ struct ExifWriter {
     return head + big32(0) + data
   }
 
-  /// A PNG file with the data in an `eXIf` chunk before the pixels.
+  /// Inserts the data into a PNG file as an `eXIf` chunk before the pixels.
   func inserted(intoPNG png: [UInt8]) -> [UInt8] {
-    // The signature has 8 bytes and the header chunk, always first, 25.
+    // The signature has 8 bytes; the header chunk, always first, has 25.
     guard png.count > 33 else { return png }
     let content = Array("eXIf".utf8) + bytes
     let chunk = big32(content.count - 4) + content + big32(Int(CRC32.checksum(content)))
@@ -84,7 +84,7 @@ extension ExifWriter.Value {
     }
   }
 
-  /// Padded to an even number of bytes where it is text.
+  /// The bytes of the value; text is padded to an even number of bytes.
   fileprivate var payload: [UInt8] {
     switch self {
     case .text(let text):

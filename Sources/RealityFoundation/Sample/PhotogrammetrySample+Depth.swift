@@ -1,7 +1,7 @@
 import SceneModel
 
 extension PhotogrammetrySample {
-  /// The depth map turned as the photo is to be turned, in metres. Nil without one, or where it holds
+  /// The depth map in meters, rotated like the upright photo. Nil if there is no map or it holds
   /// neither depths nor disparities.
   var uprightDepth: DepthMap? {
     guard let map = depthDataMap, let depths = map.depths else { return nil }
@@ -11,7 +11,7 @@ extension PhotogrammetrySample {
 }
 
 extension CVPixelBuffer {
-  /// Depths in metres, row by row; nil for formats of neither depths nor disparities.
+  /// Depths in meters, row by row; nil for pixel formats that are neither depth nor disparity.
   fileprivate var depths: [Float]? {
     switch pixelFormat {
     case kCVPixelFormatType_DepthFloat32: singles

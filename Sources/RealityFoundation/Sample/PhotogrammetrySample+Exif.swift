@@ -1,5 +1,5 @@
 extension PhotogrammetrySample {
-  /// What the reconstruction can use of the metadata, with the keys that ImageIO gives them.
+  /// The metadata that the reconstruction uses, read with ImageIO's keys.
   var exif: ExifWriter {
     var exif = ExifWriter()
     let tiff = section("{TIFF}")
@@ -17,7 +17,7 @@ extension PhotogrammetrySample {
     return exif
   }
 
-  /// How the pixels are to be turned: as the sample's file says, else the metadata.
+  /// The EXIF orientation of the stored pixels: from the sample's file, else from the metadata.
   var storedOrientation: CGImagePropertyOrientation {
     guard orientation == .up, let number = number(metadata["Orientation"]) else {
       return orientation
@@ -25,7 +25,7 @@ extension PhotogrammetrySample {
     return UInt32(exactly: number).flatMap(CGImagePropertyOrientation.init(rawValue:)) ?? .up
   }
 
-  /// Millimetres: the true focal length and the one on 35 mm film. Known intrinsics are given as
+  /// The focal length and the 35 mm equivalent, in millimeters. Known intrinsics are expressed as
   /// those of a camera with 35 mm film.
   private func focalLengths(_ camera: [String: Any]) -> (exact: Double?, film: Double?) {
     if let intrinsics = self.camera?.intrinsics, intrinsics[0, 0] > 0 {
@@ -49,7 +49,8 @@ extension PhotogrammetrySample {
     return fields
   }
 
-  /// A part of the metadata; programs that build it themselves often leave the parts out.
+  /// A section of the metadata; metadata built by programs often has no sections, so the top level
+  /// is the fallback.
   private func section(_ key: String) -> [String: Any] {
     metadata[key] as? [String: Any] ?? metadata
   }

@@ -1,8 +1,8 @@
 import SceneModel
 
 extension PhotogrammetrySample {
-  /// The direction of gravity in the frame of the camera that the upright photo is from: x right, y
-  /// down, z forward. Nil where it isn't known.
+  /// The direction of gravity in the camera frame of the upright photo: x right, y down, z forward.
+  /// Nil if it isn't known.
   var gravityInCamera: SIMD3<Double>? {
     gravity.flatMap {
       SensorReading.gravity(

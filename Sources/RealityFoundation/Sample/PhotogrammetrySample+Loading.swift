@@ -4,7 +4,7 @@ import Kernels
 import Pipeline
 
 extension PhotogrammetrySample {
-  /// Loads a photo from a file. Its id is 0 unless the file's name ends in a number.
+  /// Loads a photo from a file. Its id is the number at the end of the file name, or 0.
   public init(contentsOf url: URL) throws {
     let (buffer, read) = try Self.load(url)
     let digits = url.deletingPathExtension().lastPathComponent.reversed().prefix(9)
@@ -13,7 +13,7 @@ extension PhotogrammetrySample {
     apply(read)
   }
 
-  /// Loads a photo from a file. Its id is 0 unless the file's name ends in a number.
+  /// Loads a photo from a file. Its id is the number at the end of the file name, or 0.
   public init(contentsOf url: URL) async throws {
     let load: () throws -> PhotogrammetrySample = { try PhotogrammetrySample(contentsOf: url) }
     self = try load()
@@ -30,7 +30,7 @@ extension PhotogrammetrySample {
       throw ProcessingError(
         code: .invalidInput,
         reason: "\(url.path) can't be loaded: \(error.errorDescription ?? "it is damaged").",
-        remedy: "Name a photo: JPEG, HEIC or PNG.")
+        remedy: "Specify a photo: JPEG, HEIC or PNG.")
     }
   }
 
@@ -40,7 +40,7 @@ extension PhotogrammetrySample {
     captureTime = read.captureTime.flatMap(Self.date)
   }
 
-  /// The date of an EXIF text such as `2024:05:17 12:34:56`, in the local time zone.
+  /// Parses an EXIF date such as `2024:05:17 12:34:56` in the local time zone.
   private static func date(_ text: String) -> Date? {
     let formatter = DateFormatter()
     formatter.locale = Locale(identifier: "en_US_POSIX")

@@ -1,33 +1,35 @@
-/// A photo in memory with what is known about it.
+/// A photo in memory with its metadata.
 public struct PhotogrammetrySample: Identifiable {
-  /// The number of the sample, from 0 to 2147483647, different for each sample of a session.
+  /// The identifier of the sample, 0…2147483647, unique within a session.
   public let id: Int
   /// The pixels, 32BGRA or 32ARGB.
   public let image: CVPixelBuffer
-  /// EXIF and other properties as image readers give them.
+  /// EXIF and other image properties with ImageIO's keys.
   public var metadata: [String: Any] = [:]
-  /// Depths in metres along the optical axis, or disparities in 1/metre, of the image's field of view:
-  /// DepthFloat32, DisparityFloat32 or those of 16 bits. They give the model its size.
+  /// Depths in meters along the optical axis, or disparities in 1/meter, with the image's field of
+  /// view: DepthFloat32, DisparityFloat32 or their 16-bit variants. They determine the scale of the
+  /// model.
   public var depthDataMap: CVPixelBuffer?
-  /// The direction of gravity in the device's frame, as a phone's motion sensors tell it: x to the
-  /// right and y up on the screen, z towards the user. It says what is up in the model.
+  /// The direction of gravity in the device's frame, as a phone's motion sensors report it: x to
+  /// the right and y up on the screen, z toward the user. It determines the up direction of the
+  /// model.
   public var gravity: CMAcceleration?
-  /// Where the object is, OneComponent8 of the image's size; zero is not part of it.
+  /// The mask of the object, OneComponent8 of the image's size; zero means background.
   public var objectMask: CVPixelBuffer?
 
   /// When the photo was taken.
   public internal(set) var captureTime: Date?
-  /// The transform of the unit cube to the box around the object.
+  /// The transform from the unit cube to the bounding box of the object.
   public internal(set) var boundingBox: simd_float4x4?
-  /// How far each depth can be trusted.
+  /// The confidence of each depth.
   public internal(set) var depthConfidenceMap: CVPixelBuffer?
   /// The camera that took the photo.
   public internal(set) var camera: Camera?
   /// The capture session that the photo belongs to.
   public internal(set) var sessionID: UUID?
-  /// The pass around the object that the photo belongs to.
+  /// The scan pass around the object that the photo belongs to.
   public internal(set) var scanPassID: Int?
-  /// How the pixels are to be turned to stand upright.
+  /// The EXIF orientation of the stored pixels.
   public internal(set) var orientation = CGImagePropertyOrientation.up
 
   /// Creates a sample from its pixels.
@@ -38,19 +40,19 @@ public struct PhotogrammetrySample: Identifiable {
 
   /// The camera of a sample.
   public struct Camera {
-    /// The number of the camera.
+    /// The identifier of the camera.
     public var id: UInt32
-    /// Focal lengths and principal point in pixels, by columns.
+    /// Focal lengths and principal point in pixels, stored by columns.
     public var intrinsics: simd_float3x3
     /// The camera's pose in the capture session.
     public var transform: simd_float4x4
-    /// More about the optics.
+    /// The calibration of the optics.
     public var calibrationData: AVCameraCalibrationData?
   }
 }
 
 extension PhotogrammetrySample: CustomStringConvertible {
-  /// The number and size of the sample.
+  /// The identifier, size and auxiliary data of the sample.
   public var description: String {
     let extras = [
       depthDataMap.map { _ in "depth" }, gravity.map { _ in "gravity" },

@@ -1,21 +1,21 @@
 extension PhotogrammetrySession {
-  /// How a session treats its photos.
+  /// How a session processes its photos.
   public struct Configuration: Equatable, Sendable {
-    /// Whether the object is separated from its support and its surroundings.
+    /// Whether to separate the object from its support and its surroundings.
     public var isObjectMaskingEnabled = true
-    /// Whether the order of the photos says which of them overlap.
+    /// Whether the order of the photos indicates which of them overlap.
     public var sampleOrdering = SampleOrdering.unordered
-    /// How hard to look for features to match.
+    /// The sensitivity of feature detection.
     public var featureSensitivity = FeatureSensitivity.normal
-    /// A folder for intermediate results; a later run takes up what is still valid.
+    /// A folder for intermediate results; a later run reuses those that are still valid.
     public var checkpointDirectory: URL?
-    /// What models of the detail level `custom` may have at most.
+    /// The limits of the detail level `custom`.
     public var customDetailSpecification = CustomDetailSpecification()
-    /// The shape of the faces of models in files. Where triangles don't make a good quad they stay, so
-    /// that a mesh of quads has some triangles; entities have nothing else.
+    /// The primitive of the mesh in model files. Triangles that don't form a good quad remain, so a
+    /// mesh of quads contains some triangles; entities consist of triangles only.
     public var meshPrimitive = MeshPrimitive.triangle
-    /// Whether to disregard the bounding boxes that samples carry. Samples made from pixels and those
-    /// of JPEG and PNG files carry none.
+    /// Whether to ignore the bounding boxes of samples. Samples made from pixels or from JPEG and
+    /// PNG files have none.
     public var ignoreBoundingBox = false
 
     /// Creates the default configuration.
@@ -24,27 +24,27 @@ extension PhotogrammetrySession {
     /// Creates the default configuration with a folder for intermediate results.
     public init(checkpointDirectory: URL) { self.checkpointDirectory = checkpointDirectory }
 
-    /// Whether the order of the photos means something.
+    /// Whether the order of the photos is meaningful.
     public enum SampleOrdering: Hashable, Sendable {
       /// Any photo may overlap any other.
       case unordered
-      /// Photos are in the order of capture, and neighbours overlap.
+      /// Photos are in the order of capture, and adjacent ones overlap.
       case sequential
     }
 
-    /// How hard to look for features.
+    /// The sensitivity of feature detection.
     public enum FeatureSensitivity: Hashable, Sendable {
       /// For objects with enough texture.
       case normal
-      /// For objects with little texture; takes longer.
+      /// For objects with little texture; slower.
       case high
     }
 
-    /// The shape of a mesh's faces.
+    /// The primitive of a mesh.
     public enum MeshPrimitive: Hashable, Sendable {
-      /// Three vertices a face.
+      /// Faces with three vertices.
       case triangle
-      /// Four vertices a face.
+      /// Faces with four vertices.
       case quad
     }
   }

@@ -1,16 +1,17 @@
 extension PhotogrammetrySession.Configuration {
-  /// What a model of the detail level `custom` may have at most.
+  /// The limits of a model at the detail level `custom`.
   public struct CustomDetailSpecification: Equatable, Sendable {
-    /// The number of faces. A mesh of quads is made of no more triangles than that, and so has fewer.
+    /// The maximum number of faces. A mesh of quads is made from at most this many triangles, so it
+    /// has fewer faces.
     public var maximumPolygonCount: UInt = 100_000
-    /// The side of a texture.
+    /// The maximum side of a texture.
     public var maximumTextureDimension = TextureDimension.fourK
-    /// The textures that are made.
+    /// The textures to make.
     public var outputTextureMaps: TextureMapOutputs = [.diffuseColor, .normal, .ambientOcclusion]
-    /// How textures are stored.
+    /// The file format of textures.
     public var textureFormat = TextureFormat.png
 
-    /// Creates a specification with the bounds of the detail level `medium`.
+    /// Creates a specification with the limits of the detail level `medium`.
     public init() {}
 
     /// The side of a square texture; the raw value is in texels.
@@ -29,21 +30,21 @@ extension PhotogrammetrySession.Configuration {
 
     /// A set of textures.
     public struct TextureMapOutputs: OptionSet, Sendable {
-      /// One bit a texture.
+      /// One bit per texture.
       public let rawValue: UInt
 
       /// Creates a set from its bits.
       public init(rawValue: UInt) { self.rawValue = rawValue }
 
-      /// The colour of the surface.
+      /// The color of the surface.
       public static let diffuseColor = TextureMapOutputs(rawValue: 1 << 0)
-      /// Surface directions finer than the mesh.
+      /// Normals with more detail than the mesh.
       public static let normal = TextureMapOutputs(rawValue: 1 << 1)
-      /// How rough the surface is.
+      /// The roughness of the surface.
       public static let roughness = TextureMapOutputs(rawValue: 1 << 2)
-      /// Heights finer than the mesh.
+      /// Heights with more detail than the mesh.
       public static let displacement = TextureMapOutputs(rawValue: 1 << 3)
-      /// How much ambient light reaches the surface.
+      /// The ambient light that reaches the surface.
       public static let ambientOcclusion = TextureMapOutputs(rawValue: 1 << 4)
       /// All of them.
       public static let all: TextureMapOutputs = [
@@ -51,11 +52,11 @@ extension PhotogrammetrySession.Configuration {
       ]
     }
 
-    /// How textures are stored.
+    /// The file format of textures.
     public enum TextureFormat: Equatable, Sendable {
-      /// Without loss.
+      /// Lossless.
       case png
-      /// With loss; the quality runs from 0 to 1, best.
+      /// Lossy, with a quality from 0 to 1 (best).
       case jpeg(compressionQuality: Float = 0.8)
     }
   }

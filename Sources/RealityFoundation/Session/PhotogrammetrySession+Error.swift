@@ -1,29 +1,29 @@
 extension PhotogrammetrySession {
   /// An input or output that can't be used.
   public enum Error: Swift.Error, LocalizedError, Sendable {
-    /// The folder holds no photos that can be used, or is not a folder.
+    /// The folder contains no usable photos, or is not a folder.
     case invalidImages(URL)
-    /// Nothing can be written to the location, or its suffix names no format of ours.
+    /// The location is not writable, or its extension is not a supported format.
     case invalidOutput(URL)
-    /// The disk of the output has too little free space.
+    /// The volume of the output has too little free space.
     case insufficientStorage(requiredBytes: Int64)
   }
 }
 
 extension PhotogrammetrySession.Error {
-  /// What is wrong, and what to do about it.
+  /// The reason and the remedy.
   public var localizedDescription: String {
     [failureReason, recoverySuggestion].compactMap { $0 }.joined(separator: " ")
   }
 
-  /// What is wrong, and what to do about it.
+  /// The reason and the remedy.
   public var errorDescription: String? { localizedDescription }
 
-  /// What is wrong, in a sentence.
+  /// What is wrong, in one sentence.
   public var failureReason: String? {
     switch self {
     case .invalidImages(let url):
-      InputFolder(url).fault ?? "\(url.path) holds no photos that can be used."
+      InputFolder(url).fault ?? "\(url.path) contains no usable photos."
     case .invalidOutput(let url):
       OutputLocation.fault(of: url) ?? "Nothing can be written to \(url.path)."
     case .insufficientStorage(let bytes):
@@ -31,13 +31,13 @@ extension PhotogrammetrySession.Error {
     }
   }
 
-  /// What to do about it, in a sentence.
+  /// What to do about it, in one sentence.
   public var recoverySuggestion: String? {
     switch self {
     case .invalidImages:
-      "Name a folder with photos (JPEG, HEIC or PNG) of one object, taken all around it."
+      "Specify a folder with photos (JPEG, HEIC or PNG) of one object, taken all around it."
     case .invalidOutput:
-      "Name a file ending in .usdz in a folder that can be written to, "
+      "Specify a file ending in .usdz in a writable folder, "
         + "or a folder, with a slash at the end, for OBJ, MTL, USDA and textures."
     case .insufficientStorage:
       "Free some space or write to another disk."

@@ -1,18 +1,18 @@
 extension PhotogrammetrySession {
-  /// What this machine can take in.
+  /// Limits of the input on this machine.
   public struct Limits: Sendable {
-    /// The longest side of a photo in pixels.
+    /// The maximum side of a photo in pixels.
     public let maximumInputImageDimension: Int
-    /// The number of photos that are used at most.
+    /// The maximum number of photos.
     public let maximumNumberOfInputImages: Int
   }
 
-  /// The limits of this machine, by its memory.
+  /// The limits of this machine, determined by its memory.
   public static let limits = Limits(memoryBytes: Machine.current.totalMemoryBytes)
 }
 
 extension PhotogrammetrySession.Limits {
-  /// The limits of a machine with so much memory: 1000 photos of 16384 pixels from 8 GiB on.
+  /// The limits for an amount of memory: 1000 photos of 16384 pixels at 8 GiB and above.
   init(memoryBytes: Int) {
     let gibibytes = Double(memoryBytes) / Double(1 << 30)
     maximumInputImageDimension = gibibytes >= 7.5 ? 16384 : 8192

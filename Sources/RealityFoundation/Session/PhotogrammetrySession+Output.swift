@@ -1,50 +1,51 @@
 extension PhotogrammetrySession {
-  /// What a session tells while it works.
+  /// What a session reports while it works.
   public enum Output: Sendable {
-    /// All photos were read.
+    /// All photos have been read.
     case inputComplete
-    /// A request can't be met; the others go on.
+    /// A request failed; the others continue.
     case requestError(Request, any Swift.Error)
-    /// A request was met.
+    /// A request was completed.
     case requestComplete(Request, Result)
-    /// How far a request is, from 0 to 1.
+    /// The progress of a request, from 0 to 1.
     case requestProgress(Request, fractionComplete: Double)
     /// All requests have ended.
     case processingComplete
-    /// Processing has stopped after `cancel()`.
+    /// Processing was canceled by `cancel()`.
     case processingCancelled
-    /// A photo can't be used, and why.
+    /// A photo can't be used, with the reason.
     case invalidSample(id: Int, reason: String)
-    /// A photo was valid but could not be placed.
+    /// A valid photo could not be registered.
     case skippedSample(id: Int)
-    /// Photos are used at a lower resolution to fit the memory.
+    /// Photos are downsampled to fit into memory.
     case automaticDownsampling
-    /// More about the progress of a request.
+    /// Details about the progress of a request.
     case requestProgressInfo(Request, ProgressInfo)
-    /// Only some of the photos could be put together.
+    /// Only some of the photos could be registered together.
     case stitchingIncomplete
 
-    /// More about the progress of a request.
+    /// Details about the progress of a request.
     public struct ProgressInfo: Sendable {
-      /// The time until the request is met in seconds, nil where that can't be told yet.
+      /// The estimated time in seconds until the request is completed; nil while there is no
+      /// estimate.
       public let estimatedRemainingTime: TimeInterval?
-      /// What is being done.
+      /// The current stage.
       public let processingStage: ProcessingStage?
     }
 
-    /// The stages of processing, in their order.
+    /// The processing stages in order.
     public enum ProcessingStage: Hashable, Sendable {
-      /// Photos are read and checked.
+      /// Reads and checks the photos.
       case preProcessing
-      /// Cameras are placed.
+      /// Estimates the camera poses.
       case imageAlignment
-      /// Points on the surface are found.
+      /// Reconstructs points on the surface.
       case pointCloudGeneration
-      /// A surface is put through the points.
+      /// Reconstructs a surface from the points.
       case meshGeneration
-      /// Textures are made.
+      /// Makes the textures.
       case textureMapping
-      /// The result is written.
+      /// Writes the result.
       case optimization
     }
   }
@@ -60,14 +61,14 @@ extension PhotogrammetrySession.Output {
     case .requestProgress(_, let fraction):
       "A request is \(Int((fraction * 100).rounded(.down))) % complete."
     case .processingComplete: "Processing is complete."
-    case .processingCancelled: "Processing was cancelled."
+    case .processingCancelled: "Processing was canceled."
     case .invalidSample(let id, let reason): "Sample \(id) can't be used: \(reason)"
     case .skippedSample(let id): "Sample \(id) was skipped."
     case .automaticDownsampling: "Photos are used at a lower resolution to fit the memory."
     case .requestProgressInfo(_, let info):
-      info.estimatedRemainingTime.map { "About \(Int($0.rounded(.up))) s remain." }
-        ?? "The remaining time is not known yet."
-    case .stitchingIncomplete: "Only some of the photos could be put together."
+      info.estimatedRemainingTime.map { "About \(Int($0.rounded(.up))) s remaining." }
+        ?? "The remaining time is not yet known."
+    case .stitchingIncomplete: "Only some of the photos could be registered together."
     }
   }
 }

@@ -1,25 +1,25 @@
 extension PhotogrammetrySession {
-  /// What a session tells, from its beginning to its end.
+  /// The outputs of a session over its whole lifetime.
   ///
-  /// Nothing is lost before the first iteration. Iterations at the same time see the same outputs;
-  /// one that begins later goes on where the farthest has been. The sequence does not end with
-  /// `processingComplete` but when the session goes away.
+  /// Outputs are buffered until the first iteration. Concurrent iterations receive the same
+  /// outputs; a later one starts at the position of the most advanced one. The sequence does not
+  /// end at `processingComplete` but when the session is deallocated.
   public struct Outputs: AsyncSequence, Sendable {
-    /// What the sequence consists of.
+    /// The elements of the sequence.
     public typealias Element = Output
     /// The type of the errors that iteration may throw.
     public typealias Failure = any Swift.Error
 
     let buffer: OutputBuffer
 
-    /// Begins an iteration.
+    /// Starts an iteration.
     public func makeAsyncIterator() -> Iterator { Iterator(cursor: OutputBuffer.Cursor(buffer)) }
 
     /// An iteration over a session's outputs.
     public struct Iterator: AsyncIteratorProtocol {
       let cursor: OutputBuffer.Cursor
 
-      /// Waits for the next output; nil when the session is gone or the task was cancelled.
+      /// Waits for the next output; nil if the session was deallocated or the task was canceled.
       public mutating func next() async throws -> Output? { await cursor.next() }
     }
   }

@@ -1,16 +1,16 @@
 import SceneModel
 
 extension PhotogrammetrySession {
-  /// Coloured points on the surface of the object.
+  /// Colored points on the surface of the object.
   public struct PointCloud: Sendable {
     /// The points in no particular order.
     public let points: [Point]
 
     /// A point on the surface.
     public struct Point: Sendable {
-      /// The place in the model's frame.
+      /// The position in the model's frame.
       public let position: SIMD3<Float>
-      /// Red, green, blue and opacity.
+      /// Red, green, blue and alpha.
       public let color: SIMD4<UInt8>
     }
   }

@@ -1,11 +1,11 @@
 extension PhotogrammetrySession {
-  /// Where and how a camera stood: camera to world, the camera looking along −z with y up.
+  /// A camera pose: camera to world; the camera looks along −z with y up.
   public struct Pose: Sendable {
-    /// The camera's centre.
+    /// The camera center in the model's frame.
     public let translation: SIMD3<Float>
-    /// The rotation from the camera's frame to the model's.
+    /// The rotation from the camera frame to the model's frame.
     public let rotation: simd_quatf
-    /// Focal lengths and principal point in pixels of the upright photo, by columns.
+    /// Focal lengths and principal point in pixels of the upright photo, stored by columns.
     public let intrinsics: simd_float3x3?
     /// The lens distortion.
     public let lensDistortionData: LensDistortionData?
@@ -17,11 +17,11 @@ extension PhotogrammetrySession {
     }
   }
 
-  /// The poses of all photos that were placed.
+  /// The poses of all registered photos.
   public struct Poses: Sendable {
     /// The poses by sample id.
     public let posesBySample: [Int: Pose]
-    /// The photos' files by sample id; empty unless the input was a folder.
+    /// The URLs of the photos by sample id; empty unless the input was a folder.
     public let urlsBySample: [Int: URL]
   }
 }

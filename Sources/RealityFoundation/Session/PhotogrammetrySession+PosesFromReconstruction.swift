@@ -1,7 +1,7 @@
 import SceneModel
 
 extension PhotogrammetrySession.Poses {
-  /// The registered photos of a reconstruction; `sampleIDs` are those of the files, where the input
+  /// The registered photos of a reconstruction. `sampleIDs` maps files to sample ids if the input
   /// was not a folder.
   init(_ reconstruction: Reconstruction, sampleIDs: [Int]?) {
     var poses: [Int: PhotogrammetrySession.Pose] = [:]
@@ -25,10 +25,10 @@ extension PhotogrammetrySession.Poses {
 }
 
 extension PhotogrammetrySession.Pose {
-  /// Turns a pose of computer vision (world to camera, looking along z, y down) into RealityKit's.
+  /// Converts a computer-vision pose (world to camera; looking along +z, y down) to RealityKit's.
   init(cameraFromWorld: RigidTransform, camera: Camera) {
     let worldFromCamera = cameraFromWorld.inverse
-    // Half a turn about x exchanges the two conventions of the camera frame.
+    // Half a turn about x converts between the two camera frames.
     let rotation = worldFromCamera.rotation * Quaternion(x: 1, y: 0, z: 0, w: 0)
     self.rotation = simd_quatf(
       ix: Float(rotation.x), iy: Float(rotation.y), iz: Float(rotation.z), r: Float(rotation.w))
@@ -40,7 +40,7 @@ extension PhotogrammetrySession.Pose {
 }
 
 extension LensDistortionData {
-  /// The radial part of a camera's distortion; nil for a plain pinhole.
+  /// The radial distortion of a camera; nil for a plain pinhole.
   init?(_ camera: Camera) {
     let (k1, k2) = (camera.distortion.x, camera.distortion.y)
     guard k1 != 0 || k2 != 0 else { return nil }

@@ -5,41 +5,41 @@ extension PhotogrammetrySession {
     case modelFile(url: URL, detail: Detail = .reduced, geometry: Geometry? = nil)
     /// A textured model in memory.
     case modelEntity(detail: Detail = .reduced, geometry: Geometry? = nil)
-    /// The box around the object.
+    /// The bounding box of the object.
     case bounds
-    /// Coloured points on the surface.
+    /// Colored points on the surface.
     case pointCloud
-    /// The cameras' poses.
+    /// The camera poses.
     case poses
 
-    /// Asks for a model of reduced detail in a file.
+    /// Creates a request for a model file with the detail level `reduced`.
     public init(modelFile: URL) { self = .modelFile(url: modelFile) }
 
-    /// How detailed a model is.
+    /// The level of detail of a model.
     public enum Detail: Int, Hashable, Sendable {
-      /// For a quick look: fewer than 25,000 triangles, a 1024² texture.
+      /// For previews: fewer than 25,000 triangles, a 1024² texture.
       case preview
       /// For mobile devices: fewer than 50,000 triangles, a 2048² texture.
       case reduced
       /// For most uses: fewer than 100,000 triangles, a 4096² texture.
       case medium
-      /// For close looks: fewer than 250,000 triangles, an 8192² texture, all maps.
+      /// For close-ups: fewer than 250,000 triangles, an 8192² texture, all maps.
       case full
-      /// As the reconstruction found it, for work that goes on.
+      /// The full reconstruction, for further processing.
       case raw
-      /// As `Configuration.customDetailSpecification` says.
+      /// The limits of `Configuration.customDetailSpecification`.
       case custom
     }
 
-    /// The part of the scene that a model shows, and where it is put.
+    /// The part of the scene that a model contains, and a transform of the model.
     public struct Geometry: Hashable, Sendable {
-      /// The box, with its rotation, in the frame of `Request.bounds`; the model is cut off at its faces
-      /// and left open there. An empty box keeps all.
+      /// The oriented crop box in the frame of `Request.bounds`; the model is clipped at its faces
+      /// and left open there. An empty box keeps everything.
       public var orientedBounds: OrientedBoundingBox
-      /// What is applied to the model in the end, to its vertices.
+      /// The transform that is applied to the vertices last.
       public var transform: Transform
 
-      /// The box outside of which everything is cut off. Setting it makes it axis-aligned.
+      /// The axis-aligned crop box. Setting it discards the orientation.
       public var bounds: BoundingBox {
         get { orientedBounds.boundingBox }
         set { orientedBounds = OrientedBoundingBox(boundingBox: newValue) }
@@ -53,7 +53,7 @@ extension PhotogrammetrySession {
           orientedBounds: OrientedBoundingBox(boundingBox: bounds), transform: transform)
       }
 
-      /// Creates a geometry from a turned box.
+      /// Creates a geometry from an oriented box.
       public init(
         orientedBounds: OrientedBoundingBox, transform: Transform = Transform.identity
       ) {

@@ -1,11 +1,11 @@
 extension PhotogrammetrySession {
-  /// What a request yields.
+  /// The result of a request.
   public enum Result: Sendable {
     /// The file or folder that was written.
     case modelFile(URL)
     /// The model in memory.
     case modelEntity(ModelEntity)
-    /// The box around the object, in the model's frame.
+    /// The bounding box of the object in the model's frame.
     case bounds(BoundingBox)
     /// Points on the surface, in the model's frame.
     case pointCloud(PointCloud)

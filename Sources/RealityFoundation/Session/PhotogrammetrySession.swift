@@ -3,23 +3,24 @@ import SceneModel
 
 /// Makes 3-D models from photos of an object.
 ///
-/// Create a session with the photos' folder, hand it requests and follow `outputs`:
+/// Create a session with the folder of the photos, submit requests and iterate over `outputs`:
 ///
 /// ```swift
-/// let session = try PhotogrammetrySession(input: URL(fileURLWithPath: "photos", isDirectory: true))
+/// let photos = URL(fileURLWithPath: "photos", isDirectory: true)
+/// let session = try PhotogrammetrySession(input: photos)
 /// try session.process(requests: [.modelFile(url: URL(fileURLWithPath: "model.usdz"))])
 /// for try await output in session.outputs {
 ///   if case .processingComplete = output { break }
 /// }
 /// ```
 ///
-/// The work is done on a thread of the session's own. The session stays alive while it works, even
-/// when nothing refers to it. It may be used from any thread.
+/// The session works on a thread of its own and stays alive while it works, even if nothing refers
+/// to it. It may be used from any thread.
 public class PhotogrammetrySession: @unchecked Sendable {
-  /// How the session treats its photos.
+  /// How the session processes its photos.
   public let configuration: Configuration
 
-  /// What our engine is told beyond the configuration; set it before the first `process`.
+  /// Engine options beyond the configuration; set them before the first `process`.
   package var engineOptions: EngineOptions {
     get { options.withLock { $0 } }
     set { options.withLock { $0 = newValue } }
@@ -32,17 +33,18 @@ public class PhotogrammetrySession: @unchecked Sendable {
 
   /// Creates a session for the photos in a folder.
   ///
-  /// Throws `Error.invalidImages` when the folder can't be read or is empty.
+  /// Throws `Error.invalidImages` if the folder can't be read or is empty.
   public convenience init(input: URL, configuration: Configuration = Configuration()) throws {
     guard InputFolder(input).isUsable else { throw Error.invalidImages(input) }
     self.init(.folder(input), configuration: configuration)
   }
 
-  /// Creates a session for a sequence of samples, which is gone through once, sample by sample as they
-  /// are read.
+  /// Creates a session for a sequence of samples. It is iterated once, and each sample is requested
+  /// when it is read.
   ///
-  /// That happens on a thread of the session's own, after `process` was called. A lazy sequence of
-  /// closures must not belong to the main actor, as closures in a program's `main` do in Swift 6.
+  /// The iteration runs on the session's thread after `process` was called. A lazy sequence must
+  /// not consist of closures isolated to the main actor, as closures in a program's `main` are in
+  /// Swift 6.
   public convenience init<S>(
     input: S, configuration: Configuration = Configuration()
   ) throws where S: Sequence, S.Element == PhotogrammetrySample {
@@ -60,27 +62,27 @@ public class PhotogrammetrySession: @unchecked Sendable {
 
   deinit { core.close() }
 
-  /// Whether this machine can make models: it needs enough memory and a suitable processor. What
-  /// is missing is logged.
+  /// Whether this machine can make models: it needs enough memory and a supported CPU. What is
+  /// missing is logged.
   public static var isSupported: Bool {
     let shortfalls = Machine.current.shortfalls
     for sentence in shortfalls { sessionLogger.error("\(sentence)") }
     return shortfalls.isEmpty
   }
 
-  /// What the session tells, from its beginning to its end.
+  /// The outputs of the session over its whole lifetime.
   public var outputs: Outputs { Outputs(buffer: core.outputs) }
 
-  /// Whether requests are being worked on.
+  /// Whether requests are being processed.
   public var isProcessing: Bool { core.isProcessing }
 
-  /// The requests that are being worked on.
+  /// The requests that are being processed.
   public var activeRequests: [Request] { core.activeRequests }
 
-  /// Begins to work on requests and returns at once; results come as `outputs`.
+  /// Starts processing requests and returns immediately; results arrive as `outputs`.
   ///
-  /// Throws when the session is processing already, the photos are gone, or a request can't be met
-  /// for its output's sake. A later call uses again what an earlier one found out.
+  /// Throws if the session is already processing, the photos no longer exist, or the output of a
+  /// request can't be written. A later call reuses the intermediate results of earlier ones.
   public func process(requests: [Request]) throws {
     try RequestValidation(
       input: input, configuration: configuration, options: engineOptions
@@ -92,14 +94,15 @@ public class PhotogrammetrySession: @unchecked Sendable {
       keepingAlive: self)
   }
 
-  /// Asks to stop; `processingCancelled` follows. Has no effect when nothing is being processed.
+  /// Requests cancellation; `processingCancelled` follows. Has no effect if nothing is being
+  /// processed.
   public func cancel() { core.cancel() }
 
-  /// What the run did so far, stage by stage and photo by photo; nil before the first request ends.
+  /// What the run has done so far, by stage and by photo; nil until the first request has ended.
   package var report: RunReport? { core.report }
 }
 
 extension PhotogrammetrySession: Identifiable {
-  /// A number of the session's own.
+  /// The identity of the session.
   public var id: UUID { identity }
 }

@@ -1,9 +1,9 @@
 import Kernels
 import Pipeline
 
-/// Why the engine could not do what it was asked: a code, a sentence and a remedy.
+/// The reason why the engine failed: a code, a sentence and a remedy.
 package struct ProcessingError: LocalizedError, CustomNSError, Equatable, Sendable {
-  /// What kind of error it is.
+  /// The kind of error.
   package enum Code: Int, Sendable {
     case unknown = 0
     case alreadyProcessing, invalidRequest, emptyCrop, invalidInput, tooFewPhotos
@@ -11,22 +11,30 @@ package struct ProcessingError: LocalizedError, CustomNSError, Equatable, Sendab
     case outOfMemory
   }
 
+  /// The domain of the `NSError`.
   package static let errorDomain = "RealityFoundation.PhotogrammetrySession.ProcessingError"
 
+  /// The kind of error.
   package var code: Code
   /// What is wrong.
   package var reason: String
   /// What to do about it.
   package var remedy: String
 
+  /// The code of the `NSError`.
   package var errorCode: Int { code.rawValue }
+  /// The user info of the `NSError`: the localized description.
   package var errorUserInfo: [String: Any] { [NSLocalizedDescriptionKey: "\(reason) \(remedy)"] }
+  /// The reason and the remedy.
   package var errorDescription: String? { "\(reason) \(remedy)" }
+  /// What is wrong.
   package var failureReason: String? { reason }
+  /// What to do about it.
   package var recoverySuggestion: String? { remedy }
 }
 
 extension ProcessingError: CustomStringConvertible {
+  /// The reason and the remedy.
   package var description: String { "\(reason) \(remedy)" }
 }
 
@@ -39,7 +47,7 @@ extension ProcessingError {
     ProcessingError(code: .invalidRequest, reason: reason, remedy: remedy)
   }
 
-  /// The engine's error in the session's words; errors of this type stay as they are.
+  /// Converts an engine error; errors of this type are kept.
   init(_ error: any Swift.Error) {
     switch error {
     case let error as ProcessingError:
@@ -54,7 +62,7 @@ extension ProcessingError {
         remedy: error.recoverySuggestion ?? "")
     case KernelError.outOfMemory:
       self.init(
-        code: .outOfMemory, reason: "There was too little memory.",
+        code: .outOfMemory, reason: "There was not enough memory.",
         remedy: "Close other programs, or choose a lower detail level.")
     case let error as any LocalizedError:
       self.init(
@@ -81,7 +89,7 @@ extension ProcessingError.Code {
   }
 }
 
-/// What an error says, with its remedy where it has one.
+/// The message of an error, with its remedy if it has one.
 package func sentence(of error: any Swift.Error) -> String {
   switch error {
   case let error as ProcessingError: error.description

@@ -1,12 +1,13 @@
-/// A photo freed from lens distortion, with its camera and pose: what dense stages work on.
+/// An undistorted photo with its camera and pose: the input of the dense stages.
 package struct PinholeView: Sendable {
   package var photo: ID<Photo>
   /// RGB, at the size of `camera`.
   package var image: RasterImage
-  /// Has no distortion.
+  /// Pinhole camera without distortion.
   package var camera: Camera
+  /// Pose of the photo.
   package var cameraFromWorld: RigidTransform
-  /// Gray, of the image's size: 255 where it shows the object, 0 beside it; nil where nothing tells.
+  /// Gray, of the image's size: 255 on the object, 0 outside; nil without a mask.
   package var mask: RasterImage?
 
   package init(

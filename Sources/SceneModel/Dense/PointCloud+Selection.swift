@@ -1,5 +1,5 @@
 extension PointCloud {
-  /// The points for which `isKept` says so, in their order.
+  /// The points for which `isKept` is true, in their order.
   package func filtered(by isKept: [Bool]) -> PointCloud {
     var result = PointCloud()
     for index in positions.indices where isKept[index] { result.append(self, index) }

@@ -1,13 +1,13 @@
-/// Oriented, coloured points as parallel arrays, in the world frame of the reconstruction.
+/// Oriented, colored points as parallel arrays, in the world frame of the reconstruction.
 package struct PointCloud: Sendable {
   package var positions: [SIMD3<Float>]
   /// Unit normals that point to the cameras' side of the surface.
   package var normals: [SIMD3<Float>]
   /// RGB.
   package var colors: [SIMD3<UInt8>]
-  /// Mean ZNCC of the patch over the photos that agree, −1…1.
+  /// Mean ZNCC of the patch over the consistent photos, −1…1.
   package var consistency: [Float]
-  /// Side length of the surface element that a point stands for, in world units.
+  /// Side length of the surface element represented by a point, in world units.
   package var footprints: [Float]
   /// `visiblePhotos(of: i)` are `photoIndices[photoOffsets[i]..<photoOffsets[i + 1]]`.
   package var photoOffsets: [UInt32]
@@ -29,7 +29,7 @@ package struct PointCloud: Sendable {
 
   package var count: Int { positions.count }
 
-  /// Indices of the photos that see point `index`, ascending.
+  /// Indices of the photos that see point `index`, in ascending order.
   package func visiblePhotos(of index: Int) -> ArraySlice<UInt16> {
     photoIndices[Int(photoOffsets[index])..<Int(photoOffsets[index + 1])]
   }

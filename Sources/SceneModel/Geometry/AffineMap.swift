@@ -1,4 +1,4 @@
-/// A linear map, which may mirror, and a translation.
+/// A linear map, possibly with a reflection, followed by a translation.
 package struct AffineMap: Hashable, Sendable {
   /// The images of the axes.
   package var x: SIMD3<Float>
@@ -15,16 +15,17 @@ package struct AffineMap: Hashable, Sendable {
 
   package static let identity = AffineMap(x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1])
 
-  /// Whether left and right are exchanged.
+  /// Whether the map contains a reflection (negative determinant).
   package var mirrors: Bool { x.dot(y.cross(z)) < 0 }
 
+  /// Maps a point.
   package static func * (bFromA: AffineMap, point: SIMD3<Float>) -> SIMD3<Float> {
     bFromA.x * point.x + bFromA.y * point.y + bFromA.z * point.z + bFromA.translation
   }
 
-  /// The unit normal of the surface that a surface with this normal becomes.
+  /// Maps a unit surface normal.
   package func normal(_ normal: SIMD3<Float>) -> SIMD3<Float> {
-    // The inverse's transpose, but for its scale.
+    // The inverse transpose up to scale.
     let image = y.cross(z) * normal.x + z.cross(x) * normal.y + x.cross(y) * normal.z
     return (mirrors ? -image : image).normalized
   }

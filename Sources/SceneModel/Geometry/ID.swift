@@ -1,13 +1,13 @@
 /// A typed index into the array of all `Entity` values of a run.
 ///
-/// Identifiers are dense from 0 in sorted path order, so that `array[id.index]` is the lookup and a
-/// loop over `array.indices` is deterministic.
+/// IDs are dense from 0 in sorted path order: `array[id.index]` looks up the entity, and a loop
+/// over `array.indices` is deterministic.
 package struct ID<Entity>: Hashable, Comparable, Codable, Sendable {
   package var rawValue: Int32
 
   @inlinable package init(_ index: Int) { rawValue = Int32(index) }
 
-  /// The position of the entity in its array.
+  /// The index of the entity in its array.
   @inlinable package var index: Int { Int(rawValue) }
 
   @inlinable package static func < (lhs: Self, rhs: Self) -> Bool { lhs.rawValue < rhs.rawValue }

@@ -1,4 +1,4 @@
-/// A 3×3 matrix of doubles, stored by rows.
+/// A row-major 3×3 matrix of doubles.
 package struct Matrix3: Hashable, Codable, Sendable {
   package var row0: SIMD3<Double>
   package var row1: SIMD3<Double>
@@ -29,7 +29,7 @@ package struct Matrix3: Hashable, Codable, Sendable {
     return Matrix3(rows: row(a.row0), row(a.row1), row(a.row2))
   }
 
-  /// The nine elements, row after row.
+  /// The nine elements, row by row.
   package var elements: [Double] {
     [row0.x, row0.y, row0.z, row1.x, row1.y, row1.z, row2.x, row2.y, row2.z]
   }

@@ -1,9 +1,9 @@
-/// A box turned about its centre.
+/// An oriented box, given in the world frame.
 package struct OrientedBox: Hashable, Codable, Sendable {
   package var center: SIMD3<Float>
-  /// Half the lengths of the edges.
+  /// Half the edge lengths.
   package var halfExtents: SIMD3<Float>
-  /// `worldFromBox` without the shift.
+  /// The rotation of `worldFromBox`.
   package var rotation: Quaternion
 
   package init(
@@ -14,17 +14,17 @@ package struct OrientedBox: Hashable, Codable, Sendable {
     self.rotation = rotation
   }
 
-  /// An axis-aligned box from two opposite corners.
+  /// An axis-aligned box from its minimum and maximum corners.
   package init(min: SIMD3<Float>, max: SIMD3<Float>) {
     self.init(center: (min + max) / 2, halfExtents: (max - min) / 2)
   }
 
-  /// The unit directions of the edges in the world.
+  /// The unit directions of the edges in the world frame.
   package var axes: [SIMD3<Float>] {
     [SIMD3(1, 0, 0), SIMD3(0, 1, 0), SIMD3(0, 0, 1)].map { SIMD3<Float>(rotation * $0) }
   }
 
-  /// The same box with so much more on all sides.
+  /// The box extended by `margin` on all sides.
   package func grown(by margin: Float) -> OrientedBox {
     OrientedBox(center: center, halfExtents: halfExtents + margin, rotation: rotation)
   }

@@ -2,7 +2,7 @@ import Foundation
 
 /// A unit quaternion `x i + y j + z k + w` that represents a rotation.
 ///
-/// Components are stored x, y, z, w. COLMAP's text has w first: only `Formats` converts.
+/// Components are stored as x, y, z, w. COLMAP's text format has w first: only `Formats` converts.
 package struct Quaternion: Hashable, Codable, Sendable {
   package var x: Double
   package var y: Double
@@ -15,7 +15,7 @@ package struct Quaternion: Hashable, Codable, Sendable {
 
   package static let identity = Quaternion(x: 0, y: 0, z: 0, w: 1)
 
-  /// The rotation by `angle` radians about `axis`, counter-clockwise seen against the axis.
+  /// The rotation by `angle` radians about `axis`, counter-clockwise when viewed against the axis.
   package init(angle: Double, axis: SIMD3<Double>) {
     let v = axis.normalized * sin(angle / 2)
     self.init(x: v.x, y: v.y, z: v.z, w: cos(angle / 2))
@@ -49,6 +49,7 @@ package struct Quaternion: Hashable, Codable, Sendable {
     self = normalized
   }
 
+  /// The quaternion of unit length; the identity for zero.
   package var normalized: Quaternion {
     let length = (x * x + y * y + z * z + w * w).squareRoot()
     return length > 0
@@ -63,6 +64,7 @@ package struct Quaternion: Hashable, Codable, Sendable {
     2 * atan2((x * x + y * y + z * z).squareRoot(), abs(w))
   }
 
+  /// The rotation `b` followed by the rotation `a`.
   package static func * (a: Quaternion, b: Quaternion) -> Quaternion {
     Quaternion(
       x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,

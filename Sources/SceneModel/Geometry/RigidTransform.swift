@@ -1,4 +1,5 @@
-/// A rotation followed by a translation; name values `bFromA`, so that composition reads.
+/// A rotation followed by a translation. Values are named `bFromA`, so that compositions are
+/// self-explanatory.
 ///
 /// `x_b = rotation · x_a + translation`.
 package struct RigidTransform: Hashable, Codable, Sendable {
@@ -18,13 +19,15 @@ package struct RigidTransform: Hashable, Codable, Sendable {
     return RigidTransform(rotation: r, translation: -(r * translation))
   }
 
-  /// The origin of frame b in frame a; for a `cameraFromWorld` the camera's centre in the world.
+  /// The origin of frame b in frame a; for a `cameraFromWorld`, the camera center in the world.
   package var center: SIMD3<Double> { -(rotation.conjugate * translation) }
 
+  /// Maps a point from frame a to frame b.
   package static func * (bFromA: RigidTransform, point: SIMD3<Double>) -> SIMD3<Double> {
     bFromA.rotation * point + bFromA.translation
   }
 
+  /// The composition `cFromA`.
   package static func * (cFromB: RigidTransform, bFromA: RigidTransform) -> RigidTransform {
     RigidTransform(
       rotation: (cFromB.rotation * bFromA.rotation).normalized,
@@ -47,11 +50,13 @@ package struct SimilarityTransform: Hashable, Codable, Sendable {
   package static let identity = SimilarityTransform(
     scale: 1, rotation: .identity, translation: .zero)
 
+  /// Maps a point from frame a to frame b.
   package static func * (bFromA: SimilarityTransform, point: SIMD3<Double>) -> SIMD3<Double> {
     bFromA.scale * (bFromA.rotation * point) + bFromA.translation
   }
 
-  /// The `cameraFromB` that sees what `cameraFromA` saw, distances multiplied by `scale`.
+  /// Transforms a camera pose from frame a to frame b: the resulting `cameraFromB` shows the same
+  /// view, with distances multiplied by `scale`.
   package func applied(toCameraFromA cameraFromA: RigidTransform) -> RigidTransform {
     let rotation = (cameraFromA.rotation * self.rotation.conjugate).normalized
     return RigidTransform(

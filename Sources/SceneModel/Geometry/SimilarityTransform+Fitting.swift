@@ -3,8 +3,8 @@ import Foundation
 extension SimilarityTransform {
   /// The similarity that maps `source` to `target` with the least sum of squared distances.
   ///
-  /// Rotation by Horn's quaternion (1987), scale by Umeyama's (1991) formula. Nil with fewer than
-  /// three pairs or without spread.
+  /// Rotation by Horn's quaternion method (1987), scale by Umeyama's formula (1991). Nil with fewer
+  /// than three pairs or if all points coincide.
   package static func fitting(
     _ source: [SIMD3<Double>], to target: [SIMD3<Double>]
   ) -> SimilarityTransform? {
@@ -32,7 +32,7 @@ extension SimilarityTransform {
       translation: targetMean - scale * (rotation * sourceMean))
   }
 
-  /// The rotation that maximises Σ q·(R p) for `s[i][j] = Σ p_i q_j`.
+  /// The rotation that maximizes Σ q·(R p) for `s[i][j] = Σ p_i q_j`.
   private static func hornRotation(_ s: [SIMD3<Double>]) -> Quaternion {
     let (xx, xy, xz) = (s[0].x, s[0].y, s[0].z)
     let (yx, yy, yz) = (s[1].x, s[1].y, s[1].z)

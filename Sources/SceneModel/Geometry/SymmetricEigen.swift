@@ -1,12 +1,12 @@
-/// Eigenvalues and unit eigenvectors of a small symmetric matrix (Jacobi's cyclic method; Golub and
+/// Eigenvalues and unit eigenvectors of a small symmetric matrix (cyclic Jacobi method; Golub and
 /// Van Loan, "Matrix Computations").
 package struct SymmetricEigen: Sendable {
-  /// In no order.
+  /// The eigenvalues, unordered.
   package private(set) var values: [Double]
   /// `vectors[i]` belongs to `values[i]`.
   package private(set) var vectors: [[Double]]
 
-  /// Of a matrix by rows.
+  /// Decomposes a matrix given by rows.
   package init(_ matrix: [[Double]]) {
     var a = matrix
     let n = matrix.count
@@ -25,7 +25,7 @@ package struct SymmetricEigen: Sendable {
     vectors = (0..<n).map { column in (0..<n).map { v[$0][column] } }
   }
 
-  /// Makes the element at row `p`, column `q` zero.
+  /// Applies the Jacobi rotation that zeroes the element at row `p`, column `q`.
   private static func rotate(_ a: inout [[Double]], _ v: inout [[Double]], _ p: Int, _ q: Int) {
     let theta = (a[q][q] - a[p][p]) / (2 * a[p][q])
     let t = (theta < 0 ? -1 : 1) / (abs(theta) + (theta * theta + 1).squareRoot())
@@ -44,7 +44,7 @@ package struct SymmetricEigen: Sendable {
 }
 
 extension Matrix3 {
-  /// Eigenvalues of a symmetric matrix ascending, with unit eigenvectors.
+  /// The eigenvalues of a symmetric matrix in ascending order, with unit eigenvectors.
   package var symmetricEigen: (values: [Double], vectors: [SIMD3<Double>]) {
     let eigen = SymmetricEigen([row0, row1, row2].map { [$0.x, $0.y, $0.z] })
     let order = [0, 1, 2].sorted { (eigen.values[$0], $0) < (eigen.values[$1], $1) }

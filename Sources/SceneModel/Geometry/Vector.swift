@@ -1,13 +1,17 @@
 extension SIMD3 where Scalar: FloatingPoint {
+  /// The dot product.
   @inlinable package func dot(_ other: Self) -> Scalar { (self * other).sum() }
 
+  /// The cross product.
   @inlinable package func cross(_ other: Self) -> Self {
     Self(
       y * other.z - z * other.y, z * other.x - x * other.z, x * other.y - y * other.x)
   }
 
+  /// The squared Euclidean norm.
   @inlinable package var squaredLength: Scalar { dot(self) }
 
+  /// The Euclidean norm.
   @inlinable package var length: Scalar { squaredLength.squareRoot() }
 
   /// The vector scaled to unit length; the zero vector stays zero.
@@ -18,9 +22,12 @@ extension SIMD3 where Scalar: FloatingPoint {
 }
 
 extension SIMD2 where Scalar: FloatingPoint {
+  /// The dot product.
   @inlinable package func dot(_ other: Self) -> Scalar { (self * other).sum() }
 
+  /// The squared Euclidean norm.
   @inlinable package var squaredLength: Scalar { dot(self) }
 
+  /// The Euclidean norm.
   @inlinable package var length: Scalar { squaredLength.squareRoot() }
 }

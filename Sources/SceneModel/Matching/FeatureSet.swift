@@ -1,19 +1,20 @@
 /// The keypoints of one photo as parallel arrays.
 package struct FeatureSet: Sendable {
-  /// Bytes of one descriptor (root-SIFT).
+  /// Bytes per descriptor (RootSIFT).
   package static let descriptorLength = 128
 
   /// Pixels of the upright photo at full size, origin at the top-left corner.
   package var positions: [SIMD2<Float>]
-  /// Diameter-like SIFT scale (σ) in pixels.
+  /// SIFT scale σ in pixels.
   package var scales: [Float]
-  /// Radians.
+  /// Orientations in radians.
   package var orientations: [Float]
   /// `count × 128` bytes.
   package var descriptors: [UInt8]
-  /// RGB under the keypoint.
+  /// RGB at the keypoint.
   package var colors: [SIMD3<UInt8>]
 
+  /// The number of features.
   package var count: Int { positions.count }
 
   package init(

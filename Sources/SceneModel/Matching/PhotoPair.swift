@@ -3,6 +3,7 @@ package struct PhotoPair: Hashable, Comparable, Codable, Sendable {
   package let first: ID<Photo>
   package let second: ID<Photo>
 
+  /// Sorts the two photos.
   package init(_ a: ID<Photo>, _ b: ID<Photo>) {
     (first, second) = a < b ? (a, b) : (b, a)
   }
@@ -12,7 +13,7 @@ package struct PhotoPair: Hashable, Comparable, Codable, Sendable {
   }
 }
 
-/// A match of feature `first` in the pair's first photo with feature `second` in its second.
+/// A match of feature `first` in the pair's first photo with feature `second` in its second photo.
 package struct FeatureMatch: Hashable, Codable, Sendable {
   package var first: Int32
   package var second: Int32
@@ -25,21 +26,21 @@ package struct FeatureMatch: Hashable, Codable, Sendable {
 
 /// A pair of photos whose matches agree with one two-view geometry.
 package struct VerifiedPair: Hashable, Sendable {
-  /// What explains the matches.
+  /// The model that explains the matches.
   package enum Model: String, Hashable, Codable, Sendable {
-    /// An essential matrix (calibrated) or fundamental matrix (uncalibrated) with parallax.
+    /// An essential matrix (calibrated) or fundamental matrix (uncalibrated), with parallax.
     case essential, fundamental
-    /// A homography explains them as well: a planar scene or a pure rotation.
+    /// A homography explains them equally well: a planar scene or a pure rotation.
     case homography
   }
 
   package var pair: PhotoPair
   package var model: Model
-  /// `secondFromFirst`, the translation of unit length; nil where it can't be had.
+  /// `secondFromFirst` with a unit translation; nil if it can't be determined.
   package var secondFromFirst: RigidTransform?
-  /// Inliers, sorted by `first`.
+  /// The inliers, sorted by `first`.
   package var matches: [FeatureMatch]
-  /// Median triangulation angle of the inliers in radians; 0 where unknown.
+  /// Median triangulation angle of the inliers in radians; 0 if unknown.
   package var medianAngle: Double
 
   package init(
@@ -54,12 +55,12 @@ package struct VerifiedPair: Hashable, Sendable {
   }
 }
 
-/// A pair of photos whose matches were too few, or agreed too little, to be used.
+/// A pair of photos that failed verification: too few matches, or too few that agree.
 package struct RejectedPair: Hashable, Sendable {
   package var pair: PhotoPair
-  /// Matches that agree with one two-view geometry.
+  /// Number of matches that agree with one two-view geometry.
   package var matches: Int
-  /// Matches that would have been enough.
+  /// Number of matches that would have sufficed.
   package var needed: Int
 
   package init(pair: PhotoPair, matches: Int, needed: Int) {

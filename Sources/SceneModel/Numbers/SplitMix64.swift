@@ -1,5 +1,5 @@
-/// A generator of random numbers, the same on every machine for the same seed (Steele et al., "Fast
-/// splittable pseudorandom number generators", OOPSLA 2014).
+/// A pseudorandom number generator with the same output on every machine for the same seed (Steele
+/// et al., "Fast splittable pseudorandom number generators", OOPSLA 2014).
 package struct SplitMix64: RandomNumberGenerator, Sendable {
   private var state: UInt64
 
@@ -13,13 +13,13 @@ package struct SplitMix64: RandomNumberGenerator, Sendable {
     return z ^ (z >> 31)
   }
 
-  /// A number in 0..<1.
+  /// A random number in 0..<1.
   package mutating func uniform() -> Double { Double(next() >> 11) * 0x1p-53 }
 
-  /// A number in 0..<`limit`.
+  /// A random integer in 0..<`limit`.
   package mutating func below(_ limit: Int) -> Int { Int(next() % UInt64(limit)) }
 
-  /// `count` different numbers in 0..<`limit`, or as many as there are.
+  /// `count` distinct random integers in 0..<`limit`, at most `limit` of them.
   package mutating func distinct(_ count: Int, below limit: Int) -> [Int] {
     var numbers: [Int] = []
     while numbers.count < min(count, limit) {

@@ -1,19 +1,21 @@
-/// A physical camera: body, lens and zoom that several photos share.
+/// A physical camera: body, lens and zoom setting shared by several photos.
 ///
-/// A pinhole with OpenCV's distortion; zeros are a plain pinhole. Focal lengths and principal point
-/// are in pixels of the upright photo, whose origin is the corner of the top-left pixel.
+/// A pinhole camera with OpenCV's distortion model; zero coefficients mean no distortion. Focal
+/// lengths and principal point are in pixels of the upright photo, with the origin at the top-left
+/// corner of the top-left pixel.
 package struct Camera: Hashable, Codable, Sendable {
-  /// Where the focal length comes from.
+  /// The source of the focal length.
   package enum Calibration: String, Hashable, Codable, Sendable { case assumed, exif, refined }
 
   package var width: Int
   package var height: Int
   package var focalLength: SIMD2<Double>
   package var principalPoint: SIMD2<Double>
-  /// k1, k2, p1, p2 of OpenCV.
+  /// OpenCV's k1, k2, p1, p2.
   package var distortion: SIMD4<Double>
   package var calibration: Calibration
 
+  /// The principal point defaults to the image center.
   package init(
     width: Int, height: Int, focalLength: SIMD2<Double>, principalPoint: SIMD2<Double>? = nil,
     distortion: SIMD4<Double> = .zero, calibration: Calibration = .assumed
@@ -31,7 +33,7 @@ package struct Camera: Hashable, Codable, Sendable {
     distort(SIMD2(point.x, point.y) / point.z) * focalLength + principalPoint
   }
 
-  /// The point at depth 1 of the viewing ray of a pixel; inverts the distortion by Newton's method.
+  /// The point at depth 1 on the viewing ray of a pixel; inverts the distortion by Newton's method.
   package func unproject(_ pixel: SIMD2<Double>) -> SIMD2<Double> {
     let distorted = (pixel - principalPoint) / focalLength
     guard distortion != .zero else { return distorted }
@@ -51,7 +53,7 @@ package struct Camera: Hashable, Codable, Sendable {
     return p
   }
 
-  /// Applies the lens distortion to normalised image coordinates.
+  /// Applies the lens distortion to normalized image coordinates.
   package func distort(_ p: SIMD2<Double>) -> SIMD2<Double> {
     let (k1, k2, p1, p2) = (distortion.x, distortion.y, distortion.z, distortion.w)
     let r2 = p.squaredLength
@@ -62,6 +64,7 @@ package struct Camera: Hashable, Codable, Sendable {
     ]
   }
 
+  /// The distorted point and the Jacobian of the distortion, by rows.
   private func distortWithJacobian(
     _ p: SIMD2<Double>
   ) -> (SIMD2<Double>, (Double, Double, Double, Double)) {
@@ -79,7 +82,7 @@ package struct Camera: Hashable, Codable, Sendable {
     )
   }
 
-  /// The same camera for the photo resized to `width` × `height`.
+  /// The camera of the photo resized to `width` × `height`.
   package func resized(width newWidth: Int, height newHeight: Int) -> Camera {
     let factor = SIMD2(Double(newWidth) / Double(width), Double(newHeight) / Double(height))
     var camera = self

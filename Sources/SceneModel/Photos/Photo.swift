@@ -3,20 +3,20 @@ import Foundation
 /// A photo that passed validation.
 package struct Photo: Hashable, Codable, Sendable {
   package var id: ID<Photo>
-  /// The session's sample id: the index among all files of the folder in sorted order, the refused
-  /// ones included.
+  /// The session's sample ID: the index among all files of the folder in sorted order, including
+  /// rejected ones.
   package var sampleID: Int
-  /// The file's name relative to the input folder.
+  /// The file name relative to the input folder.
   package var name: String
   package var url: URL
-  /// Size in pixels of the stored photo turned upright.
+  /// Size in pixels after rotation upright.
   package var width: Int
   package var height: Int
-  /// EXIF orientation 1…8 that turns the stored pixels upright.
+  /// EXIF orientation 1…8 that rotates the stored pixels upright.
   package var orientation: Int
   package var camera: ID<Camera>
   package var position: GeographicPosition?
-  /// Which of its pixels show the object; nil where nothing tells.
+  /// The mask that marks the object; nil without one.
   package var mask: PhotoMask?
 
   package init(
@@ -37,7 +37,7 @@ package struct Photo: Hashable, Codable, Sendable {
   }
 }
 
-/// A GPS position: degrees north and east (WGS 84), metres above the sea when known.
+/// A GPS position: degrees north and east (WGS 84), meters above sea level if known.
 package struct GeographicPosition: Hashable, Codable, Sendable {
   package var latitudeDegrees: Double
   package var longitudeDegrees: Double
@@ -50,9 +50,9 @@ package struct GeographicPosition: Hashable, Codable, Sendable {
   }
 }
 
-/// A file of the input that is not used, and why.
+/// A rejected input file and the reason.
 package struct RefusedPhoto: Hashable, Codable, Sendable {
-  /// What kind of fault it is.
+  /// The kind of fault.
   package enum Fault: String, Hashable, Codable, Sendable {
     case unreadable, unsupportedFormat, tooSmall, tooLarge, blurred, duplicate, tooMany
     case notRegistered
@@ -61,7 +61,7 @@ package struct RefusedPhoto: Hashable, Codable, Sendable {
   package var sampleID: Int
   package var name: String
   package var fault: Fault
-  /// A sentence for the user that names the reason and, where there is one, the remedy.
+  /// A message for the user with the reason and, if there is one, the remedy.
   package var reason: String
 
   package init(sampleID: Int, name: String, fault: Fault, reason: String) {

@@ -1,14 +1,14 @@
 import Foundation
 
-/// Where it is told which pixels of a photo show the object.
+/// The source of the mask that marks the object in a photo.
 package struct PhotoMask: Hashable, Codable, Sendable {
-  /// An image of its own; nil where the photo's alpha channel tells.
+  /// The mask image; nil if the mask is the photo's alpha channel.
   package var file: URL?
-  /// EXIF orientation 1…8 that turns the stored mask as the upright photo is.
+  /// EXIF orientation 1…8 that rotates the stored mask to match the upright photo.
   package var orientation: Int
   /// XXH64 of the mask file's bytes; 0 for an alpha channel.
   package var contentHash: UInt64
-  /// Share of the photo's pixels that show the object, above 0 and up to 1.
+  /// Fraction of the photo's pixels on the object, above 0 and at most 1.
   package var coverage: Double
 
   package init(file: URL?, orientation: Int, contentHash: UInt64 = 0, coverage: Double) {
@@ -19,11 +19,11 @@ package struct PhotoMask: Hashable, Codable, Sendable {
   }
 }
 
-/// A mask that is not used, and why; its photo is used whole.
+/// A mask that is not used, and the reason; its photo is used without a mask.
 package struct RefusedMask: Hashable, Codable, Sendable {
-  /// The name of the mask's file, or of the photo that has it as alpha channel.
+  /// The name of the mask file, or of the photo with the alpha channel.
   package var name: String
-  /// A sentence for the user.
+  /// A message for the user.
   package var reason: String
 
   package init(name: String, reason: String) {

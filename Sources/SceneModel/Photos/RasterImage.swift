@@ -1,4 +1,4 @@
-/// An 8-bit image in memory: top row first, channels interleaved (1 gray, 3 RGB, 4 RGBA).
+/// An 8-bit image in memory: top row first, interleaved channels (1 gray, 3 RGB, 4 RGBA).
 package struct RasterImage: Hashable, Sendable {
   package var width: Int
   package var height: Int
@@ -6,6 +6,7 @@ package struct RasterImage: Hashable, Sendable {
   /// `height × width × channels` bytes.
   package var pixels: [UInt8]
 
+  /// `pixels` must have `height × width × channels` bytes.
   package init(width: Int, height: Int, channels: Int, pixels: [UInt8]) {
     precondition(pixels.count == width * height * channels)
     self.width = width
@@ -14,6 +15,7 @@ package struct RasterImage: Hashable, Sendable {
     self.pixels = pixels
   }
 
+  /// An image with all bytes set to `value`.
   package init(width: Int, height: Int, channels: Int, filledWith value: UInt8 = 0) {
     self.init(
       width: width, height: height, channels: channels,

@@ -1,17 +1,17 @@
-/// How far away is what a photo shows, along the optical axis, in metres; its field of view is that of
-/// the upright photo, its resolution its own.
+/// Depths along the optical axis in meters; the field of view is that of the upright photo, the
+/// resolution is independent of it.
 package struct DepthMap: Hashable, Codable, Sendable {
   package private(set) var width: Int
   package private(set) var height: Int
-  /// Row by row from the top; what is not positive and finite is unknown.
+  /// Depths row by row from the top; values that are not positive and finite are unknown.
   package private(set) var depths: [Float]
-  /// Whether the numbers may be disparities in 1/metre just as well: files don't tell.
+  /// Whether the values may be disparities in 1/meter instead of depths; files don't specify this.
   package var mayBeDisparities = false
 
-  /// Relative difference of neighbours across an edge.
+  /// Relative difference between neighbors that indicates a depth edge.
   private static let edge: Float = 0.05
 
-  /// Nil unless there is a depth for each pixel.
+  /// Nil unless there is one depth per pixel.
   package init?(width: Int, height: Int, depths: [Float]) {
     guard width > 0, height > 0, depths.count == width * height else { return nil }
     self.width = width
@@ -19,8 +19,9 @@ package struct DepthMap: Hashable, Codable, Sendable {
     self.depths = depths
   }
 
-  /// The depth at a place from (0, 0), the photo's top-left corner, to (1, 1); nil outside, where it
-  /// is unknown, and at edges, where a pixel of the map stands for near and far.
+  /// The depth at a position from (0, 0), the photo's top-left corner, to (1, 1); nil outside,
+  /// where it is unknown, and at depth edges, where one pixel of the map covers both foreground and
+  /// background.
   package func depth(at place: SIMD2<Double>) -> Double? {
     guard place.x >= 0, place.x < 1, place.y >= 0, place.y < 1 else { return nil }
     let column = Int(place.x * Double(width))
@@ -29,7 +30,7 @@ package struct DepthMap: Hashable, Codable, Sendable {
     guard center > 0, center.isFinite else { return nil }
     for y in max(0, row - 1)...min(height - 1, row + 1) {
       for x in max(0, column - 1)...min(width - 1, column + 1) {
-        // Unknown neighbours are signs of an edge, too.
+        // Unknown neighbors also indicate an edge.
         let isClose = abs(depths[y * width + x] - center) <= Self.edge * center
         if !isClose { return nil }
       }
@@ -37,7 +38,7 @@ package struct DepthMap: Hashable, Codable, Sendable {
     return Double(center)
   }
 
-  /// The map turned by an orientation of EXIF, 1…8.
+  /// The map rotated by an EXIF orientation, 1…8.
   package func turned(byOrientation orientation: Int) -> DepthMap {
     var result = self
     if orientation >= 5 { (result.width, result.height) = (height, width) }

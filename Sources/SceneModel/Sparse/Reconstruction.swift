@@ -1,7 +1,7 @@
-/// A point's keypoint in one photo.
+/// The keypoint of a point in one photo.
 package struct Observation: Hashable, Codable, Sendable {
   package var photo: ID<Photo>
-  /// Index into the photo's `FeatureSet`.
+  /// Index into the photo's `FeatureSet`; negative without a feature.
   package var feature: Int32
   /// The keypoint in pixels of the upright photo, origin at the top-left corner.
   package var pixel: SIMD2<Double>
@@ -13,13 +13,13 @@ package struct Observation: Hashable, Codable, Sendable {
   }
 }
 
-/// A triangulated point and the observations that it rests on.
+/// A triangulated point and its observations.
 package struct ScenePoint: Hashable, Codable, Sendable {
   package var position: SIMD3<Double>
   package var color: SIMD3<UInt8>
   /// Mean reprojection error in pixels.
   package var error: Double
-  /// Sorted by photo; at most one observation a photo.
+  /// Sorted by photo; at most one observation per photo.
   package var track: [Observation]
 
   package init(
@@ -33,16 +33,18 @@ package struct ScenePoint: Hashable, Codable, Sendable {
   }
 }
 
-/// Where the scale and the up direction of the world come from.
+/// The sources of the scale and the up direction of the world frame.
 package struct WorldFrame: Hashable, Codable, Sendable {
+  /// The source of the scale.
   package enum Scale: String, Hashable, Codable, Sendable {
     case depth, gps, knownDistance, arbitrary
-    /// The cameras were given, and their unit is said to be the metre.
+    /// The cameras were given, and their unit was declared to be the meter.
     case given
 
-    /// Whether lengths are metres.
+    /// Whether lengths are in meters.
     package var isMetric: Bool { self != .arbitrary }
   }
+  /// The source of the up direction.
   package enum Up: String, Hashable, Codable, Sendable {
     case gravity, gps, supportPlane, cameras, unknown
   }
@@ -56,15 +58,15 @@ package struct WorldFrame: Hashable, Codable, Sendable {
   }
 }
 
-/// What alignment found: cameras, poses and sparse points in one right-handed world.
+/// The result of alignment: cameras, poses and sparse points in one right-handed world frame.
 package struct Reconstruction: Sendable {
   package var cameras: [Camera]
   package var photos: [Photo]
-  /// `cameraFromWorld` by photo id; nil where the photo is not registered.
+  /// `cameraFromWorld` by photo ID; nil if the photo is not registered.
   package var poses: [RigidTransform?]
   package var points: [ScenePoint]
   package var worldFrame: WorldFrame
-  /// Photos that passed validation and could not be registered, and why.
+  /// Photos that passed validation but could not be registered, with the reasons.
   package var unregistered: [RefusedPhoto]
 
   package init(
@@ -82,9 +84,10 @@ package struct Reconstruction: Sendable {
   /// The registered photos in ascending order.
   package var registered: [ID<Photo>] { photos.map(\.id).filter { poses[$0.index] != nil } }
 
+  /// The camera of a photo.
   package func camera(of photo: ID<Photo>) -> Camera { cameras[photos[photo.index].camera.index] }
 
-  /// The mean over all observations of the reprojection error in pixels; 0 without observations.
+  /// The mean reprojection error over all observations in pixels; 0 without observations.
   package var meanReprojectionError: Double {
     var (sum, count) = (0.0, 0)
     for point in points {

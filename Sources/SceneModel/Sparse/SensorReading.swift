@@ -1,7 +1,6 @@
-/// What sensors beside the camera told when a photo was taken.
+/// Readings of other sensors at the time of capture.
 package struct SensorReading: Hashable, Codable, Sendable {
-  /// The direction of gravity in the frame of the camera: x right, y down, z forward, of the upright
-  /// photo.
+  /// The direction of gravity in the camera frame of the upright photo: x right, y down, z forward.
   package var gravity: SIMD3<Double>?
   package var depth: DepthMap?
 
@@ -12,11 +11,12 @@ package struct SensorReading: Hashable, Codable, Sendable {
 }
 
 extension SensorReading {
-  /// The direction of gravity in the frame of the camera, from that in the frame of a phone: x to the
-  /// right and y up on its screen, z towards its user. Nil for none.
+  /// Converts a direction of gravity from the frame of a phone (x right and y up on its screen, z
+  /// toward its user) to the camera frame of the upright photo. Nil for a zero or non-finite
+  /// vector.
   ///
-  /// `orientation` is how the pixels of the sensor are turned upright, 1…8 as in EXIF: a phone stores
-  /// what its camera sees when it is held with its right side up.
+  /// `orientation`, 1…8 as in EXIF, rotates the sensor pixels upright: a phone stores the sensor
+  /// pixels in the orientation that is upright when the phone is held with its right edge up.
   package static func gravity(
     ofPhone gravity: SIMD3<Double>, orientation: Int
   ) -> SIMD3<Double>? {

@@ -1,18 +1,20 @@
-/// The triangles of one atlas with a single index a vertex, as glTF and graphics cards want them: a
-/// vertex for each position, split only where texture coordinates differ.
+/// The triangles of one atlas with a single index per vertex, as required by glTF and GPUs: one
+/// vertex per position, split only where texture coordinates differ.
 package struct IndexedTriangles: Sendable {
-  /// Of each vertex its index into the mesh's positions and normals, in the order of first use.
+  /// For each vertex, its index into the mesh's positions and normals, in order of first use.
   package private(set) var positions: [UInt32] = []
-  /// Of each vertex its index into the texture coordinates; empty where there are none.
+  /// For each vertex, its index into the texture coordinates; empty without texture.
   package private(set) var coordinates: [UInt32] = []
-  /// Three vertices a triangle.
+  /// Three vertex indices per triangle.
   package private(set) var indices: [UInt32] = []
 
-  /// The vertex that a position got first, and of each vertex the next at the same position.
+  /// For each position its latest vertex, and for each vertex the previous one at the same
+  /// position.
   private var first: [UInt32]
   private var next: [UInt32] = []
   private static let none = UInt32.max
 
+  /// Indexes the triangles of `mesh` in the given range.
   package init(_ mesh: TexturedMesh, triangles range: Range<Int>) {
     let hasTexture = mesh.textureTriangles.count == mesh.mesh.triangles.count
     first = [UInt32](repeating: Self.none, count: mesh.mesh.positions.count)

@@ -1,4 +1,4 @@
-/// Three vertex indices, counter-clockwise seen from outside; 12 bytes.
+/// Three vertex indices, counter-clockwise when viewed from outside; 12 bytes.
 package struct Triangle: Hashable, Sendable {
   package var a: UInt32
   package var b: UInt32
@@ -8,19 +8,19 @@ package struct Triangle: Hashable, Sendable {
     (self.a, self.b, self.c) = (a, b, c)
   }
 
-  /// The corners of the face that (a, b, c) makes with the triangle (a, c, d).
+  /// The corners of the quad formed by (a, b, c) and `other` = (a, c, d).
   package func quad(with other: Triangle) -> [UInt32] { [a, b, c, other.c] }
 
-  /// Seen from the other side.
+  /// The triangle with reversed winding.
   package var flipped: Triangle { Triangle(a, c, b) }
 }
 
 /// A triangle mesh in the world frame.
 package struct Mesh: Sendable {
   package var positions: [SIMD3<Float>]
-  /// Unit vertex normals, as many as positions, or empty.
+  /// Unit vertex normals, one per position, or empty.
   package var normals: [SIMD3<Float>]
-  /// RGB a vertex, as many as positions, or empty.
+  /// RGB vertex colors, one per position, or empty.
   package var colors: [SIMD3<UInt8>]
   package var triangles: [Triangle]
 
@@ -34,7 +34,7 @@ package struct Mesh: Sendable {
     self.triangles = triangles
   }
 
-  /// The smallest axis-aligned box around all positions; nil for an empty mesh.
+  /// The axis-aligned bounding box; nil for an empty mesh.
   package var bounds: (min: SIMD3<Float>, max: SIMD3<Float>)? {
     guard let first = positions.first else { return nil }
     return positions.reduce((first, first)) {

@@ -1,8 +1,8 @@
-/// What part of the surface a model shows, and where it is put.
+/// The crop and the placement of a model.
 package struct ModelGeometry: Hashable, Sendable {
-  /// The box outside of which everything is cut off; nil keeps all.
+  /// The box, in the world frame, outside of which everything is removed; nil keeps all.
   package var crop: OrientedBox?
-  /// What is applied to the model in the end: `modelFromWorld`.
+  /// `modelFromWorld`, applied last.
   package var transform = AffineMap.identity
 
   package init(crop: OrientedBox? = nil, transform: AffineMap = .identity) {
@@ -12,7 +12,7 @@ package struct ModelGeometry: Hashable, Sendable {
 }
 
 extension TexturedMesh {
-  /// The model put elsewhere. Triangles stay counter-clockwise where the transform mirrors.
+  /// The transformed model. Triangles stay counter-clockwise under a reflection.
   package func transformed(by transform: AffineMap) -> TexturedMesh {
     guard transform != .identity else { return self }
     var result = self

@@ -54,7 +54,7 @@ import Testing
     }
   }
 
-  /// The scene's true bundle with everything but the first pose moved a little.
+  /// The scene's true bundle with everything except the first pose slightly perturbed.
   private func perturbed(_ scene: SyntheticScene) -> BundleAdjustment.Problem {
     var random = SeededGenerator(seed: 11)
     let truth = scene.reconstruction

@@ -65,7 +65,7 @@ import Testing
             photo: Int32($0), point: 0, pixel: camera.project((poses[$0] ?? .identity) * point))
         })
     }
-    // Rays that meet behind the cameras.
+    // Rays that intersect behind the cameras.
     tracks.append([
       PointObservation(photo: 0, point: 0, pixel: [400, 500]),
       PointObservation(photo: 1, point: 0, pixel: [600, 500]),

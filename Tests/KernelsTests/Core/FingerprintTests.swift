@@ -11,7 +11,7 @@ import Testing
     #expect(hash("") == 0xEF46_DB37_51D8_E999)
     #expect(hash("a") == 0xD24E_C4F1_A98C_6E5B)
     #expect(hash("abc") == 0x44BC_2CF5_AD77_0999)
-    // All lanes and all kinds of remainder.
+    // All lanes and all remainder lengths.
     let bytes = (0..<77).map { UInt8(truncatingIfNeeded: $0 * 3) }
     #expect(bytes.withUnsafeBytes { XXHash64.hash($0) } == 0xF341_BD52_CE7A_62E3)
   }

@@ -5,7 +5,7 @@ import TestSupport
 import Testing
 
 @Suite struct DescriptorMatchingTests {
-  /// Descriptors with the length and the distribution of root-SIFT.
+  /// Descriptors with the length and the distribution of RootSIFT.
   static func descriptors(_ count: Int, seed: UInt64) -> [UInt8] {
     var random = SeededGenerator(seed: seed)
     return (0..<count).flatMap { _ in
@@ -15,7 +15,7 @@ import Testing
     }
   }
 
-  /// `count` features of which the first half are noisy copies of `other` in reverse order.
+  /// `count` features, the first half of which are noisy copies of `other` in reverse order.
   static func noisyCopy(of other: [UInt8], _ count: Int, seed: UInt64) -> [UInt8] {
     var random = SeededGenerator(seed: seed)
     var result = descriptors(count, seed: seed &+ 99)
@@ -38,7 +38,7 @@ import Testing
       colors: Array(repeating: .zero, count: count))
   }
 
-  /// What the kernel has to return, the slow and obvious way.
+  /// The expected result by brute force.
   static func reference(_ a: [UInt8], _ b: [UInt8], ratio: Double) -> Set<FeatureMatch> {
     func distance(_ i: Int, _ j: Int) -> Int {
       (0..<128).reduce(0) {
@@ -83,7 +83,7 @@ import Testing
 
   @Test(arguments: supported)
   func allInstructionsGiveTheSame(instructions: Instructions) throws {
-    // More than one block of rows, and no multiple of any vector width.
+    // More than one block of rows, and not a multiple of any vector width.
     let a = Self.descriptors(4200, seed: 1)
     let b = Self.noisyCopy(of: a, 517, seed: 2)
     var matching = DescriptorMatching()

@@ -7,7 +7,8 @@ import Testing
   /// A camera that moved to the right: epipolar lines are rows. `E = [t]ₓ` with t = (1, 0, 0).
   private static let rows = Matrix3(rows: [0, 0, 0], [0, 0, -1], [0, 1, 0])
 
-  /// Sixty points on rows of their own; the second half repeats the descriptors of the first half.
+  /// Sixty points, each on a separate row; the second half repeats the descriptors of the first
+  /// half.
   private func repetitive() -> (first: FeatureSet, second: FeatureSet, points: [SIMD2<Double>]) {
     let half = DescriptorMatchingTests.descriptors(30, seed: 3)
     let points = (0..<60).map { SIMD2(Double($0 % 7) * 0.01, Double($0) * 0.01) }

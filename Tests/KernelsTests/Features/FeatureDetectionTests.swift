@@ -22,7 +22,7 @@ import Testing
     return image
   }
 
-  /// Random checks of several sizes: rich texture.
+  /// Random checkerboards of several sizes: rich texture.
   static func texture(width: Int, height: Int, seed: UInt64 = 7) -> RasterImage {
     var random = SeededGenerator(seed: seed)
     let spots = (0..<(width * height / 400)).map { _ in
@@ -68,7 +68,7 @@ import Testing
     #expect(set.colors[best].x == image.pixels[(pixel.y * image.width + pixel.x) * 3])
   }
 
-  /// The mean error over many offsets shows a bias that a single one may hide.
+  /// The mean error over many offsets reveals a bias that a single offset may hide.
   @Test(arguments: [true, false])
   func positionsHaveNoBias(isDoubled: Bool) throws {
     var detection = FeatureDetection()
@@ -95,7 +95,7 @@ import Testing
   }
 
   @Test func orientationFollowsTheGradient() throws {
-    // A small spot on a ramp: the gradient of the ramp decides.
+    // A small spot on a ramp: the ramp's gradient determines the orientation.
     for degrees in stride(from: 5.0, to: 360, by: 31) {
       let angle = degrees * .pi / 180
       let direction = SIMD2(cos(angle), sin(angle))
@@ -202,14 +202,14 @@ import Testing
     }
     #expect(sets[0].count > 50)
     for set in sets.dropFirst() {
-      // The weights of red, green and blue add up to one but for rounding.
+      // The weights of red, green and blue sum to one except for rounding.
       #expect(abs(set.count - sets[0].count) <= 2)
       #expect(set.colors.allSatisfy { $0.x == $0.y && $0.y == $0.z })
     }
   }
 
-  /// What two sets of the same photo have in common: features at the same place, of the same scale and
-  /// direction, and how far their descriptors are apart.
+  /// The agreement of two feature sets of the same photo: the share of features at the same
+  /// position, scale and orientation, and the largest distance of their descriptors.
   static func agreement(_ a: FeatureSet, _ b: FeatureSet) -> (share: Double, worst: Int) {
     var (found, worst, start) = (0, 0, 0)
     for i in 0..<a.count {
@@ -278,7 +278,7 @@ import Testing
     }
   }
 
-  /// The image turned by an angle and scaled about its centre, and the map of its positions.
+  /// The image rotated by an angle and scaled about its center, and the map of its positions.
   static func warped(
     _ image: RasterImage, degrees: Double, scale: Double
   ) -> (image: RasterImage, map: (SIMD2<Double>) -> SIMD2<Double>) {
@@ -311,7 +311,8 @@ import Testing
     return (result, map)
   }
 
-  /// Features that are found again in a turned and scaled copy, and matches that are right.
+  /// Features that are detected again in a rotated and scaled copy, and the share of correct
+  /// matches.
   @Test(arguments: [(17.0, 1.0), (90.0, 1.0), (133.0, 0.8), (-62.0, 1.4), (200.0, 0.6)])
   func warpedImageMatches(degrees: Double, scale: Double) throws {
     let image = TexturePattern.image(width: 400, height: 320, seed: 5)

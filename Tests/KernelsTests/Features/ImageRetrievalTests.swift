@@ -4,7 +4,7 @@ import TestSupport
 import Testing
 
 @Suite struct ImageRetrievalTests {
-  /// Descriptors around `kinds` centres.
+  /// Descriptors around `kinds` centers.
   static func descriptors(_ count: Int, kinds: Int, seed: UInt64 = 1) -> [UInt8] {
     var random = SeededGenerator(seed: 7)
     let centers = (0..<kinds).map { _ in (0..<128).map { _ in 80 * random.uniform() } }

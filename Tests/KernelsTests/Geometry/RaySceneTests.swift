@@ -4,7 +4,7 @@ import TestSupport
 import Testing
 
 @Suite struct TextureRaysTests {
-  /// A camera at (0, 0, `distance`) that looks along −z, and a gray photo.
+  /// A camera at (0, 0, `distance`) looking along −z, and a gray photo.
   private func view(distance: Double, side: Int = 200, value: UInt8 = 100) -> PinholeView {
     let camera = Camera(width: side, height: side, focalLength: SIMD2(repeating: Double(side)))
     let rotation = Quaternion(x: 1, y: 0, z: 0, w: 0)

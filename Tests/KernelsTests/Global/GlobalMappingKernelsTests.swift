@@ -9,8 +9,7 @@ import Testing
     Quaternion(angle: angle * random.uniform(), axis: random.normal3())
   }
 
-  /// Pairs of 40 photos: neighbours and random others; `isWrong` says which have nothing to do with
-  /// the truth.
+  /// Pairs of 40 photos: neighbors and random others; `isWrong` marks the random outliers.
   private func pairs(
     _ truth: [Quaternion], wrongShare: Double, noise: Double, _ generator: inout SeededGenerator
   ) -> (pairs: [RelativeRotation], isWrong: [Bool]) {
@@ -44,7 +43,7 @@ import Testing
     let (pairs, isWrong) = pairs(
       truth, wrongShare: wrongShare, noise: 0.001, &generator)
     #expect(isWrong.contains(true) == (wrongShare > 0))
-    // A bad start: every rotation is off by up to 40 degrees.
+    // A bad initialization: every rotation is off by up to 40 degrees.
     let start = truth.map { (random(&generator, upTo: 0.7) * $0).normalized }
     let result = try RotationAveraging().run(pairs, start: start)
     #expect(largestError(result.rotations, truth) < 0.1 * .pi / 180)
@@ -72,7 +71,7 @@ import Testing
 }
 
 @Suite struct GlobalPositioningTests {
-  /// The true directions of a scene's points; a share of them points anywhere.
+  /// The true directions of a scene's points; a share of them is random.
   private func directions(_ scene: SyntheticScene, wrongShare: Double) -> [PointDirection] {
     var random = SeededGenerator(seed: 3)
     return scene.reconstruction.points.enumerated().flatMap { index, point in

@@ -4,7 +4,7 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// What a surface must not lose when it is simplified.
+/// Properties of a surface that simplification must preserve.
 @Suite struct SimplificationShapeTests {
   @Test(arguments: [24, 60, 300]) func aBoxKeepsItsCreases(budget: Int) throws {
     let simple = try SyntheticMesh.cube(cells: 40)
@@ -17,13 +17,13 @@ import Testing
         }
       }
     }
-    // A triangle across a crease would have its middle inside the box.
+    // A triangle across a crease would have its center inside the box.
     for point in simple.positions + simple.triangles.map({ middle(of: $0, in: simple) }) {
       #expect(abs(max(abs(point.x), abs(point.y), abs(point.z)) - 1) < 1e-3)
     }
   }
 
-  /// Planes that touch a sphere would take 4.8 / n of its volume away; the fit leaves a fifth.
+  /// Tangent planes of a sphere would change its volume by 4.8 / n; the fit leaves a fifth of that.
   @Test(arguments: [1999, 500, 60]) func aSphereKeepsItsVolume(budget: Int) throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 5)
     let simple = try mesh.simplified(maximumTriangles: budget, KernelControl())
@@ -47,14 +47,14 @@ import Testing
         #expect(abs(simple.positions[Int(end.y)].y - 1.5 * sign) < 1e-3)
       }
     }
-    // Corners are less far outside than the sides of a polygon of 16 are inside.
+    // The corners are less far outside than the sides of a polygon of 16 are inside.
     let sagitta = 1 - cos(Float.pi / 16)
     for position in simple.positions {
       #expect(abs(SIMD3(position.x, 0, position.z).length - 1) < sagitta / 2)
     }
   }
 
-  /// A torus with ripples and noise, which a limit on the error alone would fold.
+  /// A torus with ripples and noise, which an error limit alone would fold.
   @Test(arguments: [2000, 300]) func aTorusStaysOne(budget: Int) throws {
     let simple = try torus(segments: 96, rings: 48)
       .simplified(maximumTriangles: budget, KernelControl())
@@ -167,7 +167,7 @@ import Testing
     }
   }
 
-  /// How many triangles each edge has; the smaller index first.
+  /// The number of triangles at each edge; the smaller index first.
   private func edgeCounts(of mesh: Mesh) -> [SIMD2<UInt32>: Int] {
     var counts: [SIMD2<UInt32>: Int] = [:]
     for t in mesh.triangles {
@@ -178,7 +178,7 @@ import Testing
     return counts
   }
 
-  /// Whether the triangles at each vertex of a closed surface are one fan.
+  /// Whether the triangles at each vertex of a closed surface form a single fan.
   private func isManifoldAtVertices(_ mesh: Mesh) -> Bool {
     var next = [[UInt32: UInt32]](repeating: [:], count: mesh.positions.count)
     for t in mesh.triangles {

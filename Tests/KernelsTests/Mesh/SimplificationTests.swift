@@ -4,7 +4,7 @@ import TestSupport
 import Testing
 
 @Suite struct SimplificationTests {
-  /// Every edge of a closed surface belongs to two triangles of opposite direction.
+  /// Whether every edge belongs to two triangles with opposite directions.
   private func isClosed(_ mesh: Mesh) -> Bool {
     var edges: [SIMD2<UInt32>: Int] = [:]
     for t in mesh.triangles {

@@ -4,7 +4,7 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// Patches of rendered views whose depth is known.
+/// Patches of rendered views with known depth.
 @Suite struct PatchStereoTests {
   static let scene = RaycastScene()
 
@@ -32,7 +32,7 @@ import Testing
     }
   }
 
-  /// Median relative depth error of good patches in the middle of a view, and their share.
+  /// Median relative depth error of good patches in the center of a view, and their share.
   static func depthError(
     _ map: PatchMap, _ scene: RaycastScene, view: Int
   ) -> (median: Double, share: Double) {
@@ -62,7 +62,8 @@ import Testing
   }
 
   @Test func gaussNewtonConvergesFromPerturbedSeeds() throws {
-    // Depths that are wrong by up to 2 % and no random planes: only the steps can repair that.
+    // Depths are off by up to 2 % and there are no random planes: only Gauss–Newton can correct
+    // them.
     var options = PatchStereo.Options()
     options.perturbations = 0
     var random = SeededGenerator(seed: 5)
@@ -82,7 +83,7 @@ import Testing
   @Test(arguments: Instructions.allCases.filter(\.isSupported))
   func instructionsAgree(_ instructions: Instructions) throws {
     var options = PatchStereo.Options()
-    // Where there is no texture, rounding decides.
+    // In untextured areas rounding decides.
     options.instructions = .portable
     let expected = try Self.maps(Self.scene, options, noise: 1)[2]
     options.instructions = instructions
@@ -147,14 +148,14 @@ import Testing
     let error = Self.depthError(completed, Self.scene, view: 2)
     #expect(error.median < 0.002)
     #expect(error.share > 0.6)
-    // Without other views' patches there is nothing to take.
+    // Without other views' patches there are no candidates.
     let alone = try PatchStereo.complete(
       empty, neighbors: Self.others(maps, 2).map { PatchMap(view: $0.view) },
       options: PatchStereo.Options(), control: KernelControl())
     #expect(Self.depthError(alone, Self.scene, view: 2).share == 0)
   }
 
-  /// The filtered patches of the third view, and what completion makes of them.
+  /// The filtered patches of the third view, and the completed ones.
   static func completed() throws -> (map: PatchMap, completed: PatchMap) {
     let maps = try maps(scene)
     try filter(maps)
@@ -183,7 +184,7 @@ import Testing
     #expect(changed > 0 && changed < rejected)
   }
 
-  /// Beside the outline of the ball, where a patch sees the ball and the floor behind it.
+  /// Next to the outline of the ball, where a patch sees both the ball and the floor behind it.
   @Test func completionMakesEdgesSharper() throws {
     let (map, completed) = try Self.completed()
     let edges = Self.edgePixels(Self.scene, view: 2)
@@ -195,7 +196,7 @@ import Testing
     #expect(after > before + edges.count / 50)
   }
 
-  /// Pixels within two of a step in depth.
+  /// Pixels within two of a depth discontinuity.
   static func edgePixels(
     _ scene: RaycastScene, view: Int
   ) -> [(x: Int, y: Int, depth: Double)] {
@@ -217,7 +218,7 @@ import Testing
     let half = view.halved()
     #expect(half.width == 80 && half.height == 60 && half.noise == 1.5)
     #expect(half.camera.focalLength == view.camera.focalLength / 2)
-    // The same ray goes through the corner of a pixel and of the four that it is made of.
+    // The same ray passes through the corner of a pixel and of the four that it averages.
     #expect(half.camera.unproject([20, 10]) == view.camera.unproject([40, 20]))
   }
 
@@ -230,7 +231,7 @@ import Testing
     #expect(distances[cloud.count * 95 / 100] < 0.04)
     var angles: [Double] = []
     for index in 0..<cloud.count {
-      // Two others confirm a patch, and the cloud knows all three.
+      // Two others confirm a patch, and the cloud lists all three.
       #expect(cloud.visiblePhotos(of: index).count >= 2)
       #expect(cloud.visiblePhotos(of: index).elementsEqual(cloud.visiblePhotos(of: index).sorted()))
       let (p, n) = (SIMD3<Double>(cloud.positions[index]), SIMD3<Double>(cloud.normals[index]))
@@ -244,7 +245,7 @@ import Testing
 
   @Test func aFloaterGoes() throws {
     let maps = try Self.maps(Self.scene)
-    // A confident patch of 20 × 20 pixels half way to the ball, in one view only and in two.
+    // A confident patch of 20 × 20 pixels halfway to the ball, in one view only and in two.
     let region = (60..<80, 50..<70)
     for view in [2, 3] {
       for y in region.1 {

@@ -4,11 +4,11 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// Filter and fusion of exact patches of a scene whose depth is known.
+/// Filtering and fusion of exact patches of a scene with known depth.
 @Suite struct PatchVisibilityTests {
   static let scene = RaycastScene()
 
-  /// Maps that hold the true depth and slope of every pixel.
+  /// Maps with the true depth and slope of every pixel.
   static func exactMaps(_ scene: RaycastScene = scene) -> [PatchMap] {
     scene.views.indices.map { view in
       let map = PatchMap(view: PatchView(scene.views[view]))
@@ -64,7 +64,7 @@ import Testing
     let cloud = try PatchStereoTests.fused(Self.exactMaps())
     #expect(cloud.count > 5000)
     let distances = cloud.positions.map { Self.scene.distance(to: SIMD3<Double>($0)) }.sorted()
-    // A tangent plane leaves the ball by a small part of a pixel.
+    // A tangent plane deviates from the ball by a fraction of a pixel.
     #expect(distances[cloud.count * 95 / 100] < 0.0005)
     #expect(distances[cloud.count / 2] < 0.0001)
     var errors: [Double] = []
@@ -78,8 +78,8 @@ import Testing
   @Test func aPieceOfSurfaceComesOnce() throws {
     let maps = Self.exactMaps()
     let cloud = try PatchStereoTests.fused(maps)
-    // Five views from about the same distance show nearly the same: a point of each would be
-    // several times the patches of one view.
+    // Five views from about the same distance show nearly the same surface: one point per view
+    // would be several times the patches of one view.
     let largest = maps.map(\.acceptedCount).max() ?? 0
     #expect(Double(cloud.count) < 2 * Double(largest))
     #expect(cloud.count >= largest / 2)

@@ -3,11 +3,11 @@ import Kernels
 import SceneModel
 import Testing
 
-/// Pictures of one smooth texture under known maps.
+/// Images of one smooth texture under known transformations.
 @Suite struct TemplateMatchingTests {
   private let center = SIMD2(60.3, 55.7)
 
-  /// Shows texture(inverse · (pixel − shift)), the brightness changed by gain and offset.
+  /// Renders texture(inverse · (pixel − shift)), with gain and offset applied to the brightness.
   private func picture(
     shift: SIMD2<Double> = .zero, inverse: SIMD4<Double> = [1, 0, 0, 1], gain: Double = 1,
     offset: Double = 0
@@ -45,7 +45,7 @@ import Testing
   }
 
   @Test func warpAndBrightnessAreAllowedFor() throws {
-    // The other photo is turned by 20° and 1.3 times as large.
+    // The other photo is rotated by 20° and magnified by 1.3.
     let (c, s) = (1.3 * cos(0.35), 1.3 * sin(0.35))
     let inverse = SIMD4(c, s, -s, c) / (1.3 * 1.3)
     let shift = SIMD2(30.0, -10.0)

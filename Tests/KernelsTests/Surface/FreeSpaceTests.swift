@@ -3,7 +3,7 @@ import SceneModel
 import Testing
 
 @Suite struct FreeSpaceTests {
-  /// Photos and the points that each sees, with rays that end 0.1 before them.
+  /// Photos and the points that each sees, with rays that end 0.1 in front of them.
   func freeSpace(
     centers: [SIMD3<Float>], points: [SIMD3<Float>], photos: [[UInt16]], threads: Int = 1
   ) throws -> FreeSpace {
@@ -37,7 +37,7 @@ import Testing
     #expect(space.photos(at: [0.55, 0.01, 0.01]) == 2)
   }
 
-  /// Against points along the rays, in cells of any direction.
+  /// Compared with points sampled along the rays, in cells in any direction.
   @Test(arguments: [1, 3]) func raysCrossTheCellsOfTheirPoints(threads: Int) throws {
     var random = SplitMix64(seed: 7)
     let place = { (random: inout SplitMix64, size: Float) in

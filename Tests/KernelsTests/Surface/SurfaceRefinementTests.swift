@@ -4,7 +4,7 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// Photos of a unit sphere, and meshes that are not quite one.
+/// Photos of a unit sphere, and perturbed meshes of it.
 @Suite struct SurfaceRefinementTests {
   private static let textured = SphereScene(viewCount: 40) { p in
     let waves: [SIMD3<Float>] = [
@@ -16,7 +16,7 @@ import Testing
   }
   private static let plain = SphereScene(viewCount: 40) { _ in SIMD3(repeating: 120) }
 
-  /// A sphere with waves of about a pixel's length in height.
+  /// A sphere with waves about one pixel high.
   private var wavy: Mesh {
     var mesh = SyntheticMesh.sphere(subdivisions: 6)
     for index in mesh.positions.indices {
@@ -73,7 +73,7 @@ import Testing
     let start = wavy
     let (mesh, moved) = try refined(
       start, by: Self.textured, isUsed: { $0.cameraFromWorld.center.y > 1 })
-    // The lowest camera, at a height of 1, sees points of a height of −0.96 at most.
+    // The lowest camera, at a height of 1, sees points down to a height of −0.96.
     let unseen = start.positions.indices.filter { start.positions[$0].y < -0.97 }
     #expect(unseen.count > 50)
     #expect(unseen.allSatisfy { mesh.positions[$0] == start.positions[$0] })

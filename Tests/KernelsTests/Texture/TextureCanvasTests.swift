@@ -9,7 +9,7 @@ import Testing
   private let plane = SyntheticMesh.grid(
     cells: 4, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
 
-  /// The plane fills the texture but for a border of 8 texels; +y is up.
+  /// The plane fills the texture except for a border of 8 texels; +y is up.
   private func corners() -> [SIMD2<Float>] {
     plane.triangles.flatMap { t in
       [t.a, t.b, t.c].map { index in
@@ -44,7 +44,7 @@ import Testing
   }
 
   @Test func slopesAndHeightsAreBaked() throws {
-    // Rises by 0.2 to the right and by 0.1 upwards in the texture.
+    // Rises by 0.2 to the right and by 0.1 upward in the texture.
     var dense = plane
     dense.positions = plane.positions.map { [$0.x, $0.y, 0.2 * $0.x + 0.1 * $0.y] }
     let normal = SIMD3<Float>(-0.2, -0.1, 1).normalized
@@ -107,14 +107,14 @@ import Testing
     try canvas.paint(paints(0.75, 10), from: view, gain: [1, 0.5, 2], KernelControl())
     try canvas.paint(paints(0.25, 40), from: nil, KernelControl())
     let colors = try canvas.colors(KernelControl())
-    // 0.75 · (80 · gain + 10) + 0.25 · 40, in the gaps between charts as well.
+    // 0.75 · (80 · gain + 10) + 0.25 · 40, also in the space between charts.
     for index in 0..<side * side {
       #expect(pixel(colors, index % side, index / side) == [78, 48, 138])
     }
   }
 
   @Test func aPhotoLandsTheRightWayUp() throws {
-    // Red grows to the right of the photo, green downwards.
+    // Red increases to the right of the photo, green downward.
     var image = RasterImage(width: 120, height: 120, channels: 3)
     for index in 0..<120 * 120 {
       image.pixels[3 * index] = UInt8(2 * (index % 120))

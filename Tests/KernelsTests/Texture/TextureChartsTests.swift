@@ -59,7 +59,7 @@ import Testing
     let canvas = try TextureCanvas(
       RayScene(mesh, KernelControl()), corners: texels, side: side, KernelControl())
     #expect(canvas.overlapCount == 0)
-    // The padding weighs more in a small texture.
+    // Padding has a larger share in a small texture.
     #expect(canvas.usage > (side < 512 ? 0.5 : 0.6))
     for face in mesh.triangles.indices {
       let (a, b, c) = (texels[3 * face], texels[3 * face + 1], texels[3 * face + 2])
@@ -79,7 +79,7 @@ import Testing
   }
 
   @Test func trianglesThatWouldLieOnOthersGetTheirOwnChart() throws {
-    // Two and a half turns of a spiral staircase: all normals alike, floors above each other.
+    // Two and a half turns of a spiral staircase: similar normals, overlapping floors.
     var mesh = Mesh()
     let steps = 60
     for step in 0...steps {
@@ -103,7 +103,7 @@ import Testing
     #expect(axes.count >= 3)
   }
 
-  /// Charts without order: fans of random outline and size, one in eight a thin strip.
+  /// Unstructured charts: fans of random outline and size, one in eight a thin strip.
   private func randomCharts(
     _ count: Int, seed: UInt64
   ) -> (corners: [SIMD2<Float>], charts: [Int32], density: [Float]) {
@@ -126,7 +126,7 @@ import Testing
     return result
   }
 
-  /// The chart that each texel's centre lies in, or -1; nil where it lies in two.
+  /// The chart that contains each texel's center, or −1; nil if two contain it.
   private func picture(
     of texels: [SIMD2<Float>], charts: [Int32], side: Int
   ) -> [Int32]? {
@@ -221,7 +221,7 @@ import Testing
   }
 
   @Test func aStripOfGrowingTrianglesIsOneChart() throws {
-    // Each is cheaper to merge with the one before than with the next: no two agree but the first.
+    // Each is cheaper to merge with the previous one than with the next: only the first two agree.
     var mesh = Mesh()
     for step in 0..<3000 {
       let x = Float(step) + 1e-4 * Float(step * step)

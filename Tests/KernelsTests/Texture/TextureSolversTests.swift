@@ -27,7 +27,7 @@ import Testing
     }
   }
 
-  /// On a chain the optimum is known by dynamic programming; trees are solved exactly.
+  /// On a chain, dynamic programming gives the optimum; TRW-S solves trees exactly.
   @Test func aChainIsSolvedExactly() throws {
     var generator = SeededGenerator(seed: 3)
     var costs: [[(label: Int32, cost: Float)]] = []

@@ -43,7 +43,7 @@ import Testing
       return Matrix3(rows: e.row0 / norm, e.row1 / norm, e.row2 / norm)
     }
 
-    /// Replaces the first part of the matches with random ones, of quality like the others.
+    /// Replaces the first part of the matches with random ones, of similar quality to the others.
     mutating func spoil(_ share: Double, seed: UInt64) {
       var random = SeededGenerator(seed: seed)
       let order = first.indices.map { ($0, random.next()) }.sorted { $0.1 < $1.1 }.map(\.0)
@@ -52,7 +52,7 @@ import Testing
       }
     }
 
-    /// Radians between the rotations and between the directions of the translations.
+    /// Errors in radians of the rotation and of the translation direction.
     func errors(of pose: RigidTransform) -> (rotation: Double, translation: Double) {
       let direction = secondFromFirst.translation.normalized
       let other = pose.translation.normalized
@@ -87,7 +87,7 @@ import Testing
         }
       }
     }
-    // Some samples are nearly degenerate and lose digits.
+    // Some samples are nearly degenerate and lose precision.
     errors.sort()
     #expect(errors[150] < 1e-11 && errors[290] < 1e-6 && errors[299] < 1e-3)
   }

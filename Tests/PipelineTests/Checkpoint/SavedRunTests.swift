@@ -8,7 +8,7 @@ import Testing
 
 @testable import Pipeline
 
-/// A run that is over: photos of a ball, exact cameras and an exact surface in a checkpoint directory.
+/// A finished run: photos of a ball, exact cameras and an exact surface in a checkpoint directory.
 private struct FinishedRun {
   let temporary: TemporaryFolder
   let reconstruction: Reconstruction
@@ -19,7 +19,7 @@ private struct FinishedRun {
   var photos: URL { folder.appendingPathComponent("photos", isDirectory: true) }
   var checkpoint: URL { folder.appendingPathComponent("work", isDirectory: true) }
 
-  /// `mask` is that of the first photo.
+  /// `mask` is the mask of the first photo.
   init(mask: RasterImage? = nil) throws {
     temporary = try TemporaryFolder()
     let scene = SphereScene(viewCount: 9, imageSize: 320) { p in
@@ -57,7 +57,7 @@ private struct FinishedRun {
 
   func file(_ name: String) -> URL { checkpoint.appendingPathComponent(name) }
 
-  /// Changes a file of the checkpoint.
+  /// Modifies a file of the checkpoint.
   func change(_ name: String, _ body: (inout Data) throws -> Void) throws {
     var data = try Data(contentsOf: file(name))
     try body(&data)
@@ -79,7 +79,7 @@ private struct FinishedRun {
     try SavedRun(checkpoint: checkpoint, photos: photos)
   }
 
-  /// What reading throws.
+  /// The error thrown on reading.
   func fault() -> SavedRunError? {
     do {
       _ = try saved()
@@ -108,7 +108,7 @@ private struct FinishedRun {
     let used = try #require(run.ingested.photos[0].mask)
     let moved = run.folder.appendingPathComponent("moved", isDirectory: true)
     try FileManager.default.copyItem(at: run.photos, to: moved)
-    // Masks that came later play no part.
+    // Masks that were added later are ignored.
     try run.temporary.write(ImageCodec.encodePNG(mask), as: "photos/masks/p1.png")
     for folder in [run.photos, moved] {
       let photos = try SavedPhotos().run(run.saved(photos: folder), StageContext()).photos
@@ -189,7 +189,7 @@ private struct FinishedRun {
     let run = try FinishedRun()
     let path = run.checkpoint.path
     try run.remove(run.photos.appendingPathComponent("p3.jpg"))
-    // This one had no pose.
+    // This photo had no pose.
     try run.remove(run.photos.appendingPathComponent("p4.jpg"))
     let photos = run.photos.standardizedFileURL.path
     #expect(run.fault() == .missingPhotos(folder: photos, names: ["p3.jpg"]))

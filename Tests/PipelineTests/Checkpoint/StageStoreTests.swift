@@ -106,7 +106,7 @@ import Testing
       try store { $0.isSequential = true }, try store { $0.isHighSensitivity = true },
     ]
     for store in others { #expect(store.reconstruction(of: ingested.photos, StageNotes()) == nil) }
-    // The surface's options and the machine play no part.
+    // The options of the surface and the machine are irrelevant.
     let same = [try store { $0.refinesSurface = true }, try store { $0.threadCount = 1 }]
     for store in same { #expect(store.reconstruction(of: ingested.photos, StageNotes()) != nil) }
   }

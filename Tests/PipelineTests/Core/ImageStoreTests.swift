@@ -81,7 +81,7 @@ import Testing
   @Test func pinholeViewsShowWhatTheCameraSees() throws {
     var camera = distorted
     camera.distortion = [-0.2, 0.05, 0.001, 0]
-    // Red is the column: a view's red tells where its pixel came from.
+    // Red encodes the column: it identifies the source of each pixel of the view.
     var image = RasterImage(width: 400, height: 300, channels: 3)
     for index in 0..<(400 * 300) { image.pixels[3 * index] = UInt8(index % 400 / 2) }
     let view = try ImageStore(images: [image]).pinholeView(
@@ -106,8 +106,8 @@ import Testing
     }
   }
 
-  /// Orientation 6 turns by 90 degrees, 405 has no half without remainder, and 800 / 250 is between
-  /// a quarter and a half.
+  /// Orientation 6 rotates by 90 degrees, 405 is not divisible by two, and 800 / 250 is between a
+  /// quarter and a half.
   @Test(arguments: [(800, 600, 1), (800, 600, 6), (405, 300, 1), (803, 601, 1)])
   func smallCopiesOfJPEGsAreThoseOfTheWhole(
     width: Int, height: Int, orientation: Int

@@ -6,7 +6,7 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// Photos in, USDZ out, against the exact cameras and surface of a rendered set.
+/// Photos in, USDZ out, compared with the exact cameras and surface of a rendered set.
 @Suite(.serialized) struct EndToEndTests {
   @Test func orbitIsReconstructed() throws {
     let folder = try TemporaryFolder()
@@ -68,7 +68,7 @@ import Testing
     #expect(!second.report.stages.map(\.name).contains("pointCloudGeneration"))
     #expect(second.report.warnings == first.report.warnings)
     #expect(second.report.meanReprojectionError == first.report.meanReprojectionError)
-    // Without the surface, and with an alignment that is damaged.
+    // Without the surface, and with a damaged alignment.
     let checkpoint = folder.url.appendingPathComponent("checkpoint")
     try FileManager.default.removeItem(at: checkpoint.appendingPathComponent("mesh/surface.ply"))
     let alignment = checkpoint.appendingPathComponent("stages/alignment")

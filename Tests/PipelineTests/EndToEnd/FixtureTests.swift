@@ -46,7 +46,7 @@ import Testing
         let z = (scene.poses[photo] * point.position).z
         let rows = max(0, Int(seen.pixel.y) - 1)...min(149, Int(seen.pixel.y) + 1)
         let columns = max(0, Int(seen.pixel.x) - 1)...min(199, Int(seen.pixel.x) + 1)
-        // The nearest of the pixels around, since depth jumps at outlines.
+        // The nearest of the surrounding pixels, because depth jumps at occlusion boundaries.
         let nearest = rows.flatMap { y in columns.map { x in abs(Double(depth[y * 200 + x]) - z) } }
         errors.append(nearest.min() ?? .infinity)
       }
@@ -55,7 +55,7 @@ import Testing
     }
   }
 
-  /// Lambertian surfaces: the same point has nearly the same colour in all photos.
+  /// Lambertian surfaces: a point has nearly the same color in all photos.
   @Test func colorsAgreeBetweenRenders() throws {
     var scene = RenderedScene.relief(photoCount: 3, width: 240, height: 180)
     scene.noise = 0

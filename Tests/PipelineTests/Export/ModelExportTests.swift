@@ -103,7 +103,7 @@ import Testing
     #expect(read.colors.count == read.positions.count)
   }
 
-  /// Names that file systems, URLs or shells treat in a way of their own.
+  /// Names with special meaning to file systems, URLs or shells.
   @Test(arguments: ["a b", "ü 模型", "%41#?&", "...", "-x", "it's \"it\"", "a\nb", "~", "*"])
   func namesStayAsTheyAre(_ name: String) throws {
     let folder = try TemporaryFolder()

@@ -11,7 +11,7 @@ import Testing
   private let background: [UInt8] = [238, 238, 238]
   private let backFace: [UInt8] = [140, 108, 140]
 
-  /// A mesh whose texture is laid over x and y, from `low` to `high`.
+  /// A mesh whose texture is mapped over x and y, from `low` to `high`.
   private func textured(
     _ mesh: Mesh, _ texture: RasterImage?, low: Float = -1, high: Float = 1
   ) -> TexturedMesh {
@@ -44,7 +44,7 @@ import Testing
       pixels: (0..<64).flatMap { _ in [color.x, color.y, color.z] })
   }
 
-  /// The colour of a texture as a formula.
+  /// Analytic color of a texture.
   private func reference(_ image: RasterImage, _ uv: SIMD2<Double>) -> SIMD3<Double> {
     let place = SIMD2(
       uv.x * Double(image.width) - 0.5, (1 - uv.y) * Double(image.height) - 0.5)
@@ -63,7 +63,7 @@ import Testing
 
   @Test func texturesAreSeenInPerspective() throws {
     let texture = TexturePattern.image(width: 12, height: 12, seed: 3)
-    // A floor that runs far away from the viewer.
+    // A floor that extends far away from the viewer.
     let mesh = SyntheticMesh.grid(
       cells: 1, origin: [-1, -1, 2], u: [2, 0, 0], v: [0, 2, -9])
     let (side, focal) = (160, 144.0)
@@ -87,7 +87,7 @@ import Testing
         let direction = SIMD3<Float>(pose.rotation.conjugate * SIMD3(ray.x, ray.y, 1))
         let center = SIMD3<Float>(pose.center)
         guard let hit = caster.hit(from: center, along: direction) else {
-          // On the rim the reference may see what a rounded vertex doesn't.
+          // At the boundary, the reference may see surface that rounding of the vertices hides.
           continue
         }
         let point = SIMD3<Double>(center + direction * hit.distance)
@@ -102,7 +102,7 @@ import Testing
     #expect(worst < 2.5)
   }
 
-  /// A texture that is much finer than the pixels shows its mean.
+  /// A texture much finer than the pixels appears as its mean.
   @Test func fineTexturesDoNotFlicker() throws {
     let side = 512
     let texture = RasterImage(
@@ -119,7 +119,7 @@ import Testing
     #expect(inside.allSatisfy { (123...132).contains($0) })
   }
 
-  /// Boxes, plates, needles and clouds of triangles, anywhere and of any size.
+  /// Boxes, plates, needles and triangle soups of any position and size.
   @Test func allOfTheModelIsInEachPicture() throws {
     var generator = SeededGenerator(seed: 5)
     let side = 40
@@ -153,7 +153,7 @@ import Testing
         }
       }
       #expect(low.min() > margin && (size - high).min() > margin, "round \(round)")
-      // As large as it can be.
+      // As large as possible.
       #expect((high - low).max() > 0.9 * Double(side) && size.max() == Double(side))
 
       let sheet = try ModelPreview(options).run(textured(mesh, nil), cameras: [], StageContext())
@@ -175,7 +175,7 @@ import Testing
       of: points, cameras: [], side: 99, KernelControl()
     ).poses
     #expect(poses.count == 8)
-    // The first viewer is on the side of +z, the next ones go on towards +x.
+    // The first viewer is on the side of +z, the next ones proceed toward +x.
     #expect(poses[0].center.z > 3 && abs(poses[0].center.x) < 1e-9 && poses[0].center.y > 0.5)
     #expect(poses[2].center.x > 3 && abs(poses[2].center.z) < 1e-9)
     #expect((poses[0] * SIMD3(1, 0, 0)).x > 0 && (poses[0] * SIMD3(0, 1, 0)).y < 0)
@@ -196,12 +196,12 @@ import Testing
     let inside = colors.count { $0 == backFace }
     let outside = colors.count { Int($0[0]) > 2 * Int($0[1]) }
     #expect(inside > 1000 && outside > 500)
-    // Nothing else is there.
+    // Only background remains.
     #expect(inside + outside + colors.count { $0 == background } == colors.count)
   }
 
   @Test func theNearerSurfaceIsSeen() throws {
-    // A red plate before a larger green one.
+    // A red plate in front of a larger green one.
     var mesh = SyntheticMesh.grid(cells: 1, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
     let near = SyntheticMesh.grid(
       cells: 1, origin: [-0.5, -0.5, 0.5], u: [1, 0, 0], v: [0, 1, 0])
@@ -266,7 +266,7 @@ import Testing
       cameras(azimuths: Array(stride(from: 3, to: 360, by: 17)), elevation: 33))
     #expect(degrees(directions).map { $0.rounded() } == [0, 45, 90, 135, 180, 225, 270, 315])
     #expect(directions.allSatisfy { abs($0.elevation * 180 / .pi - 33) < 1e-6 })
-    // A quarter may be missing.
+    // Up to a quarter may be missing.
     let most = Turntable().directions(
       cameras(azimuths: Array(stride(from: 0, to: 270, by: 10)), elevation: 20))
     #expect(degrees(most).last?.rounded() == 315)
@@ -281,7 +281,7 @@ import Testing
     let reach = (azimuths.max() ?? 0) - (azimuths.min() ?? 0)
     #expect((80...125).contains(reach) && directions.count == 8)
     #expect(directions.allSatisfy { abs($0.elevation * 180 / .pi - 10) < 1e-6 })
-    // All from one place.
+    // All from one position.
     let narrow = degrees(Turntable().directions(cameras(azimuths: [90, 91, 89], elevation: 15)))
     #expect(abs((narrow.min() ?? 0) - 50) < 1 && abs((narrow.max() ?? 0) - 130) < 1)
   }

@@ -6,11 +6,11 @@ import Testing
 @testable import Pipeline
 
 @Suite struct QuadPairingTests {
-  /// A mesh whose texture has no seam but the one that `seam` makes.
+  /// A mesh whose texture has no seam except the one that `seam` adds.
   private func textured(
     _ mesh: Mesh, seam: (SIMD3<Float>) -> Bool = { _ in false }
   ) -> TexturedMesh {
-    // The triangles on the far side of the seam have coordinates of their own.
+    // The triangles on the far side of the seam have separate coordinates.
     let count = UInt32(mesh.positions.count)
     let texture = mesh.triangles.map { t in
       let (a, b, c) = mesh.corners(of: t)
@@ -39,7 +39,7 @@ import Testing
     }
   }
 
-  /// Triangles whatever corner they begin with.
+  /// Triangles independent of their first corner.
   private func set(_ triangles: [Triangle]) -> Set<Triangle> {
     Set(
       triangles.map { t in

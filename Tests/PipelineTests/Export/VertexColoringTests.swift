@@ -4,7 +4,7 @@ import Testing
 @testable import Pipeline
 
 @Suite struct VertexColoringTests {
-  /// A triangle in an atlas whose red grows to the right and whose green grows downwards.
+  /// A triangle in an atlas whose red increases to the right and whose green increases downward.
   private func model() -> TexturedMesh {
     var image = RasterImage(width: 16, height: 16, channels: 3)
     for y in 0..<16 {
@@ -17,7 +17,7 @@ import Testing
       positions: [[0, 0, 0], [1, 0, 0], [0, 1, 0]], normals: [], triangles: [Triangle(0, 1, 2)])
     return TexturedMesh(
       mesh: mesh,
-      // The centre of a texel, the middle between four, the bottom right corner.
+      // The center of a texel, the midpoint between four, the bottom right corner.
       textureCoordinates: [[2.5 / 16, 1 - 4.5 / 16], [8.0 / 16, 1 - 12.0 / 16], [1, 0]],
       textureTriangles: [Triangle(0, 1, 2)],
       atlases: [TextureAtlas(triangles: 0..<1, maps: [.diffuseColor: image])])

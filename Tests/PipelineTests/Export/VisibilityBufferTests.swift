@@ -11,7 +11,7 @@ import Testing
     ScreenVertex(x: Int32(x), y: Int32(y), inverseDepth: 1 / depth)
   }
 
-  /// A place in a picture and somewhat around it, often on the centre of a sample.
+  /// A position in or near the picture, often at the center of a sample.
   private func place(_ generator: inout SeededGenerator) -> (x: Int, y: Int) {
     let range = -400...(side * 256 + 400)
     let (x, y) = (
@@ -48,7 +48,7 @@ import Testing
     }
   }
 
-  /// What neither an overlap nor a gap leaves unseen: a net over the whole picture.
+  /// Detects both overlaps and cracks: a mesh over the whole picture.
   @Test func neighboursShareNoSampleAndLeaveNone() {
     var generator = SeededGenerator(seed: 2)
     for isExact in [true, false] {
@@ -60,7 +60,7 @@ import Testing
           let shift = isInner ? step / 6 : 0
           var x = column * step - 256 + Int.random(in: -shift...shift, using: &generator)
           var y = row * step - 256 + Int.random(in: -shift...shift, using: &generator)
-          // On the centres of samples edges have to decide.
+          // At sample centers, the edge rule decides.
           if isExact, isInner { (x, y) = (x & ~255 | 128, y & ~255 | 128) }
           return vertex(x, y)
         }
@@ -70,7 +70,7 @@ import Testing
         for column in 0..<cells {
           let (a, b) = (net[row][column], net[row][column + 1])
           let (c, d) = (net[row + 1][column], net[row + 1][column + 1])
-          // One of the two is seen from behind.
+          // One of the two is a back face.
           for corners in [(a, b, d), (a, c, d)] {
             for (index, isCovered) in covered(corners.0, corners.1, corners.2).enumerated()
             where isCovered { counts[index] += 1 }
@@ -99,8 +99,8 @@ import Testing
     func corner(_ x: Int32, _ y: Int32, _ inverseDepth: Float) -> ScreenVertex {
       ScreenVertex(x: x, y: y, inverseDepth: inverseDepth)
     }
-    // One is upright at depth 2; the other goes from depth 1 on the left to infinity on the right,
-    // so that half way its inverse depth is that of the first.
+    // One is perpendicular at depth 2; the other extends from depth 1 on the left to infinity on
+    // the right, so that halfway its inverse depth equals that of the first.
     var buffer = VisibilityBuffer(width: side, height: side)
     buffer.draw(
       0, corner(-size, -size, 0.5), corner(3 * size, -size, 0.5), corner(-size, 3 * size, 0.5))

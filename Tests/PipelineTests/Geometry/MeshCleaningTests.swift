@@ -6,12 +6,12 @@ import Testing
 @testable import Pipeline
 
 @Suite struct MeshCleaningTests {
-  /// A tetrahedron whose faces look outwards.
+  /// A tetrahedron whose faces point outward.
   private func tetrahedron(_ a: UInt32, _ b: UInt32, _ c: UInt32, _ d: UInt32) -> [Triangle] {
     [Triangle(a, c, b), Triangle(a, b, d), Triangle(b, c, d), Triangle(c, a, d)]
   }
 
-  /// How many faces each edge has on its left, and how many on its right.
+  /// The number of faces on the left and on the right of each edge.
   private func sides(_ mesh: Mesh) -> [SIMD2<UInt32>: SIMD2<Int>] {
     var result: [SIMD2<UInt32>: SIMD2<Int>] = [:]
     for triangle in mesh.triangles {
@@ -61,8 +61,8 @@ import Testing
   }
 
   @Test func edgesWithoutLengthLeaveNoHole() throws {
-    // A closed strip around two poles, each a fan; the upper pole is there twice, and two faces
-    // without area join both.
+    // A closed strip around two poles, each a fan; the upper pole is duplicated, and two degenerate
+    // faces join both copies.
     let ring = (0..<6).map { index -> SIMD3<Float> in
       let angle = Float(index) * .pi / 3
       return [cos(angle), sin(angle), 0]

@@ -3,16 +3,16 @@ import Pipeline
 import SceneModel
 import TestSupport
 
-/// What alignment makes of a folder of rendered photos.
+/// The result of aligning a folder of rendered photos.
 struct AlignedScene {
   let reconstruction: Reconstruction
-  /// Of the rendered photos that have a pose.
+  /// Errors of the poses of the rendered photos.
   let poses: PoseComparison
   let notes: StageNotes
 
   var warnings: [String] { notes.warnings }
 
-  /// Renders, writes, reads and aligns the photos of a scene, with photos of other things among them.
+  /// Renders, writes, reads and aligns the photos of a scene, together with unrelated photos.
   init(_ scene: RenderedScene, strangers: Int = 0, hasMetadata: Bool = true) throws {
     var scene = scene
     scene.samplesPerSide = 1

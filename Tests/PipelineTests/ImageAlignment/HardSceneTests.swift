@@ -5,9 +5,9 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// Photos that are hard to align: what comes out is right, and what can't be used is named.
+/// Photos that are hard to align: results are correct, and unusable photos are reported by name.
 @Suite(.serialized) struct HardSceneTests {
-  /// Every photo has a pose or a reason that names it.
+  /// Checks that every photo has a pose or a reason that contains its name.
   private func expectAccounts(_ result: Reconstruction) {
     let missing = Set(result.unregistered.map(\.name))
     #expect(missing.count == result.photos.count - result.registered.count)

@@ -23,7 +23,7 @@ import Testing
       })
   }
 
-  /// The background says that the camera stood still, and masks that it is to be ignored.
+  /// The background indicates a static camera; masks exclude it.
   @Test func turntableNeedsMasks() throws {
     var scene = RenderedScene.statue(photoCount: 20, upperCount: 0, width: 480, height: 360)
     scene.samplesPerSide = 1

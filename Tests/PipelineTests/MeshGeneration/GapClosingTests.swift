@@ -4,7 +4,7 @@ import Testing
 @testable import Pipeline
 
 @Suite struct GapClosingTests {
-  /// A square of 40 × 40 cells with a dome on its middle, within `radius` of the centre.
+  /// A square of 40 × 40 cells with a dome at its center, within `radius`.
   func dome(radius: Float) -> (mesh: Mesh, isDome: [Bool]) {
     var mesh = Mesh()
     for y in 0...40 {
@@ -47,7 +47,7 @@ import Testing
     let (mesh, isDome) = dome(radius: 10)
     let open = GapClosing().run(mesh, isRemoved: isDome) { $0.x > 0 }
     #expect(open.triangles.count == isDome.count { !$0 })
-    // What was in the way of the dome is not in that of the membrane.
+    // What occludes the dome doesn't occlude the membrane.
     let closed = GapClosing().run(mesh, isRemoved: isDome) { $0.y > 1 }
     #expect(closed.triangles == mesh.triangles)
   }
@@ -60,7 +60,7 @@ import Testing
     let closed = GapClosing().run(mesh, isRemoved: isDome, support: support) { $0.x > 0 }
     #expect(closed.triangles == mesh.triangles)
     #expect(closed.positions[41 * 20 + 20].y == -0.1)
-    // Between there and the rim it slopes.
+    // Between the support and the boundary it slopes.
     let slope = (20...35).map { closed.positions[41 * 20 + $0].y }
     #expect(zip(slope, slope.dropFirst()).allSatisfy { $0 <= $1 && $1 - $0 < 0.05 })
     #expect(slope.last == 0)
@@ -68,7 +68,7 @@ import Testing
 
   @Test func balloonOverAFewFacesGoes() {
     let (mesh, _) = dome(radius: 10)
-    // Of a sheet with a dome only the outermost cells are kept.
+    // Of a plane with a dome, only the outermost cells are kept.
     let isRemoved = mesh.triangles.map { triangle in
       triangle.vertices.allSatisfy {
         max(abs(mesh.positions[$0].x), abs(mesh.positions[$0].z)) < 18.5
@@ -79,7 +79,7 @@ import Testing
     closing.options.smallShare = 0.95
     let kept = isRemoved.count { !$0 }
     #expect(closing.run(mesh, isRemoved: isRemoved) { _ in false }.triangles.count == kept)
-    // As a closure of an object it stays.
+    // As part of an object's surface it stays.
     closing.options.closesLarge = true
     closing.options.smallShare = 0.05
     let closed = closing.run(mesh, isRemoved: isRemoved) { _ in false }
@@ -101,7 +101,7 @@ import Testing
   }
 
   @Test func gapWithABorderIsClosedWithALid() {
-    // What goes is a plate around the dome that ends somewhere: nothing but the lid can close it.
+    // The removed part is an open plate around the dome: only a cap can close it.
     let (mesh, isDome) = dome(radius: 10)
     let closed = GapClosing().run(mesh, isRemoved: isDome.map { !$0 }) { _ in false }
     #expect(closed.triangles.count == mesh.triangles.count + 4 * 40)
@@ -112,7 +112,7 @@ import Testing
       }
     }
     #expect(directed.allSatisfy { directed.contains([$0.y, $0.x]) })
-    // The membrane hangs in the rim of the dome.
+    // The membrane spans the boundary of the dome.
     let rim = zip(mesh.positions, closed.positions).filter { $0 != $1 }.map(\.1)
     #expect(rim.count > 1000)
     #expect(rim.allSatisfy { abs($0.x) < 12 && abs($0.z) < 12 && abs($0.y) < 6 })

@@ -10,13 +10,13 @@ struct IsolationScene {
   /// Side of a surface element, world units.
   var spacing = 0.02
   var cameraDistance = 3.0
-  /// Cameras on two rings; those of the upper one look more from above.
+  /// Cameras on two rings; those of the upper one look down more steeply.
   var photoCount = 16
   private(set) var cloud = PointCloud()
-  /// What each point belongs to, as given to `add`.
+  /// The label of each point, as passed to `add`.
   private(set) var labels: [Int] = []
 
-  /// The cameras look at `target`.
+  /// The cameras are aimed at `target`.
   func reconstruction(target: SIMD3<Double> = [0, 0.4, 0], arc: Double = 2 * .pi) -> Reconstruction
   {
     let camera = Camera(width: 800, height: 600, focalLength: [900, 900])
@@ -60,7 +60,7 @@ struct IsolationScene {
     labels.append(label)
   }
 
-  /// Points of a ball, evenly spread; `keeps` says which part of it.
+  /// Evenly spaced points of a ball; `keeps` selects a part of it.
   mutating func addBall(
     center: SIMD3<Double>, radius: Double, label: Int, centers: [SIMD3<Double>],
     keeps: (SIMD3<Double>) -> Bool = { _ in true }
@@ -76,7 +76,7 @@ struct IsolationScene {
     }
   }
 
-  /// Points of the plane `normal · x = 0` within `radius` of its foot, with a little relief.
+  /// Points of the plane `normal · x = 0` within `radius` of its origin, with slight relief.
   mutating func addPlane(
     normal: SIMD3<Double> = [0, 1, 0], radius: Double, label: Int, centers: [SIMD3<Double>],
     keeps: (SIMD3<Double>) -> Bool = { _ in true }

@@ -6,8 +6,8 @@ import Testing
 
 @testable import Pipeline
 
-/// Cloud, surface and texture of photos with masks. These leave the lower part of a statue out,
-/// which nothing but masks can tell from the upper one.
+/// Cloud, surface and texture from photos with masks. The masks exclude the lower part of a statue,
+/// which nothing else separates from the upper part.
 @Suite(.serialized) struct MaskedModelTests {
   private static let limit: Float = 0.1
 
@@ -23,7 +23,7 @@ import Testing
       masks = scene.poses.indices.map { [scene] index in
         scene.mask(index) { $0.y > MaskedModelTests.limit }
       }
-      // One photo goes without, and one has a fault.
+      // One photo has no mask, and one mask is damaged.
       masks[3] = nil
       masks[7]?.pixels = [UInt8](repeating: 255, count: 240 * 180)
     }
@@ -44,7 +44,7 @@ import Testing
     #expect(cloud.positions == again.positions && cloud.photoIndices == again.photoIndices)
     #expect(notes.counts["pointsOutsideMasks"] != nil)
     #expect(cloud.count > 1500)
-    // A pixel is 2.2 mm wide, and masks are a pixel too wide.
+    // A pixel is 2.2 mm wide, and the masks are one pixel too wide.
     #expect(cloud.positions.allSatisfy { $0.y > limit - 0.008 })
 
     let reconstruction = scene.reconstruction()
@@ -60,7 +60,7 @@ import Testing
     #expect(bounds.min.y > limit - 0.015 && bounds.min.y < limit + 0.01)
     #expect(bounds.max.y > 0.24)
 
-    // Only what is beside the masks has this colour.
+    // Only areas outside the masks have this color.
     var photos = masked.photos
     for (index, mask) in masked.masks.enumerated() {
       for pixel in 0..<240 * 180 where (mask?.pixels[pixel] ?? 0) == 0 {
@@ -69,7 +69,7 @@ import Testing
     }
     func strayTexels(_ masks: [RasterImage?]) throws -> Int {
       var options = TextureMapping.Options(textureSide: 256, maps: [.diffuseColor])
-      // Without masks nothing else is to tell what is beside them.
+      // Without masks, nothing else may exclude these areas.
       if masks.isEmpty { options.candidates.outliers.colorTolerance = .infinity }
       let model = try TextureMapping(options: options).run(
         mesh, dense: mesh, reconstruction: reconstruction,

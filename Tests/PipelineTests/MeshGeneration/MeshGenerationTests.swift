@@ -13,14 +13,14 @@ import Testing
     var scene = IsolationScene()
     scene.photoCount = photoCount
     let reconstruction = scene.reconstruction(target: .zero)
-    // All sides of the ball have points, also those that no photo sees.
+    // All sides of the ball have points, including those that no photo sees.
     let centers = reconstruction.poses.compactMap { $0?.center }
     scene.addBall(
       center: .zero, radius: 0.5, label: 1, centers: centers + centers.map { -$0 }, keeps: keeps)
     return (withVisibility(scene.cloud) { $1 < photoCount }, reconstruction)
   }
 
-  /// The cloud with the photos for which `sees` says so.
+  /// The cloud with the photos for which `sees` is true.
   func withVisibility(
     _ all: PointCloud, sees: (SIMD3<Double>, Int) -> Bool
   ) -> PointCloud {
@@ -44,7 +44,7 @@ import Testing
     return along > 0 && (point + along * direction - middle).length < radius
   }
 
-  /// Edges with one face only.
+  /// Number of edges with only one face.
   func openEdges(_ mesh: Mesh) -> Int {
     var edges = Set<SIMD2<UInt32>>()
     for t in mesh.triangles {
@@ -62,7 +62,7 @@ import Testing
     }
   }
 
-  /// The part of the ball below a height over its middle.
+  /// The volume of the ball below a height above its center.
   func volumeOfBall(under height: Double) -> Double {
     let h = 0.5 + height
     return .pi * h * h * (0.5 - h / 3)
@@ -100,7 +100,7 @@ import Testing
     #expect(meshes[0].colors == meshes[1].colors)
   }
 
-  /// Faces above or below a height.
+  /// Number of faces that satisfy the predicate.
   func faces(_ mesh: Mesh, where isIncluded: (SIMD3<Float>) -> Bool) -> Int {
     mesh.triangles.count { triangle in
       let (a, b, c) = mesh.corners(of: triangle)
@@ -126,7 +126,7 @@ import Testing
     let closed = try trimmed(balloon, cloud, reconstruction)
     #expect(openEdges(closed) == 0)
     #expect(faces(closed, where: isBulge) == 0)
-    // Supported is what is less than 2.5 spacings from a sample.
+    // Surface within 2.5 spacings of a sample is supported.
     #expect(volume(closed) > 0.99 * volumeOfBall(under: 0.17))
     #expect(volume(closed) < 1.01 * volumeOfBall(under: 0.17 + 2.5 * 0.02))
     #expect(openEdges(try trimmed(balloon, cloud, reconstruction, closesLarge: false)) > 10)

@@ -22,7 +22,7 @@ import Testing
   }
 
   /// The share of the points with a label that are kept; points within `band` of the support are
-  /// left out, as they belong to both.
+  /// ignored, as they belong to both.
   func keptShare(
     _ result: ObjectIsolation.Result, _ scene: IsolationScene, label: Int
   ) -> Double {

@@ -22,7 +22,7 @@ import Testing
     return mesh
   }
 
-  /// How long the line between kept and removed faces is, in edges.
+  /// The length of the boundary between kept and removed faces, in edges.
   func rimLength(_ mesh: Mesh, _ isRemoved: [Bool]) -> Int {
     var sides: [SIMD2<UInt32>: Set<Bool>] = [:]
     for (triangle, isRemoved) in zip(mesh.triangles, isRemoved) {
@@ -33,7 +33,7 @@ import Testing
     return sides.values.count { $0.count == 2 }
   }
 
-  /// Kept where x is less than the middle and a tooth or notch of its own in each row.
+  /// Kept where x is less than the middle, plus a different spike or notch in each row.
   func ragged(_ mesh: Mesh, side: Float) -> [Bool] {
     var random = SeededGenerator(seed: 6)
     let ends = (0..<Int(side)).map { _ in side / 2 + Float.random(in: -4...4, using: &random) }
@@ -57,7 +57,7 @@ import Testing
     let isRemoved = mesh.triangles.map { mesh.center(of: $0).x > 30 }
     let smooth = RimSmoothing().run(mesh, isRemoved: isRemoved) { _ in true }
     for (index, triangle) in mesh.triangles.enumerated() where smooth[index] != isRemoved[index] {
-      // Where the sheet ends a vertex has faces on one side only.
+      // At the border of the plane, vertices have faces on one side only.
       let center = mesh.center(of: triangle)
       #expect(abs(center.x - 30) < (center.z < 2 || center.z > 58 ? 2 : 1))
     }
@@ -84,7 +84,7 @@ import Testing
         mesh.triangles += [Triangle(a, a + 4, b), Triangle(b, a + 4, b + 4)]
       }
     }
-    // Its lower quarter has no support.
+    // Its lower quarter is unsupported.
     let isRemoved = mesh.triangles.map { mesh.center(of: $0).y < 10 }
     let smooth = RimSmoothing().run(mesh, isRemoved: isRemoved) { _ in true }
     for (triangle, isRemoved) in zip(mesh.triangles, smooth) {

@@ -4,7 +4,7 @@ import SceneModel
 import Testing
 
 @Suite struct CloudMetricsTests {
-  /// A block of 20 × 10 × 5 points, 0.1 apart, and one stray.
+  /// A block of 20 × 10 × 5 points, 0.1 apart, and one outlier.
   private let cloud: PointCloud = {
     var cloud = PointCloud()
     for index in 0..<1000 {

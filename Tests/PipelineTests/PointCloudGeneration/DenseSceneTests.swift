@@ -5,10 +5,11 @@ import SceneModel
 import TestSupport
 import Testing
 
-/// Clouds of rendered scenes with exact cameras against the exact surface. The floors are a little
-/// below what is reached.
+/// Clouds of rendered scenes with exact cameras, compared with the exact surface. The thresholds
+/// are slightly below the measured scores.
 @Suite struct DenseSceneTests {
-  /// A pixel of these photos shows 1.3 mm of the object; scores are at one and at two.
+  /// A pixel of these photos covers 1.3 mm of the object; scores are at distances of one and two
+  /// pixels.
   static let thresholds = [0.0013, 0.0026]
 
   static let rich = Result { try scores(.rich) }
@@ -41,7 +42,8 @@ import Testing
     #expect(scores[1].recall > 0.75)
   }
 
-  /// A tenth of the contrast, and less in some regions: less is found, and hardly worse.
+  /// A tenth of the contrast, and less in some regions: completeness is lower, accuracy nearly
+  /// equal.
   @Test func lowTexture() throws {
     let (rich, low) = (try Self.rich.get(), try Self.scores(.lowTexture))
     #expect(low.thresholds[0].precision > 0.9)

@@ -49,7 +49,7 @@ import Testing
     func content(_ name: String) throws -> [UInt8] {
       [UInt8](try Data(contentsOf: folder.url.appendingPathComponent(name)))
     }
-    // The last steps' files are gone, so that those before are looked at.
+    // The last steps' files are removed, so that those of the earlier steps are checked.
     for name in try names(folder.url)
     where name.hasSuffix(".cloud") || name.contains(".completed") {
       try FileManager.default.removeItem(at: folder.url.appendingPathComponent(name))
@@ -213,7 +213,7 @@ import Testing
     }
   }
 
-  /// Two jobs at the same time, and one that finds all that it needs of other views there.
+  /// Two concurrent jobs, and one that finds all inputs from other views finished.
   @Test func jobsShareTheWork() throws {
     let folder = try TemporaryFolder()
     let url = folder.url

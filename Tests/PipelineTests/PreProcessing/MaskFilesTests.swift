@@ -29,7 +29,7 @@ import Testing
     #expect(files.strays.map(\.lastPathComponent) == ["e_MASK.jpg"])
   }
 
-  /// Without a single pair the name says nothing: somebody may photograph masks.
+  /// Without a matching photo the name is no evidence: photos may depict masks.
   @Test func photosOfMasksAreKept() {
     let names = ["african_mask.jpg", "golden_mask.jpg", "_mask.jpg"]
     let files = MaskFiles(files: urls(names), maskFiles: [])

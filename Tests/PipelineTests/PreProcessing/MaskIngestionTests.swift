@@ -15,7 +15,7 @@ import Testing
       width: Self.width, height: Self.height, seed: 5, shift: [40 * Double(number), 0])
   }
 
-  /// Marks a rectangle that no turn and no mirror maps onto itself.
+  /// Marks a rectangle that no rotation or reflection maps onto itself.
   private func mask(width: Int = width, height: Int = height, value: UInt8 = 255) -> RasterImage {
     var mask = RasterImage(width: width, height: height, channels: 1)
     for y in height / 8..<height / 2 {
@@ -30,7 +30,7 @@ import Testing
       contentHashes: ingested.contentHashes)
   }
 
-  /// Share of the pixels in which two masks differ.
+  /// Fraction of the pixels in which two masks differ.
   private func difference(_ a: RasterImage?, _ b: RasterImage) throws -> Double {
     let a = try #require(a)
     #expect((a.width, a.height, a.channels) == (b.width, b.height, 1))
@@ -48,7 +48,7 @@ import Testing
     return try PhotoIngestion(options).run(folder: folder.url, StageContext(notes: notes))
   }
 
-  /// One photo for each case, so that the reason of each is told apart.
+  /// One photo per case, so that the reasons can be distinguished.
   @Test func masksAreUsedOrNamed() throws {
     let folder = try TemporaryFolder()
     for number in 0..<7 {
@@ -72,7 +72,7 @@ import Testing
     let reasons = result.refusedMasks.map(\.reason)
     #expect(reasons.count == 4)
     #expect(reasons[0].hasPrefix("2_mask.png") && reasons[0].contains("320 × 320"))
-    #expect(reasons[1].hasPrefix("3_mask.png") && reasons[1].contains("nothing"))
+    #expect(reasons[1].hasPrefix("3_mask.png") && reasons[1].contains("no pixel"))
     #expect(reasons[2].hasPrefix("4_mask.png") && reasons[2].contains("text file"))
     #expect(reasons[3].hasPrefix("9_mask.png") && reasons[3].contains("without a photo"))
     #expect(notes.counts["masks"] == 3 && notes.counts["refusedMasks"] == 4)
@@ -90,7 +90,7 @@ import Testing
     #expect(abs(coverage - 0.15 * 0.375) < 0.002)
   }
 
-  /// With masking off masks are not read, and are no photos either.
+  /// With masking disabled, masks are not read and don't count as photos either.
   @Test func masksMayBeIgnored() throws {
     let folder = try TemporaryFolder()
     try folder.write(ImageCodec.encodePNG(photo()), as: "a.png")
@@ -108,7 +108,7 @@ import Testing
     let colors = photo()
     for pixel in 0..<Self.width * Self.height {
       for channel in 0..<3 { cut.pixels[4 * pixel + channel] = colors.pixels[3 * pixel + channel] }
-      // A trace of what was cut away.
+      // A faint remainder of what was cut away.
       cut.pixels[4 * pixel + 3] = pixel % Self.width < 100 ? 255 : 20
     }
     try folder.write(ImageCodec.encodePNG(cut), as: "a.png")
@@ -149,7 +149,7 @@ import Testing
     #expect(result.refusedMasks[0].reason.contains("b.png"))
   }
 
-  /// A photo as a camera stores it that is held in some way, and its mask as it is shown or as stored.
+  /// Writes a photo in stored orientation, and its mask in upright or in stored orientation.
   private func write(
     _ number: Int, _ orientation: Int, maskAsStored: Bool, to folder: TemporaryFolder
   ) throws {
@@ -164,7 +164,8 @@ import Testing
     try folder.write(ImageCodec.encodePNG(shown), as: "\(number)_mask.png")
   }
 
-  /// Photos on their side tell in which orientation masks are, also for those upside down.
+  /// Photos in portrait orientation determine the orientation of all masks, including those of
+  /// upside-down photos.
   @Test(arguments: [false, true]) func orientationFollowsTheSet(maskAsStored: Bool) throws {
     let folder = try TemporaryFolder()
     for orientation in 1...8 {
@@ -178,7 +179,7 @@ import Testing
     }
   }
 
-  /// A mask with EXIF data of its own is turned by these.
+  /// A mask with EXIF data is rotated accordingly.
   @Test func masksMayHaveAnOrientation() throws {
     let folder = try TemporaryFolder()
     try folder.write(ImageCodec.encodePNG(photo()), as: "a.png")

@@ -8,7 +8,7 @@ import Testing
 @testable import Pipeline
 
 @Suite struct PhotoIngestionTests {
-  /// Sharp JPEGs of one scene that moves a little from photo to photo.
+  /// Sharp JPEGs of one scene that shifts slightly from photo to photo.
   private func photos(_ count: Int, step: Double = 3) throws -> [[UInt8]] {
     try (0..<count).map { index in
       try ImageCodec.encodeJPEG(
@@ -78,7 +78,7 @@ import Testing
     #expect(result.refused.map(\.fault) == [.unsupportedFormat])
   }
 
-  /// The photos of a slow turntable differ little and must all stay.
+  /// The photos of a slow turntable differ little; all of them must be kept.
   @Test func neighboursAreNoDuplicates() throws {
     let folder = try TemporaryFolder()
     for (index, bytes) in try photos(12, step: 1.5).enumerated() {

@@ -8,7 +8,7 @@ import Testing
 @testable import Pipeline
 
 @Suite struct SensorFilesTests {
-  /// An uncompressed TIFF file of one strip of 32-bit floating-point numbers.
+  /// An uncompressed TIFF file with one strip of 32-bit floating-point numbers.
   private func tiff(width: Int, height: Int, _ values: [Float]) -> [UInt8] {
     func little(_ value: Int, _ count: Int = 4) -> [UInt8] {
       (0..<count).map { UInt8(truncatingIfNeeded: value >> (8 * $0)) }
@@ -24,7 +24,7 @@ import Testing
       + fields.flatMap { little($0.0, 2) + little($0.1, 2) + little(1) + little($0.2) } + little(0)
   }
 
-  /// A photo as a phone writes it: HEIC, turned by its own box and by EXIF alike.
+  /// A photo as a phone writes it: HEIC, with the orientation in its `irot` box and in EXIF.
   private func heic(orientation: Int, seed: UInt32) throws -> [UInt8] {
     var fields = ExifFields()
     fields.orientation = orientation
@@ -52,7 +52,7 @@ import Testing
     let result = try PhotoIngestion().run(folder: folder.url, StageContext(notes: notes))
     #expect(result.photos.map(\.name) == ["IMG_1.HEIC", "IMG_2.HEIC", "IMG_3.HEIC"])
     #expect(result.photos[0].orientation == 1 && result.photos[0].width == 320)
-    // What belongs to no photo is a file like any other.
+    // A reading without a photo is treated like any other file.
     #expect(result.refused.map(\.name) == ["other_gravity.txt"])
     #expect(Array(result.readings.keys) == [result.photos[0].sampleID])
     let reading = try #require(result.readings[result.photos[0].sampleID])

@@ -22,7 +22,7 @@ import Testing
     let bounds = try #require(parts.inside.bounds)
     #expect((bounds.min - [-1, -1, -1]).length < 1e-6 && (bounds.max - [0.1, 1, 1]).length < 1e-6)
     #expect(abs(area(parts.inside) - (4 + 4 * 2 * 1.1)) < 1e-4)
-    // Open at the cut and nowhere else: triangles share the vertices there.
+    // Open only at the cut, where triangles share the vertices.
     let open = border(parts.inside)
     #expect(open.allSatisfy { abs($0.x - 0.1) < 1e-6 && abs($1.x - 0.1) < 1e-6 })
     #expect(abs(open.map { ($0 - $1).length }.reduce(0, +) - 8) < 1e-4)
@@ -79,7 +79,7 @@ import Testing
 }
 
 @Suite struct AffineMapTests {
-  /// The volume that a closed mesh encloses; negative where it is inside out.
+  /// The volume that a closed mesh encloses; negative if it is inside out.
   private func volume(_ mesh: Mesh) -> Float {
     mesh.triangles.reduce(0) { sum, triangle in
       let (a, b, c) = mesh.corners(of: triangle)
@@ -106,7 +106,7 @@ import Testing
     let expected = Mesh(positions: after.mesh.positions, triangles: after.mesh.triangles)
       .angleWeightedNormals()
     for (n, e) in zip(after.mesh.normals, expected) { #expect(n.dot(e) > 0.98) }
-    // Corners keep their place in the texture.
+    // Corners keep their texture coordinates.
     for (t, uv) in zip(after.mesh.triangles, after.textureTriangles) { #expect(t == uv) }
   }
 

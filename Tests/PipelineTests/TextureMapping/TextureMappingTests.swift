@@ -28,7 +28,7 @@ import Testing
       StageContext(control: KernelControl(threadCount: threads)))
   }
 
-  /// Position and texture colour at the middles of the triangles.
+  /// Position and texture color at the centers of the triangles.
   private func samples(
     _ model: TexturedMesh
   ) throws -> [(position: SIMD3<Float>, color: SIMD3<Float>)] {
@@ -68,7 +68,7 @@ import Testing
   @Test func exposureDifferencesAreLevelled() throws {
     let scene = SphereScene(viewCount: 14, gains: [0.85, 1.1], color: Self.color)
     let model = try texture(scene)
-    // One gain for the whole model is free.
+    // One gain for the whole model is arbitrary.
     let all = try samples(model)
     let expected = all.map { Self.color($0.position) }
     let ratio = all.map(\.color.x).reduce(0, +) / expected.map(\.x).reduce(0, +)
@@ -80,7 +80,7 @@ import Testing
 
   @Test func photosDontSeeThroughWhatIsCutOff() throws {
     let scene = SphereScene(viewCount: 12, color: Self.color)
-    // A cap before the upper part of the sphere, which no photo shows then.
+    // A cap that occludes the upper part of the sphere in all photos.
     var cap = SyntheticMesh.sphere(radius: 1.2, subdivisions: 4)
     cap.triangles.removeAll { t in t.vertices.contains { cap.positions[$0].y < 0 } }
     let model = try TextureMapping(options: .init(textureSide: 512, maps: [.diffuseColor])).run(
@@ -97,7 +97,7 @@ import Testing
 
   @Test func whatNoPhotoSeesIsFilledFromItsSurroundings() throws {
     var scene = SphereScene(viewCount: 12, color: Self.color)
-    // Only the cameras above remain.
+    // Only the upper cameras remain.
     for index in 6..<12 { scene.reconstruction.poses[index] = nil }
     let all = try samples(texture(scene))
     #expect(all.allSatisfy { $0.color.min() > 40 })
@@ -167,7 +167,7 @@ import Testing
       let difference = sample.color - Self.color(sample.position)
       #expect(pointwiseMax(difference, -difference).max() < 12)
     }
-    // Where one is enough there is one.
+    // If one is sufficient, there is only one.
     #expect(try texture(scene, side: 2048) { $0.maximumAtlases = 3 }.atlases.count == 1)
   }
 

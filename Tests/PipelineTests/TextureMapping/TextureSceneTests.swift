@@ -6,8 +6,8 @@ import Testing
 
 @testable import Pipeline
 
-/// What goes wrong in photos must not be seen in the texture: held against photos that were not
-/// used, it is nearly as good as that of clean photos.
+/// Disturbances in photos must not be visible in the texture: compared with held-out photos, it is
+/// nearly as good as from clean photos.
 @Suite struct TextureSceneTests {
   private static let (width, fineness) = (200, 0.1)
   private static let control = KernelControl(threadCount: 2)
@@ -16,7 +16,7 @@ import Testing
     try [0, 2, 4].map { (index: $0, image: try held.photo($0, control)) }
   }
 
-  /// The model of the exact surface and cameras.
+  /// The model with the exact surface and cameras.
   private func model(of kind: TextureScene) throws -> TexturedMesh {
     let scene = kind.scene(
       width: Self.width, poses: DenseScene.sweep(count: 16), fineness: Self.fineness)
@@ -26,8 +26,8 @@ import Testing
       StageContext(control: Self.control))
   }
 
-  /// The peak signal-to-noise ratio of the colours in the triangles' middles, in decibels. One gain
-  /// a channel and photo is free.
+  /// The peak signal-to-noise ratio in decibels of the colors at the triangles' centers. One gain
+  /// per channel and photo is arbitrary.
   private func ratio(of kind: TextureScene) throws -> Double {
     let model = try model(of: kind)
     let photos = try Self.heldPhotos.get()
@@ -54,7 +54,7 @@ import Testing
     return 10 * log10(255 * 255 / (errors.reduce(0, +) / Double(errors.count)))
   }
 
-  /// The colour at a position, bilinear.
+  /// The color at a position, bilinear.
   private static func sample(_ image: RasterImage, _ position: SIMD2<Double>) -> SIMD3<Double> {
     let limit = SIMD2(Double(image.width), Double(image.height)) - 1.001
     let p = (position - 0.5).clamped(lowerBound: .zero, upperBound: limit)

@@ -61,7 +61,7 @@ import Testing
     #expect(rated.qualities[1] > 2 * rated.qualities[0])
   }
 
-  /// A strip of a grid is hidden by a thing that in its middle has the colour of the surface.
+  /// A strip of a grid is hidden by an occluder whose middle has the color of the surface.
   @Test func aThingIsLeftOutWithItsRimAndWhatLooksAlike() throws {
     let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     let gray = SIMD3<Float>(repeating: 100)
@@ -89,7 +89,7 @@ import Testing
     }
   }
 
-  /// The same strip; its lower end is seen by one photo alone, and by two a little higher.
+  /// The same strip; one photo sees its lower end, and two see the part above it.
   @Test func aThingIsFollowedWhereFewPhotosSeeTheSurface() throws {
     let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     func middle(_ face: Int) -> SIMD3<Float> {
@@ -113,7 +113,7 @@ import Testing
       if entry.view != 1 || distance > 0.3 { #expect(!isOutlier) }
       if entry.view == 1, distance < 0.2 { #expect(isOutlier) }
     }
-    // Beside the thing the only view stays.
+    // Next to the occluder, the only view stays.
     let beside = zip(views.entries, isOutlier).filter {
       middle(Int($0.0.face)).y < 0.2 && abs(middle(Int($0.0.face)).x - 0.5) > 0.2
     }
@@ -135,7 +135,7 @@ import Testing
   }
 
   @Test func gainsOfPhotosAreFound() throws {
-    // Three photos see 300 triangles; the second is darker, the third brighter in red.
+    // Three photos see 300 triangles; the second is darker, the third has stronger red.
     let truth: [SIMD3<Float>] = [.one, .init(repeating: 0.8), [1.25, 1, 1]]
     var generator = SeededGenerator(seed: 1)
     let colors = (0..<300).map { _ in
@@ -143,7 +143,7 @@ import Testing
     }
     let byView = truth.map { gain in
       colors.enumerated().map { face, color in
-        // As exposure acts on what sRGB stores.
+        // As exposure affects the values stored in sRGB.
         FaceObservation(
           face: Int32(face), area: 10, cosine: 0.8, gradient: 1,
           color: (color + ExposureGain.foot) * gain - ExposureGain.foot)

@@ -1,17 +1,18 @@
 import Foundation
 import SceneModel
 
-/// Makes descriptors like root-SIFT's, of length 512: each a mixture of one of a few hundred kinds of
-/// texture and a part of its own, that changes with the view.
+/// Creates descriptors similar to RootSIFT's, of length 512: each is a mixture of one of a few
+/// hundred kinds of texture and an individual part that changes with the view.
 struct GrowthDescriptors: Sendable {
   private static let kinds = 256
   private static let share: Float = 0.35
-  /// How fast descriptors change with the direction of view (1 for 90°) and the octave of scale.
+  /// Change of the descriptors with the viewing direction (1 for 90°) and per octave of scale.
   private static let viewGain: Float = 0.25
   private static let scaleGain: Float = 0.1
   private static let noise: Float = 0.05
 
-  /// Long tables that descriptors take slices of: drawing each number would take minutes.
+  /// Long tables that descriptors are slices of: drawing each number individually would take
+  /// minutes.
   private let texture, gradients: [Float]
 
   init(_ random: inout SeededGenerator) {
@@ -19,7 +20,7 @@ struct GrowthDescriptors: Sendable {
     gradients = (0..<1 << 18).map { _ in Float(random.normal()) }
   }
 
-  /// Appends 128 bytes: the point `key` in a view with the given `appearance`.
+  /// Appends 128 bytes: the descriptor of point `key` in a view with the given `appearance`.
   func append(
     _ key: UInt64, _ appearance: SIMD3<Float>, to bytes: inout [UInt8],
     _ random: inout SeededGenerator
@@ -46,7 +47,7 @@ struct GrowthDescriptors: Sendable {
     }
   }
 
-  /// Where a slice of the tables begins.
+  /// The start of a slice of the tables.
   private func slice(_ key: UInt64) -> Int {
     Int(((key ^ key >> 29) &* 0x9E37_79B9_7F4A_7C15) >> 32)
       % (texture.count - FeatureSet.descriptorLength)

@@ -2,17 +2,19 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Features of up to thousands of photos of a textured world that is known exactly: no pixels.
+/// Features of up to thousands of photos of a textured world with known ground truth, without
+/// pixels.
 ///
-/// Unlike `SyntheticScene` a photo sees a small part of the world: what is near, in view, large
-/// enough to be found, turned towards the camera and not hidden. Descriptors resemble those of
-/// similar texture elsewhere and change with the angle and the distance of the view, and some
-/// features have no counterpart in any photo, so that finding the pairs of photos and the matches is
-/// as hard as it is with photos.
+/// Unlike in `SyntheticScene`, a photo observes a small part of the world: points that are near, in
+/// view, large enough to be detected, facing the camera and not occluded. Descriptors resemble
+/// those of similar texture elsewhere and change with the viewing angle and distance, and some
+/// features have no counterpart in any photo, so that pair selection and matching are as hard as
+/// with real photos.
 package struct GrowthScene: Sendable {
+  /// The arrangement of the cameras.
   package enum Layout: String, Sendable, CaseIterable {
-    /// A car drives through all streets of a town of square blocks and looks ahead, to the left and
-    /// to the right in turn. The town grows with the number of photos.
+    /// A car drives through all streets of a town of square blocks; its cameras face forward,
+    /// alternately to the left and to the right. The town grows with the number of photos.
     case streets
     /// Rings of cameras around one object, from low to high.
     case orbits
@@ -21,13 +23,13 @@ package struct GrowthScene: Sendable {
   package struct Options: Sendable {
     package var layout = Layout.streets
     package var photoCount = 50
-    /// Features of a photo at most, those without counterpart included.
+    /// Maximum number of features per photo, including those without a counterpart.
     package var featuresPerPhoto = 2500
-    /// Share of the features of a photo that no other photo shows.
+    /// Fraction of the features of a photo that no other photo shows.
     package var clutterRatio = 0.2
     /// Standard deviation of the keypoints in pixels.
     package var pixelNoise = 0.5
-    /// Puts the photos in random order instead of the order of capture.
+    /// Shuffles the photos instead of keeping the order of capture.
     package var isShuffled = false
     package var camera = Camera(width: 1200, height: 900, focalLength: [900, 900])
     package var seed: UInt64 = 1
@@ -39,9 +41,9 @@ package struct GrowthScene: Sendable {
   package let photos: [Photo]
   /// The true `cameraFromWorld`.
   package let poses: [RigidTransform]
-  /// Sorted by scale, the largest first.
+  /// Sorted by scale in descending order.
   package let features: [FeatureSet]
-  /// The point behind every feature, −1 where there is none.
+  /// The point of every feature, −1 if there is none.
   package let pointOfFeature: [[Int32]]
 
   /// The true camera.
@@ -71,7 +73,7 @@ package struct GrowthScene: Sendable {
     pointOfFeature = seen.map(\.points)
   }
 
-  /// The number of points that each pair of photos has in common, for pairs with at least `minimum`.
+  /// The number of points shared by each pair of photos, for pairs with at least `minimum`.
   package func overlaps(minimum: Int) -> [PhotoPair: Int] {
     var photosOfPoint: [Int32: [Int32]] = [:]
     for (photo, points) in pointOfFeature.enumerated() {

@@ -1,28 +1,29 @@
 import Foundation
 import SceneModel
 
-/// A square town: streets `spacing` metres apart in both directions with blocks of houses between
+/// A square town: streets `spacing` meters apart in both directions, with blocks of houses between
 /// and around them. The ground is y = 0.
 struct GrowthTown: Sendable {
   struct Facade {
-    /// Its lower corner; it runs from there in the direction `along`.
+    /// The lower corner; the facade extends from it in the direction `along`.
     var corner, along, normal: SIMD3<Double>
     var width: Double
   }
 
   static let height = 9.0
   private static let spacing = 40.0
-  /// Half the width of a street.
+  /// Half the width of a street in meters.
   private static let verge = 6.0
-  /// Angle between the street and the optical axes: those of crossing streets nearly agree.
+  /// Angle in radians between the street and the optical axes: the axes in crossing streets nearly
+  /// agree.
   private static let yaw = 0.75
-  /// Metres between photos, about.
+  /// Approximate distance between photos in meters.
   private static let step = 2.0
 
-  /// Blocks between the streets in each direction.
+  /// Number of blocks between the streets in each direction.
   private let size: Int
 
-  /// The town whose streets are as long as a drive of `photoCount` photos.
+  /// A town whose streets are as long as a drive of `photoCount` photos.
   init(photoCount: Int) {
     let wanted = Double(photoCount) * Self.step
     let sizes = 1...100
@@ -51,7 +52,8 @@ struct GrowthTown: Sendable {
     return facades
   }
 
-  /// The cameras: along all streets in one direction, there and back in turn, then along the others.
+  /// The cameras: along all streets in one direction, alternating back and forth, then along the
+  /// others.
   func drive(photoCount: Int, _ random: inout SeededGenerator) -> [RigidTransform] {
     let streetLength = Double(size) * Self.spacing
     let step = Self.length(size) / Double(max(1, photoCount))
@@ -72,7 +74,7 @@ struct GrowthTown: Sendable {
     }
   }
 
-  /// Whether a block stands between two places below the roofs.
+  /// Whether a block occludes a point; both positions are below the roofs.
   func isHidden(_ point: SIMD3<Double>, from eye: SIMD3<Double>) -> Bool {
     func block(_ coordinate: Double) -> Int { Int((coordinate / Self.spacing).rounded(.down)) }
     let (i, j) = (block(eye.x), block(eye.z))

@@ -1,20 +1,21 @@
 import Foundation
 import SceneModel
 
-/// What one camera of a `GrowthScene` sees.
+/// The features observed by one camera of a `GrowthScene`.
 struct GrowthView {
   private struct Sighting {
     var point: Int
     var pixel: SIMD2<Double>
     var scale: Double
-    /// What the descriptor depends on: two components of the direction of view, log₂ of distance.
+    /// What the descriptor depends on: two components of the viewing direction, and log₂ of the
+    /// distance.
     var appearance: SIMD3<Float>
     var strength: Double
   }
 
   /// Scales in pixels that a detector finds.
   private static let scales = 1.6...24.0
-  /// Share of the visible points that are found.
+  /// Fraction of the visible points that are detected.
   private static let repeatability = 0.75
 
   private let world: GrowthWorld
@@ -87,7 +88,7 @@ struct GrowthView {
     else { return nil }
     let (x, y) = (random.normal(), random.normal())
     let view = SIMD3(toEye.dot(right) / distance, toEye.dot(up) / distance, log2(distance))
-    // The same points are strong in every photo, more or less.
+    // Points have roughly the same strength in every photo.
     let strength = Double(point.key >> 11) * 0x1p-53 + 0.15 * random.normal()
     return Sighting(
       point: index, pixel: pixel + options.pixelNoise * SIMD2(x, y),

@@ -3,15 +3,15 @@ import SceneModel
 
 /// The surfaces and cameras of a `GrowthScene`.
 struct GrowthWorld: Sendable {
-  /// A point of texture; `size` is what its scale σ measures in the world.
+  /// A point of texture; `size` is the size of its scale σ in world units.
   struct Point: Sendable {
     var position: SIMD3<Float>
     var size: Float
-    /// Stands for its looks.
+    /// Identifies its appearance.
     var key: UInt64
   }
 
-  /// A small flat piece of surface and its points.
+  /// A small planar surface patch and its points.
   struct Patch: Sendable {
     var center: SIMD3<Double>
     var normal: SIMD3<Double>
@@ -22,7 +22,7 @@ struct GrowthWorld: Sendable {
   private(set) var points: [Point] = []
   private(set) var patches: [Patch] = []
   private(set) var poses: [RigidTransform] = []
-  /// Points farther away are not looked for.
+  /// Distance beyond which points are not observed.
   private(set) var range = Double.infinity
   private var town: GrowthTown?
 
@@ -40,7 +40,7 @@ struct GrowthWorld: Sendable {
     }
   }
 
-  /// Whether a building stands between two places.
+  /// Whether a building occludes a point.
   func isHidden(_ point: SIMD3<Double>, from eye: SIMD3<Double>) -> Bool {
     town?.isHidden(point, from: eye) ?? false
   }
@@ -85,7 +85,8 @@ struct GrowthWorld: Sendable {
     }
   }
 
-  /// Adds a point whose size is drawn so that every distance shows as many points a pixel.
+  /// Adds a point with a random size such that the number of points per pixel is the same at every
+  /// distance.
   private mutating func add(
     _ position: SIMD3<Double>, smallest: Double, _ random: inout SeededGenerator
   ) {

@@ -1,7 +1,7 @@
 import Foundation
 import SceneModel
 
-/// Things with insides on a base of 28 × 22 cm.
+/// Concave objects on a base of 28 × 22 cm.
 struct ConcaveObjects {
   let fineness: Double
 
@@ -17,7 +17,7 @@ struct ConcaveObjects {
     .box(center: center, halfSize: halfSize, cells: cells(50))
   }
 
-  /// A bowl 13 cm wide and 6 cm deep with a wall of 6 mm.
+  /// A bowl 13 cm wide and 6 cm deep with a 6 mm wall.
   private var bowl: Mesh {
     Mesh.turned(
       [
@@ -28,7 +28,7 @@ struct ConcaveObjects {
     ).placed(at: [-0.065, 0.009, 0.038])
   }
 
-  /// A vase whose inside is as deep as its mouth is wide.
+  /// A vase as deep as its mouth is wide.
   private var vase: Mesh {
     Mesh.turned(
       [
@@ -47,7 +47,7 @@ struct ConcaveObjects {
     ).placed(at: [0.115, 0.009, 0.04])
   }
 
-  /// Two walls that meet at a right angle.
+  /// Two walls at a right angle.
   private var corner: [Mesh] {
     [
       box([-0.13, 0.065, -0.05], [0.004, 0.06, 0.05]),

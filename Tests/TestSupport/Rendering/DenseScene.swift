@@ -1,24 +1,25 @@
 import Foundation
 import SceneModel
 
-/// Scenes to judge the dense stage on, each hard for it in its own way: an object of 0.3 m on a
-/// textured table, photographed from two rings. The object's mesh leaves the table out.
+/// Scenes for the evaluation of the dense stage, each with a different difficulty: an object of 0.3
+/// m on a textured table, photographed from two rings. The object's mesh excludes the table.
 package enum DenseScene: String, CaseIterable, Sendable {
-  /// A statue with texture of all sizes.
+  /// A statue with texture at all scales.
   case rich
-  /// The same statue, cameras and light with a tenth of the contrast, and regions with less.
+  /// The same statue, cameras and light with a tenth of the contrast, and regions with even less.
   case lowTexture = "low-texture"
   /// Rods, a bent wire, a plate, a handle and leaves, 2 to 6 mm thick.
   case thin
   /// The insides of vessels, corners, deep grooves, an arch.
   case concave
-  /// The rich scene with other exposures and white balances from photo to photo, and vignetting.
+  /// The rich scene with exposures and white balances that vary from photo to photo, and
+  /// vignetting.
   case exposure
 
   /// - Parameters:
-  ///   - width: of the photos in pixels; the height is three quarters of it.
-  ///   - poses: nil takes the two rings.
-  ///   - fineness: scales the number of the object's triangles a side.
+  ///   - width: width of the photos in pixels; the height is three quarters of it.
+  ///   - poses: camera poses; nil selects the two rings.
+  ///   - fineness: scales the number of the object's triangles per side.
   package func scene(
     width: Int = 1100, poses: [RigidTransform]? = nil, fineness: Double = 1
   ) -> RenderedScene {
@@ -42,7 +43,8 @@ package enum DenseScene: String, CaseIterable, Sendable {
     return scene
   }
 
-  /// Cameras on rings around the object, each a number of photos and an elevation in degrees.
+  /// Cameras on rings around the object; each ring has a number of photos and an elevation in
+  /// degrees.
   private static func rings(
     _ rings: [(count: Int, degrees: Double)], around height: Double
   ) -> [RigidTransform] {
@@ -55,7 +57,7 @@ package enum DenseScene: String, CaseIterable, Sendable {
     }
   }
 
-  /// Cameras close to each other on a part of two rings, for small scenes.
+  /// Closely spaced cameras on a part of two rings, for small scenes.
   package static func arc(count: Int, stepDegrees: Double) -> [RigidTransform] {
     (0..<count).map { index in
       pose(
@@ -64,8 +66,8 @@ package enum DenseScene: String, CaseIterable, Sendable {
     }
   }
 
-  /// Photos from four rings, in the order of their azimuth: the first n of them are a set as well,
-  /// in which every photo has its neighbours.
+  /// Photos from four rings, ordered by azimuth: the first n of them also form a set in which every
+  /// photo has its neighbors.
   package static func sweep(count: Int) -> [RigidTransform] {
     let columns = (count + 3) / 4
     return (0..<count).map { index in
@@ -84,7 +86,7 @@ package enum DenseScene: String, CaseIterable, Sendable {
     return SyntheticScene.lookingAt(target, from: target + offset * 0.6)
   }
 
-  /// The height that the cameras look at.
+  /// The height that the cameras face.
   private var middle: Double { self == .concave ? 0.055 : 0.12 }
 
   private var elevations: (lower: Double, upper: Double) {
@@ -108,7 +110,7 @@ package enum DenseScene: String, CaseIterable, Sendable {
       ],
       wavelength: 0.035, octaves: 7, seed: 21)
     if self == .exposure {
-      // So that the brightest photos don't lose all of the light parts.
+      // Prevents clipping of the light parts in the brightest photos.
       texture.palette = texture.palette.map { $0 * 0.7 }
     }
     if self == .lowTexture {

@@ -1,17 +1,18 @@
 import Foundation
 import SceneModel
 
-/// Something that gets between camera and object in some photos, at another place in each of them:
-/// a ball, as somebody's hand or a passer-by would. It is lit from the camera and casts no shadow.
+/// A transient occluder between the camera and the object in some photos, at a different position
+/// in each of them: a ball, in place of a hand or a passer-by. It is lit from the camera and casts
+/// no shadow.
 package struct Intruder: Sendable {
-  /// The first photo that shows it, and how many photos later the next one does.
+  /// The first photo that shows it, and the interval to the next one.
   package var first = 1
   package var period = 3
-  /// In metres, as all that follows.
+  /// Radius in meters.
   package var radius: Float = 0.03
-  /// Distance of its centre from the camera's plane.
+  /// Depth of its center in the camera frame, in meters.
   package var depth: Float = 0.38
-  /// How far its centre is from the camera's axis at most, to the sides and up or down.
+  /// Maximum horizontal and vertical distance of its center from the optical axis, in meters.
   package var reach: SIMD2<Float> = [0.035, 0.06]
   package var texture = SolidTexture(
     palette: [[0.02, 0.06, 0.30], [0.05, 0.16, 0.62], [0.16, 0.36, 0.80]], wavelength: 0.02,
@@ -19,10 +20,10 @@ package struct Intruder: Sendable {
 
   package init() {}
 
-  /// Where its centre is in the camera frame of a photo; nil where the photo doesn't show it.
+  /// Its center in the camera frame of a photo; nil if the photo doesn't show it.
   func center(in photo: Int) -> SIMD3<Float>? {
     guard photo >= first, (photo - first).isMultiple(of: period) else { return nil }
-    // Two irrational steps spread the places over the picture.
+    // Two irrational steps distribute the positions over the image.
     let number = Double((photo - first) / period)
     let place = SIMD2(
       (number * 0.754_877_666 + 0.3).truncatingRemainder(dividingBy: 1),
@@ -31,7 +32,7 @@ package struct Intruder: Sendable {
     return [offset.x, offset.y, depth]
   }
 
-  /// What a ray of depth 1 in the camera frame sees of it.
+  /// Its appearance along a ray of depth 1 in the camera frame; nil if the ray misses it.
   func sight(
     from origin: SIMD3<Float>, along direction: SIMD3<Float>, center: SIMD3<Float>,
     footprint: Float

@@ -1,8 +1,9 @@
 import Foundation
 import SceneModel
 
-/// Solids to build scenes of, with vertex normals, counter-clockwise from outside.
+/// Solids for building scenes, with vertex normals, counter-clockwise from outside.
 extension Mesh {
+  /// Appends another mesh.
   package mutating func append(_ other: Mesh) {
     let first = UInt32(positions.count)
     positions += other.positions
@@ -10,7 +11,7 @@ extension Mesh {
     triangles += other.triangles.map { Triangle($0.a + first, $0.b + first, $0.c + first) }
   }
 
-  /// Turned about the y axis, then moved.
+  /// The mesh rotated about the y axis by `angle` radians, then translated.
   package func placed(turned angle: Double = 0, at offset: SIMD3<Double>) -> Mesh {
     let rotation = Quaternion(angle: angle, axis: [0, 1, 0])
     var result = self
@@ -52,19 +53,20 @@ extension Mesh {
     return mesh
   }
 
-  /// A closed tube with round ends along a path over 0…1; its section is an ellipse.
+  /// A closed tube with rounded ends and an elliptical cross section along a path over 0…1.
   ///
   /// - Parameters:
-  ///   - side: never along the path; the first half axis lies across it and the path.
-  ///   - halfAxes: of the section, in the middle of the path.
-  ///   - length: of the path, which the rounding at its ends needs.
+  ///   - side: a direction that is never parallel to the path; the first half axis is perpendicular
+  ///     to it and to the path.
+  ///   - halfAxes: half axes of the cross section in the middle of the path.
+  ///   - length: length of the path, which the rounding at its ends requires.
   ///   - widening: scales the first half axis along the path.
   package static func tube(
     along path: (Double) -> SIMD3<Double>, side: SIMD3<Double>, halfAxes: SIMD2<Double>,
     length: Double, columns: Int = 24, rows: Int = 160, widening: (Double) -> Double = { _ in 1 }
   ) -> Mesh {
     RenderedScene.grid(columns: columns, rows: rows, isClosed: true) { u, v in
-      // Rows are denser at the ends, which are round.
+      // Rows are denser at the rounded ends.
       let s = 0.5 - 0.5 * cos(.pi * min(max(v, 0), 1))
       let along = (path(min(1, s + 1e-4)) - path(max(0, s - 1e-4))).normalized
       let across = side.cross(along).normalized
@@ -77,7 +79,7 @@ extension Mesh {
     }
   }
 
-  /// A straight rod with round ends.
+  /// A straight rod with rounded ends.
   package static func rod(
     from a: SIMD3<Double>, to b: SIMD3<Double>, radius: Double, columns: Int = 24, rows: Int = 120
   ) -> Mesh {
@@ -87,8 +89,8 @@ extension Mesh {
       halfAxes: SIMD2(repeating: radius), length: (b - a).length, columns: columns, rows: rows)
   }
 
-  /// A surface of revolution about the y axis. The profile goes through (radius, height) from the
-  /// outside at the bottom over the rim to the inside, as a Catmull–Rom spline.
+  /// A surface of revolution about the y axis. The profile runs through (radius, height) from the
+  /// bottom of the outside over the edge to the inside, as a Catmull–Rom spline.
   package static func turned(
     _ profile: [SIMD2<Double>], columns: Int = 200, rows: Int = 240,
     fluting: (Double) -> Double = { _ in 1 }

@@ -2,22 +2,22 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// How a camera takes photos: its lens, and what its automatic exposure does from photo to photo.
+/// Properties of the camera: its lens, and its automatic exposure from photo to photo.
 package struct Photography: Sendable {
-  /// Part of a pixel's light that each of its four neighbours gets: the blur of a good lens.
+  /// Fraction of a pixel's light received by each of its four neighbors: the blur of a good lens.
   package var blur: Float = 0.08
-  /// The photos' exposures are spread evenly up to this many stops to either side.
+  /// Exposures are distributed evenly up to this number of stops in both directions.
   package var exposureStops: Double = 0
-  /// Red and blue drift by up to this part against green.
+  /// Red and blue drift by up to this fraction relative to green.
   package var whiteBalance: Double = 0
-  /// Light that is lost in the corners.
+  /// Fraction of the light lost in the corners.
   package var vignetting: Double = 0
 
   package init() {}
 
-  /// Linear gains of the channels of photo `index`.
+  /// Linear channel gains of photo `index`.
   func gains(_ index: Int, seed: UInt64) -> SIMD3<Float> {
-    // The golden ratio spreads neighbouring photos far from each other.
+    // The golden ratio separates the values of neighboring photos.
     let place = (Double(index) * 0.618_033_988_749_895 + 0.31).truncatingRemainder(dividingBy: 1)
     var generator = SeededGenerator(seed: seed &* 7_368_787 &+ UInt64(index))
     let exposure = pow(2, exposureStops * (2 * place - 1))
@@ -26,12 +26,13 @@ package struct Photography: Sendable {
     return SIMD3<Float>(balance * exposure)
   }
 
-  /// The part of the light that is left at a squared distance from the middle, 1 in the corners.
+  /// The fraction of the light that remains at a squared distance from the center, 1 in the
+  /// corners.
   func falloff(_ squaredDistance: Double) -> Float { Float(1 - vignetting * squaredDistance) }
 }
 
 extension RenderedScene {
-  /// A photo through a lens: one ray a pixel, and more where what is seen changes.
+  /// A photo through a lens: one ray per pixel, and more at edges.
   func photo(
     _ index: Int, taken photography: Photography, _ control: KernelControl
   ) throws -> RasterImage {
@@ -55,7 +56,7 @@ extension RenderedScene {
       width: width, height: camera.height, channels: 3, pixels: rows.flatMap { $0 })
   }
 
-  /// Whether a neighbour shows another surface, another depth or another light.
+  /// Whether a neighboring pixel shows another surface, another depth or different lighting.
   private func hasEdge(_ sights: [[Sight]], _ row: Int, _ column: Int) -> Bool {
     let center = sights[row][column]
     for y in max(0, row - 1)...min(sights.count - 1, row + 1) {
@@ -81,7 +82,7 @@ extension RenderedScene {
     return sum / Float(side * side)
   }
 
-  /// A row of light through the lens, onto the sensor and encoded.
+  /// Applies lens, sensor and encoding to a row of light.
   private func developed(
     _ light: [[SIMD3<Float>]], _ row: Int, _ index: Int, _ gains: SIMD3<Float>,
     _ photography: Photography

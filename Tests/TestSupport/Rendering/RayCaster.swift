@@ -1,14 +1,14 @@
 import SceneModel
 
-/// Finds where rays meet triangles, with a bounding volume hierarchy.
+/// Intersects rays with triangles, using a bounding volume hierarchy.
 package struct RayCaster: Sendable {
-  /// Where a ray meets a surface first.
+  /// The first intersection of a ray with a surface.
   package struct Hit: Sendable {
-    /// Index of the triangle in the list that the caster was made of.
+    /// Index of the triangle in the list passed to the initializer.
     package var triangle: Int
-    /// In lengths of the direction.
+    /// In multiples of the direction's length.
     package var distance: Float
-    /// Weights of the triangle's second and third corner.
+    /// Barycentric coordinates of the triangle's second and third corner.
     package var u: Float
     package var v: Float
   }
@@ -16,9 +16,9 @@ package struct RayCaster: Sendable {
   private struct Node {
     var low: SIMD3<Float>
     var high: SIMD3<Float>
-    /// Index of the next node when the box is missed.
+    /// Index of the next node if the ray misses the box.
     var skip: Int32
-    /// Range in `order`; empty for inner nodes, whose first child follows.
+    /// Range in `triangles`; empty for inner nodes, whose first child follows.
     var first: Int32
     var count: Int32
   }
@@ -40,7 +40,7 @@ package struct RayCaster: Sendable {
     if !triangles.isEmpty { build(0..<triangles.count) }
   }
 
-  /// Splits at the median of the longest side of the centres' box.
+  /// Splits at the median along the longest side of the bounding box of the centers.
   private mutating func build(_ range: Range<Int>) {
     func center(_ t: Corners) -> SIMD3<Float> { t.origin + (t.edge1 + t.edge2) / 3 }
     var low = SIMD3<Float>(repeating: .infinity)
@@ -74,7 +74,7 @@ package struct RayCaster: Sendable {
     nodes[index].skip = Int32(nodes.count)
   }
 
-  /// The nearest hit of a ray between `nearest` and `farthest` lengths of its direction.
+  /// The nearest hit of a ray between `nearest` and `farthest` multiples of its direction.
   package func hit(
     from origin: SIMD3<Float>, along direction: SIMD3<Float>, nearest: Float = 1e-5,
     farthest: Float = .infinity
@@ -82,7 +82,7 @@ package struct RayCaster: Sendable {
     traverse(origin, direction, nearest, farthest, stopsAtAny: false)
   }
 
-  /// Whether anything lies between `nearest` and `farthest` lengths of the direction.
+  /// Whether there is any hit between `nearest` and `farthest` multiples of the direction.
   package func isBlocked(
     from origin: SIMD3<Float>, along direction: SIMD3<Float>, nearest: Float = 1e-5,
     farthest: Float = .infinity
@@ -104,7 +104,7 @@ package struct RayCaster: Sendable {
       let b = (node.high - origin) * inverse
       let enter = pointwiseMin(a, b).max()
       let leave = pointwiseMax(a, b).min()
-      // Not the other way round, so that NaN (a ray inside a box's face) enters.
+      // The comparisons are such that NaN (a ray inside a face of the box) enters.
       if enter > leave || enter > limit || leave < nearest {
         index = Int(node.skip)
         continue
@@ -121,7 +121,7 @@ package struct RayCaster: Sendable {
     return best
   }
 
-  /// Möller and Trumbore (1997).
+  /// Ray–triangle intersection (Möller and Trumbore, 1997).
   private static func intersect(
     _ t: Corners, _ origin: SIMD3<Float>, _ direction: SIMD3<Float>, _ nearest: Float,
     _ farthest: Float

@@ -3,14 +3,14 @@ import SceneModel
 
 /// Scenes that are hard to align.
 extension RenderedScene {
-  /// The scene seen by other cameras.
+  /// The scene with other cameras.
   package func seen(from poses: [RigidTransform], camera: Camera? = nil) -> RenderedScene {
     RenderedScene(
       object: surfaces[0], surroundings: Array(surfaces.dropFirst()),
       camera: camera ?? self.camera, poses: poses, seed: seed)
   }
 
-  /// A textured table without anything on it.
+  /// A textured table without an object.
   package static func plane(
     photoCount: Int = 12, width: Int = 480, height: Int = 360
   ) -> RenderedScene {

@@ -1,10 +1,10 @@
 import Foundation
 import SceneModel
 
-/// Scenes with parts that look alike.
+/// Scenes with repeated structure.
 extension RenderedScene {
-  /// A box that looks the same after half a turn, or no two sides of it, on a table of one colour,
-  /// photographed on a full ring. Balls beside it, no two alike, tell the sides apart.
+  /// A box that is symmetric under a half turn, or has four different sides, on a table of one
+  /// color, photographed on a full ring. Different balls next to it make the sides distinguishable.
   package static func twinBox(
     photoCount: Int = 16, width: Int = 480, height: Int = 360, ballCount: Int = 3,
     isRepeated: Bool = true
@@ -42,8 +42,9 @@ extension RenderedScene {
       poses: poses)
   }
 
-  /// A wall of bays of one texture, or each of its own, a pillar and a panel each, photographed while
-  /// walking along it. A ball before some of the bays tells them apart.
+  /// A wall of bays with a pillar and a panel each, with the same texture or different ones,
+  /// photographed while walking along it. Balls in front of some of the bays make them
+  /// distinguishable.
   package static func facade(
     photoCount: Int = 14, width: Int = 480, height: Int = 360, ballCount: Int = 3,
     isRepeated: Bool = true

@@ -2,13 +2,13 @@ import Foundation
 import SceneModel
 
 extension RenderedScene {
-  /// A lumpy statue, 30 cm high, on a table, photographed on a full ring from a little above and on
-  /// a smaller one from further up.
+  /// An irregular statue, 30 cm high, on a table, photographed on a full ring from slightly above
+  /// and on a smaller one from higher up.
   ///
   /// - Parameters:
-  ///   - upperCount: how many of the photos form the upper ring.
+  ///   - upperCount: number of photos that form the upper ring.
   ///   - meshColumns: vertices around the statue; the reference mesh has about half as many rows.
-  ///   - textureContrast: how far colours differ from their mean, 0…1.
+  ///   - textureContrast: deviation of the colors from their mean, 0…1.
   package static func statue(
     photoCount: Int = 20, upperCount: Int = 6, width: Int = 800, height: Int = 600,
     meshColumns: Int = 120, textureContrast: Float = 1, seed: UInt64 = 1
@@ -52,7 +52,7 @@ extension RenderedScene {
       poses: poses, seed: seed)
   }
 
-  /// The statue in all but plain colours, with the noise of a sensor in little light: hardly any texture.
+  /// The statue with very low contrast and the noise of a sensor in low light: hardly any texture.
   package static func faintStatue(
     photoCount: Int = 20, upperCount: Int = 6, width: Int = 800, height: Int = 600
   ) -> RenderedScene {
@@ -92,7 +92,7 @@ extension RenderedScene {
       poses: poses, seed: seed)
   }
 
-  /// A closed surface around the y axis that stands on y = 0, its bottom left open.
+  /// A surface around the y axis that stands on y = 0; its bottom is open.
   static func statueMesh(columns: Int, rows: Int) -> Mesh {
     func radius(_ angle: Double, _ h: Double) -> Double {
       func bump(_ at: Double, _ height: Double, _ width: Double, _ tallness: Double) -> Double {
@@ -109,7 +109,7 @@ extension RenderedScene {
         + 0.036 * bump(-1.5, 0.44, 0.38, 0.13) + 0.020 * bump(3.0, 0.64, 0.5, 0.07)
         + 0.016 * bump(2.3, 0.27, 0.3, 0.05) - 0.012 * bump(0.9, 0.36, 0.35, 0.08)
       let folds = 0.0035 * sin(9 * angle + 14 * h) * exp(-pow((h - 0.4) / 0.22, 2))
-      // Rounded off towards the top.
+      // Rounded toward the top.
       let cap = max(0, 1 - pow(max(0, (h - 0.80) / 0.20), 3)).squareRoot()
       return max(0.012, plinth + body + head + bumps + folds + 0.012) * cap
     }
@@ -151,8 +151,8 @@ extension RenderedScene {
       triangles: [Triangle(0, 1, 2), Triangle(0, 2, 3)])
   }
 
-  /// A mesh over the unit square, u to the right and v up, counter-clockwise from outside; closed in
-  /// u when `isClosed`. Normals come from the positions' differences.
+  /// A mesh over the unit square, u to the right and v up, counter-clockwise from outside; closed
+  /// in u if `isClosed`. Normals are finite differences of the positions.
   static func grid(
     columns: Int, rows: Int, isClosed: Bool, _ position: (Double, Double) -> SIMD3<Double>
   ) -> Mesh {
@@ -176,7 +176,7 @@ extension RenderedScene {
         let (a, b) = (index(row, column), index(row, column + 1))
         let (c, d) = (index(row + 1, column + 1), index(row + 1, column))
         mesh.triangles.append(Triangle(a, b, c))
-        // The top row of a closed grid is one point.
+        // The top row of a closed grid is a single point.
         if !(isClosed && row == rows - 2) { mesh.triangles.append(Triangle(a, c, d)) }
       }
     }

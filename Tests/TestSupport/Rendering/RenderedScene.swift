@@ -4,10 +4,10 @@ import SceneModel
 
 /// A scene with known surface, cameras and light, rendered by ray casting: photos for tests.
 ///
-/// World: right-handed, +y up, metres. Surfaces are matt and the light is fixed, so that a point
-/// has the same colour in every photo but for sensor noise.
+/// World: right-handed, +y up, meters. Surfaces are Lambertian and the light is fixed, so that a
+/// point has the same color in every photo except for sensor noise.
 package struct RenderedScene: Sendable {
-  /// A mesh with vertex normals, and what it looks like.
+  /// A mesh with vertex normals, and its texture.
   package struct Surface: Sendable {
     package var mesh: Mesh
     package var texture: SolidTexture
@@ -18,30 +18,30 @@ package struct RenderedScene: Sendable {
     }
   }
 
-  /// The surface that a reconstruction should find; the reference to score against.
+  /// The surface to be reconstructed, and the reference to score against.
   package let object: Mesh
-  /// Of all photos.
+  /// The camera of all photos.
   package let camera: Camera
   /// `cameraFromWorld` by photo.
   package let poses: [RigidTransform]
   /// Standard deviation of the sensor noise in gray levels.
   package var noise = 1.2
-  /// Rays a pixel and direction: 2 casts four rays.
+  /// Rays per pixel and direction: 2 casts four rays.
   package var samplesPerSide = 2
-  /// A lens and exposures of their own for each photo, and rays spent where there are edges; nil
-  /// casts the same rays everywhere and shows the light as it is.
+  /// A lens, an exposure per photo, and adaptive sampling at edges; nil casts the same rays
+  /// everywhere and applies no photographic effects.
   package var photography: Photography?
-  /// What hides a part of the object in some photos.
+  /// Occludes a part of the object in some photos.
   package var intruder: Intruder?
 
   let surfaces: [Surface]
   private let caster: RayCaster
-  /// Surface and triangle in it of each of the caster's triangles.
+  /// The surface of each of the caster's triangles, and the triangle's index in it.
   private let parts: [(surface: Int, triangle: Int)]
   private let light = SIMD3<Float>(0.45, 0.8, 0.5).normalized
   let seed: UInt64
 
-  /// `object` is what is to be reconstructed, `surroundings` what else is seen.
+  /// `object` is the surface to be reconstructed, `surroundings` are the other visible surfaces.
   package init(
     object: Surface, surroundings: [Surface], camera: Camera, poses: [RigidTransform],
     seed: UInt64 = 1
@@ -79,7 +79,7 @@ package struct RenderedScene: Sendable {
     try poses.indices.map { try photo($0, control) }
   }
 
-  /// The z of the surface seen at each pixel's centre in the camera frame; 0 where there is none.
+  /// The depth (z in the camera frame) at each pixel center; 0 where there is no surface.
   package func depth(_ index: Int) -> [Float] {
     (0..<camera.height).flatMap { row in
       (0..<camera.width).map { column in
@@ -89,8 +89,8 @@ package struct RenderedScene: Sendable {
     }
   }
 
-  /// Where photo `index` shows the object, of it the points for which `isMarked` says so: gray, 255
-  /// there and 0 beside it.
+  /// The mask of photo `index`: gray, 255 on the points of the object for which `isMarked` is true,
+  /// 0 elsewhere.
   package func mask(
     _ index: Int, isMarked: (SIMD3<Float>) -> Bool = { _ in true }
   ) -> RasterImage {
@@ -105,7 +105,7 @@ package struct RenderedScene: Sendable {
     return mask
   }
 
-  /// Whether photo `index` sees a point of a surface.
+  /// Whether a surface point is visible in photo `index`.
   package func isVisible(_ point: SIMD3<Double>, in index: Int) -> Bool {
     let inCamera = poses[index] * point
     guard inCamera.z > 0 else { return false }
@@ -118,8 +118,8 @@ package struct RenderedScene: Sendable {
       from: origin, along: SIMD3<Float>(point) - origin, farthest: 0.999)
   }
 
-  /// The exact cameras with about `pointCount` exact points of the object, seen by two photos or
-  /// more: what a perfect alignment would find.
+  /// The exact cameras with about `pointCount` exact points of the object, each observed by at
+  /// least two photos: the result of a perfect alignment.
   package func reconstruction(pointCount: Int = 500) -> Reconstruction {
     let photos = poses.indices.map { index in
       Photo(
@@ -144,7 +144,7 @@ package struct RenderedScene: Sendable {
     "view_\(index < 10 ? "0" : "")\(index).jpg"
   }
 
-  /// The direction has depth 1 in the camera frame, so that a hit's distance is its depth.
+  /// The direction has depth 1 in the camera frame, so that the distance of a hit is its depth.
   func ray(
     through pixel: SIMD2<Double>, of index: Int
   ) -> (origin: SIMD3<Float>, direction: SIMD3<Float>) {
@@ -175,22 +175,22 @@ package struct RenderedScene: Sendable {
     return pixels
   }
 
-  /// What is seen along a ray.
+  /// The light and the surface seen along a ray.
   struct Sight {
     /// Linear RGB.
     var radiance: SIMD3<Float>
-    /// Infinite where there is nothing.
+    /// Infinite for the background.
     var depth = Float.infinity
     var normal = SIMD3<Float>.zero
-    /// −1 where there is nothing.
+    /// −1 for the background.
     var surface = -1
     var isLit = false
 
-    /// The surface that isn't of the scene.
+    /// The index of the transient occluder, which is not a surface of the scene.
     static let intruder = Int.max
   }
 
-  /// What photo `index` shows at a pixel.
+  /// The light and the surface that photo `index` shows at a pixel.
   func sight(through pixel: SIMD2<Double>, of index: Int) -> Sight {
     let ray = ray(through: pixel, of: index)
     let behind = sight(along: ray)
@@ -206,7 +206,7 @@ package struct RenderedScene: Sendable {
 
   private func sight(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> Sight {
     guard let hit = caster.hit(from: ray.origin, along: ray.direction) else {
-      // A plain backdrop without detail, a little lighter towards the top.
+      // A plain background without detail, slightly lighter toward the top.
       let height = 0.5 + 0.5 * ray.direction.normalized.y
       return Sight(radiance: SIMD3(0.10, 0.11, 0.12) + SIMD3(0.12, 0.13, 0.15) * height)
     }

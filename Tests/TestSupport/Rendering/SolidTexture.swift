@@ -1,29 +1,30 @@
 import SceneModel
 
-/// A colour for every point of space: smooth noise of many octaves between a few colours.
+/// A solid texture, which assigns a color to every point of space: smooth multi-octave noise mapped
+/// to a palette.
 ///
-/// Fixed to space, so that photos from all sides agree, and without seams.
+/// Fixed in space, so that photos from all sides agree, and without seams.
 package struct SolidTexture: Sendable {
-  /// What makes parts of a scene look the same.
+  /// Symmetry that causes repeated structure.
   package enum Repetition: Sendable {
     case none
-    /// A half turn about the y axis changes nothing.
+    /// Symmetric under a half turn about the y axis.
     case halfTurn
-    /// A step of this length along x changes nothing.
+    /// Periodic along x with this period.
     case period(Float)
   }
 
   /// Linear RGB, 0…1, from the lowest noise value to the highest.
   package var palette: [SIMD3<Float>]
-  /// Wavelength of the coarsest octave in world units; each further one is finer by 2.1.
+  /// Wavelength of the coarsest octave in world units; it decreases by a factor of 2.1 per octave.
   package var wavelength: Float
   package var octaves: Int
   package var seed: UInt32
-  /// How far the noise is spread; more makes flat patches with sharp borders.
+  /// Amplification of the noise; higher values produce flat patches with sharp borders.
   package var contrast: Float
-  /// How much the fine octaves darken and lighten.
+  /// Modulation of the brightness by the fine octaves.
   private var shading: Float = 1.6
-  /// Wavelength of the regions in which hardly any texture is left; 0 leaves none out.
+  /// Wavelength of the regions with hardly any texture; 0 disables them.
   package var plainWavelength: Float = 0
   package var repetition: Repetition
 
@@ -39,7 +40,7 @@ package struct SolidTexture: Sendable {
     self.contrast = contrast
   }
 
-  /// The same texture with all colours nearer to their mean: 1 leaves them as they are, 0 is plain.
+  /// The same texture with reduced contrast: 1 leaves the colors unchanged, 0 is uniform.
   package func withContrast(_ factor: Float) -> SolidTexture {
     guard factor != 1, !palette.isEmpty else { return self }
     var result = self
@@ -49,7 +50,7 @@ package struct SolidTexture: Sendable {
     return result
   }
 
-  /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't show are left out.
+  /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't resolve are omitted.
   package func color(at point: SIMD3<Float>, footprint: Float) -> SIMD3<Float> {
     var (sum, fine, total, amplitude, length) = (Float(0), Float(0), Float(0), Float(1), wavelength)
     var p = repeated(point)
@@ -63,14 +64,14 @@ package struct SolidTexture: Sendable {
       total += amplitude
       amplitude *= 0.8
       length /= 2.1
-      // Turned, so that the lattices of the octaves don't line up.
+      // Rotated, so that the lattices of the octaves don't align.
       p = SIMD3(
         0.36 * p.x + 0.48 * p.y - 0.8 * p.z, -0.8 * p.x + 0.6 * p.y,
         0.48 * p.x + 0.64 * p.y + 0.6 * p.z)
     }
     let spread = contrast * sum / total * Float(octaves).squareRoot()
     let position = 0.5 + 0.5 * spread / (0.5 + abs(spread))
-    // The fine octaves also darken and lighten, so that no patch is flat.
+    // The fine octaves also modulate the brightness, so that no patch is flat.
     let shade = min(max(1 + shading * fine / total * Float(octaves).squareRoot(), 0.35), 1.5)
     let textured = palette(at: position) * shade
     guard plainWavelength > 0 else { return textured }
@@ -78,7 +79,7 @@ package struct SolidTexture: Sendable {
     return mean + (textured - mean) * strength(at: point)
   }
 
-  /// How much of the texture is left, from a sixth to all of it.
+  /// The fraction of the texture that remains, from a sixth to one.
   private func strength(at point: SIMD3<Float>) -> Float {
     let value = Self.noise(point / plainWavelength, seed &+ 0x5bd1)
     let t = min(max((value - 0.2) / 0.25, 0), 1)
@@ -101,7 +102,7 @@ package struct SolidTexture: Sendable {
     return palette[index] * (1 - t) + palette[index + 1] * t
   }
 
-  /// Value noise on the integer lattice, 0…1, with continuous slope.
+  /// Value noise on the integer lattice, 0…1, with continuous gradient.
   package static func noise(_ p: SIMD3<Float>, _ seed: UInt32) -> Float {
     let cell = p.rounded(.down)
     let f = p - cell

@@ -1,16 +1,16 @@
 import Foundation
 import SceneModel
 
-/// Scenes to judge the texture on: one object, one light and the same cameras, and each but the
-/// first with something that must not be seen in the result.
+/// Scenes for the evaluation of the texture: one object, one light and the same cameras; each but
+/// the first contains a disturbance that must not be visible in the result.
 package enum TextureScene: String, CaseIterable, Sendable {
   case clean
-  /// Exposures from one stop below to one above, white balances that drift, and vignetting.
+  /// Exposures from one stop below to one above, drifting white balance, and vignetting.
   case exposure
-  /// A third of the photos show a ball before the object, each at another place.
+  /// A third of the photos show a ball in front of the object, each at a different position.
   case intruder
 
-  /// As `DenseScene.scene`.
+  /// The parameters are those of `DenseScene.scene`.
   package func scene(
     width: Int = 1100, poses: [RigidTransform]? = nil, fineness: Double = 1
   ) -> RenderedScene {
@@ -20,7 +20,8 @@ package enum TextureScene: String, CaseIterable, Sendable {
     return scene
   }
 
-  /// The clean scene from between the cameras, without noise: photos to compare a model with.
+  /// The clean scene from poses between the cameras, without noise: held-out photos to compare a
+  /// model with.
   package static func held(width: Int = 1100, fineness: Double = 1) -> RenderedScene {
     let poses = (0..<6).map { index in
       DenseScene.pose(

@@ -1,8 +1,8 @@
 import Foundation
 import SceneModel
 
-/// Things of a few millimetres on a base of 24 × 18 cm: some a little in front of a plate, some far
-/// in front of the table.
+/// Objects a few millimeters thick on a base of 24 × 18 cm: some close to a plate behind them, some
+/// far in front of the table.
 struct ThinObjects {
   let fineness: Double
 
@@ -19,7 +19,7 @@ struct ThinObjects {
     .box(center: [-0.02, 0.095, -0.055], halfSize: [0.055, 0.085, 0.001], cells: cells(60))
   }
 
-  /// Three rods 15 mm in front of the plate and four that lean freely.
+  /// Three rods 15 mm in front of the plate and four leaning free-standing ones.
   private var rods: [Mesh] {
     let before = [(-0.055, 0.001), (-0.03, 0.0015), (-0.005, 0.002)].map { x, radius in
       rod(from: [x, 0.01, -0.04], to: [x, 0.2, -0.04], radius)
@@ -64,7 +64,7 @@ struct ThinObjects {
     return [body, handle]
   }
 
-  /// A stalk with leaves of 2 mm.
+  /// A stalk with leaves 2 mm thick.
   private var plant: [Mesh] {
     let foot = SIMD3(0.075, 0.01, 0.055)
     let stalk = rod(from: foot, to: foot + SIMD3(0, 0.17, 0), 0.002)

@@ -1,14 +1,14 @@
 import Kernels
 import SceneModel
 
-/// Photos of an object that turns before a camera that stands still: all but the object is the same
-/// in each of them.
+/// Photos of an object that rotates in front of a static camera: everything except the object is
+/// identical in all of them.
 package struct TurntablePhotos: Sendable {
   package let photos: [RasterImage]
-  /// Where they show the object.
+  /// The masks of the object.
   package let masks: [RasterImage]
 
-  /// Shows the object of `scene`, as it is seen there, before a background with texture.
+  /// Composites the object of `scene` over a textured background.
   package init(_ scene: RenderedScene, _ control: KernelControl = KernelControl()) throws {
     let background = TexturePattern.image(
       width: scene.camera.width, height: scene.camera.height, seed: 4711)

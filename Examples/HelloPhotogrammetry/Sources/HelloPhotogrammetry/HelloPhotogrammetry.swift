@@ -1,7 +1,7 @@
 import Foundation
 import RealityKit
 
-/// Makes a model from a folder of photos and tells how it goes.
+/// Makes a model from a folder of photos and prints the progress.
 ///
 ///     HelloPhotogrammetry <photos> <model.usdz or folder/> [preview|reduced|medium|full|raw]
 @main
@@ -21,7 +21,7 @@ struct HelloPhotogrammetry {
     }
   }
 
-  /// Reads what the session tells until it is done; throws when the model was not made.
+  /// Handles the outputs until processing has ended; throws if the model was not made.
   private static func follow(_ session: PhotogrammetrySession) async throws {
     var failure: (any Error)?
     var percent = 0
@@ -30,7 +30,7 @@ struct HelloPhotogrammetry {
       case .inputComplete:
         print("The photos were read.")
       case .requestProgress(_, let fraction):
-        // Every tenth, in a line of its own.
+        // One line for every 10 %.
         guard Int(fraction * 10) > percent / 10 else { continue }
         percent = Int(fraction * 10) * 10
         print("\(percent) %")
@@ -48,7 +48,7 @@ struct HelloPhotogrammetry {
         if let failure { throw failure }
         return
       case .processingCancelled:
-        throw Failure("The session was cancelled.")
+        throw Failure("The session was canceled.")
       default:
         print(output.localizedDescription)
       }
@@ -56,7 +56,7 @@ struct HelloPhotogrammetry {
   }
 }
 
-/// What the command line asks for.
+/// The command-line arguments.
 private struct Arguments {
   var photos: URL
   var model: URL
@@ -73,12 +73,12 @@ private struct Arguments {
     let levels: [String: PhotogrammetrySession.Request.Detail] = [
       "preview": .preview, "reduced": .reduced, "medium": .medium, "full": .full, "raw": .raw,
     ]
-    guard let level = levels[words[2]] else { throw Failure("\(words[2]) is no level.") }
+    guard let level = levels[words[2]] else { throw Failure("\(words[2]) is not a detail level.") }
     detail = level
   }
 }
 
-/// What went wrong, in a sentence.
+/// An error with a message.
 private struct Failure: LocalizedError {
   var errorDescription: String?
 

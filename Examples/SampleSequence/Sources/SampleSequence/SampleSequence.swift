@@ -2,8 +2,9 @@ import CoreVideo
 import Foundation
 import RealityKit
 
-/// Makes a model from photos in memory, which are given to the session one after another, with a mask
-/// each. Here they come from files; a program would take them from a camera or a renderer.
+/// Makes a model from photos in memory, which are passed to the session one after another, each
+/// with a mask. Here they come from files; a real program would take them from a camera or a
+/// renderer.
 ///
 ///     SampleSequence <photos> <model.usdz>
 @main
@@ -30,7 +31,7 @@ struct SampleSequence {
     for try await output in session.outputs {
       switch output {
       case .requestComplete(_, .poses(let poses)):
-        print("\(poses.posesBySample.count) of \(files.count) photos were placed.")
+        print("\(poses.posesBySample.count) of \(files.count) photos were registered.")
       case .requestComplete(_, .modelEntity(let entity)):
         describe(entity)
       case .requestComplete(_, .modelFile(let url)):
@@ -55,8 +56,8 @@ struct SampleSequence {
   }
 }
 
-/// A photo is loaded when the session asks for it, on the session's own thread, and gone when it was
-/// read. A closure of the main program must not do that: in Swift 6 it belongs to the main thread.
+/// Each photo is loaded when the session requests it, on the session's thread, and released after
+/// it was read. A closure in `main` can't do that: in Swift 6 it is isolated to the main actor.
 private struct Samples: Sequence, IteratorProtocol {
   var files: [URL]
   private var id = 0
@@ -71,7 +72,7 @@ private struct Samples: Sequence, IteratorProtocol {
     return nil
   }
 
-  /// A photo with what is known about it.
+  /// A photo with its metadata and mask.
   private static func sample(_ id: Int, _ file: URL) throws -> PhotogrammetrySample {
     let photo = try PhotogrammetrySample(contentsOf: file)
     var sample = PhotogrammetrySample(id: id, image: photo.image)
@@ -80,7 +81,7 @@ private struct Samples: Sequence, IteratorProtocol {
     return sample
   }
 
-  /// A mask that keeps the image but for its outermost pixels: 255 is the object, 0 is not.
+  /// A mask that excludes the outermost pixels: 255 is the object, 0 is background.
   private static func mask(of image: CVPixelBuffer) -> CVPixelBuffer? {
     let (width, height) = (CVPixelBufferGetWidth(image), CVPixelBufferGetHeight(image))
     var buffer: CVPixelBuffer?

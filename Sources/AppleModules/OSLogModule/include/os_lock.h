@@ -1,1 +1,1 @@
-// What `import os.lock` gives is in the Swift module `os`.
+// The Swift module `os` declares what `import os.lock` provides.

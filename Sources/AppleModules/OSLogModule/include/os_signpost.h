@@ -1,1 +1,1 @@
-// What `import os.signpost` gives is in the Swift module `os`.
+// The Swift module `os` declares what `import os.signpost` provides.

@@ -1,9 +1,9 @@
-/// How the crate format packs bytes and integers.
+/// The crate format's compression of bytes and integers.
 enum CrateCompression {
-  /// The longest input of one LZ4 block.
+  /// Maximum input size of one LZ4 block.
   private static let chunkSize = 0x7E00_0000
 
-  /// Bytes as LZ4 blocks: a zero and the block, or the number of chunks and each with its length.
+  /// Bytes as LZ4 blocks: a zero and one block, or the number of chunks and each with its length.
   static func compress(_ input: [UInt8]) -> [UInt8] {
     guard input.count > chunkSize else { return [0] + LZ4Block.compress(input) }
     var writer = ByteWriter()
@@ -17,8 +17,8 @@ enum CrateCompression {
     return writer.bytes
   }
 
-  /// Integers as differences to their predecessors: the most frequent difference, two bits for each
-  /// integer (that difference, or one of 1, 2 or 4 bytes), then the bytes; all of it compressed.
+  /// Delta encoding: the most frequent difference, a two-bit code for each integer (that
+  /// difference, or one of 1, 2 or 4 bytes), then these bytes; all of it compressed.
   static func compress(_ integers: [Int32]) -> [UInt8] {
     var differences: [Int32] = []
     differences.reserveCapacity(integers.count)
@@ -51,7 +51,7 @@ enum CrateCompression {
     return compress(writer.bytes)
   }
 
-  /// The most frequent value, the largest of several; zero for none.
+  /// The most frequent value, the largest on ties; zero for none.
   private static func mostFrequent(_ values: [Int32]) -> Int32 {
     var counts: [Int32: Int] = [:]
     for value in values { counts[value, default: 0] += 1 }

@@ -1,10 +1,9 @@
-/// All paths of a layer as a tree; a path's index is its order of creation, the root is 0.
+/// All paths of a layer as a tree; indices are in order of creation, the root is 0.
 struct CratePaths {
   private(set) var nodes: [CratePath] = [CratePath(token: 0, isProperty: false)]
   private var indices: [String: Int] = ["/": 0]
 
-  /// The index of the absolute path `path` of a prim or property, which is made with its parents
-  /// when it is new.
+  /// The index of the absolute path `path` of a prim or property; adds it and its parents if new.
   mutating func index(_ path: String, _ tokens: inout CrateTable<String>) -> Int {
     if let index = indices[path] { return index }
     let lastSlash = path.lastIndex(of: "/") ?? path.startIndex
@@ -20,11 +19,10 @@ struct CratePaths {
     return index
   }
 
-  /// The tree depth first as three parallel arrays.
+  /// The tree in depth-first order as three parallel arrays.
   ///
-  /// A jump of 0 says that a sibling follows, −1 that a child follows, −2 that neither does; a
-  /// positive one says that a child follows and how far away the sibling is. Property tokens are
-  /// negative.
+  /// A jump of 0 means that only a sibling follows, −1 only a child, −2 neither; a positive jump
+  /// means that a child follows, and is the distance to the sibling. Property tokens are negative.
   func encoded() -> (paths: [Int32], tokens: [Int32], jumps: [Int32]) {
     var paths: [Int32] = []
     var tokens: [Int32] = []

@@ -1,4 +1,4 @@
-/// The crate's types of values, by their numbers in the format.
+/// Value types of the crate format.
 enum CrateType: UInt64 {
   case bool = 1
   case int = 3
@@ -18,7 +18,7 @@ enum CrateType: UInt64 {
   case variability = 44
 }
 
-/// Where a value is: type, flags and either the value itself or its offset, in eight bytes.
+/// Representation of a value in eight bytes: type, flags, and either the value or its offset.
 struct CrateValueRep: Hashable {
   var bits: UInt64
 
@@ -36,13 +36,13 @@ struct CrateValueRep: Hashable {
     Self(bits: type.rawValue << 48 | UInt64(offset))
   }
 
-  /// An array at `offset`; offset 0 is an empty one.
+  /// An array at `offset`; offset 0 means an empty one.
   static func array(_ type: CrateType, at offset: Int, isCompressed: Bool = false) -> Self {
     Self(bits: array | (isCompressed ? compressed : 0) | type.rawValue << 48 | UInt64(offset))
   }
 }
 
-/// Values numbered in the order of their first appearance.
+/// Distinct values, numbered in order of their first appearance.
 struct CrateTable<Element: Hashable> {
   private(set) var elements: [Element] = []
   private var indices: [Element: UInt32] = [:]
@@ -56,13 +56,13 @@ struct CrateTable<Element: Hashable> {
   }
 }
 
-/// A name and a value of a spec, by their places.
+/// A name-value pair of a spec, by indices.
 struct CrateField: Hashable {
   var token: UInt32
   var value: CrateValueRep
 }
 
-/// What a path of the layer is.
+/// The kind of object at a path of the layer.
 enum CrateSpecType: Int32 {
   case attribute = 1
   case prim = 6
@@ -72,7 +72,7 @@ enum CrateSpecType: Int32 {
 
 /// The path of a prim or property, as a node of a tree that is stored depth first.
 struct CratePath {
-  /// The token of the last element; the root has none.
+  /// The token of the last path element; the root has none.
   var token: UInt32
   var isProperty: Bool
   var children: [Int] = []

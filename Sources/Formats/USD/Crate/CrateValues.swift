@@ -1,16 +1,16 @@
 import SceneModel
 
-/// The part of a crate file that holds values, and the tables that they refer to.
+/// The value section of a crate file, and the tables that it refers to.
 struct CrateValues {
   /// The bytes of the file from its start.
   var file: ByteWriter
-  /// Token 0 stands for the root's name, so that no property has it: minus zero would be no sign.
+  /// Token 0 is reserved, so that no property has it: its index couldn't be negated.
   var tokens = CrateTable<String>()
-  /// Tokens of the strings.
+  /// Token indices of the strings.
   var strings = CrateTable<UInt32>()
   var paths = CratePaths()
 
-  /// Shorter arrays of integers are stored as they are.
+  /// Shorter integer arrays are stored uncompressed.
   private static let minimumCompressedCount = 16
 
   init(file: ByteWriter) {
@@ -20,7 +20,7 @@ struct CrateValues {
 
   mutating func string(_ text: String) -> UInt32 { strings.index(tokens.index(text)) }
 
-  /// Stores a value and says where.
+  /// Stores a value and returns its representation.
   mutating func store(_ value: USDValue) -> CrateValueRep {
     switch value {
     case .bool(let value): return .inlined(.bool, value ? 1 : 0)
@@ -57,7 +57,7 @@ struct CrateValues {
     return .stored(.double, at: file.count)
   }
 
-  /// A vector of small whole numbers goes into the payload, a byte each.
+  /// A vector of small integers is inlined in the payload, one byte per component.
   private mutating func storeVector(_ type: CrateType, _ values: [Float]) -> CrateValueRep {
     let bytes = values.compactMap { Int8(exactly: $0) }
     if bytes.count == values.count {
@@ -93,7 +93,8 @@ struct CrateValues {
     return .array(.int, at: offset, isCompressed: true)
   }
 
-  /// Each entry is its key, the distance to its representation, nested values, the representation.
+  /// Each entry is its key, the distance to its representation, nested values, and the
+  /// representation.
   private mutating func storeDictionary(_ entries: [USDField]) -> CrateValueRep {
     file.align(to: 8)
     let offset = file.count
@@ -109,7 +110,7 @@ struct CrateValues {
     return .stored(.dictionary, at: offset)
   }
 
-  /// Names as a vector, for the order of children and properties.
+  /// Names as a token vector, for the order of children and properties.
   mutating func storeNames(_ names: [String]) -> CrateValueRep {
     let indices = names.map { tokens.index($0) }
     file.align(to: 8)
@@ -119,12 +120,12 @@ struct CrateValues {
     return .stored(.tokenVector, at: offset)
   }
 
-  /// An edit that prepends tokens.
+  /// A list edit that prepends tokens.
   mutating func storePrepended(_ names: [String]) -> CrateValueRep {
     storeListOp(.tokenListOp, header: 1 << 5, names.map { tokens.index($0) })
   }
 
-  /// An edit that replaces the list by these paths.
+  /// A list edit that replaces the list by these paths.
   mutating func storeExplicit(paths: [String]) -> CrateValueRep {
     let indices = paths.map { UInt32(self.paths.index($0, &tokens)) }
     return storeListOp(.pathListOp, header: 1 << 0 | 1 << 1, indices)

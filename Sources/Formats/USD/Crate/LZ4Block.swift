@@ -1,7 +1,7 @@
-/// Compresses bytes to one LZ4 block (greedy matches through a hash table of one candidate).
+/// Compresses bytes to one LZ4 block (greedy matching, hash table with one candidate).
 enum LZ4Block {
   private static let minimumMatch = 4
-  /// The format wants the last five bytes as literals and no match that starts in the last twelve.
+  /// The format requires the last five bytes as literals, and no match start in the last twelve.
   private static let tail = 12
   private static let hashBits: UInt32 = 15
 

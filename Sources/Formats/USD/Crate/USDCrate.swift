@@ -1,7 +1,7 @@
-/// Writes a layer in USD's binary format, the crate (.usdc), version 0.7.0.
+/// Writes a layer in USD's binary format, crate (.usdc), version 0.7.0.
 ///
-/// A crate is a header, the values, then sections that tables of tokens, fields, paths and specs
-/// make up, and last a table of contents. Reference: USDC File Format Specification, Pixar.
+/// A crate consists of a header, the values, sections with tables of tokens, strings, fields, paths
+/// and specs, and a table of contents. Reference: USDC File Format Specification, Pixar.
 package enum USDCrate {
   /// The bytes of `layer`.
   package static func encode(_ layer: USDLayer) -> [UInt8] {
@@ -23,7 +23,7 @@ private struct CrateWriter {
 
   private var values: CrateValues
   private var fields = CrateTable<CrateField>()
-  /// Field indices, each set closed by `endOfSet`.
+  /// Field indices; each set is terminated by `endOfSet`.
   private var fieldSets: [UInt32] = []
   private var fieldSetPlaces: [[UInt32]: Int] = [:]
   private var specs: [Spec] = []

@@ -1,24 +1,24 @@
 import Kernels
 import SceneModel
 
-/// A texture at its own size and at halves of it, down to a texel (Williams, "Pyramidal
-/// Parametrics", SIGGRAPH 1983).
+/// A texture with successively halved levels, down to one texel (Williams, "Pyramidal Parametrics",
+/// SIGGRAPH 1983).
 struct MipMap: Sendable {
   private struct Level {
     var width: Int
     var height: Int
-    /// Of its first byte among the coarser levels.
+    /// Of its first byte in `coarser`.
     var offset: Int
   }
 
   private let levels: [Level]
   private let finest: [UInt8]
-  /// All levels but the finest, one after the other.
+  /// All levels except the full-size one, concatenated.
   private let coarser: [UInt8]
-  /// Texels of the finest level.
+  /// Texels of the full-size level.
   let texelCount: Float
 
-  /// Takes RGB, or gray.
+  /// Accepts RGB or gray.
   init(_ image: RasterImage) throws {
     var image = image.channels == 3 ? image : Self.rgb(image)
     finest = image.pixels
@@ -42,8 +42,8 @@ struct MipMap: Sendable {
     return RasterImage(width: image.width, height: image.height, channels: 3, pixels: pixels)
   }
 
-  /// The colour, 0…255, at a texture coordinate: linear within a level and between two. A texel of
-  /// level n is 2ⁿ texels of the finest wide.
+  /// The color, 0…255, at a texture coordinate: trilinear, within a level and between two. A texel
+  /// of level n is 2ⁿ full-size texels wide.
   func color(_ coordinate: SIMD2<Float>, level: Float) -> SIMD3<Float> {
     let bounded = min(max(level, 0), Float(levels.count - 1))
     let fine = Int(bounded)

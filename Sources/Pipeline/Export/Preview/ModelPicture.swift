@@ -1,22 +1,22 @@
 import Foundation
 import SceneModel
 
-/// Draws one picture of a textured model.
+/// Renders one picture of a textured model.
 ///
-/// Colours are the texture's, a little darker where the surface turns away from the viewer, so that
-/// its form is seen; what would be seen from inside has a colour of its own.
+/// Colors are the texture's, slightly darkened where the surface turns away from the viewer to show
+/// its shape; back faces have a distinct color.
 struct ModelPicture: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Samples a pixel and direction: 3 takes nine.
+    /// Supersampling per direction: 3 takes nine samples per pixel.
     var samplesPerSide = 3
-    /// What a surface that is seen edge-on loses of its light.
+    /// Share of light that a surface seen edge-on loses.
     var shading: Float = 0.3
-    /// The same where there is no texture.
+    /// The same for untextured surfaces.
     var untexturedShading: Float = 0.75
     /// RGB of a surface without texture.
     var untextured = SIMD3<UInt8>(205, 205, 205)
     var background = SIMD3<UInt8>(238, 238, 238)
-    /// Of triangles seen from behind: a hole shows as a hole.
+    /// Color of back faces, so that a hole is visible as a hole.
     var backFace = SIMD3<UInt8>(140, 108, 140)
   }
 
@@ -25,7 +25,8 @@ struct ModelPicture: Sendable {
   /// The diffuse texture by atlas.
   let textures: [MipMap?]
 
-  /// The model as a camera without distortion sees it, all of it in front and within the picture.
+  /// The model as seen by a camera without distortion; it must lie in front of the camera and
+  /// within the picture.
   func drawn(by camera: Camera, from pose: RigidTransform) -> RasterImage {
     let samples = camera.resized(
       width: camera.width * options.samplesPerSide, height: camera.height * options.samplesPerSide)
@@ -34,7 +35,7 @@ struct ModelPicture: Sendable {
     for (index, t) in model.mesh.triangles.enumerated() {
       buffer.draw(Int32(index), vertices[Int(t.a)], vertices[Int(t.b)], vertices[Int(t.c)])
     }
-    // Colours and, in the last component, samples.
+    // Sums of colors and, in the last component, sample counts.
     var sums = [SIMD4<Float>](repeating: .zero, count: camera.width * camera.height)
     let eye = Eye(samples, pose)
     for (atlas, texture) in zip(model.atlases, textures) {
@@ -43,6 +44,7 @@ struct ModelPicture: Sendable {
     return picture(camera.width, camera.height, sums)
   }
 
+  /// The vertices in subsample coordinates.
   private func projected(_ camera: Camera, _ pose: RigidTransform) -> [ScreenVertex] {
     let matrix = pose.rotation.matrix
     let scale = camera.focalLength * ScreenVertex.subdivision
@@ -57,6 +59,7 @@ struct ModelPicture: Sendable {
     }
   }
 
+  /// Averages the samples, with background where there are none.
   private func picture(_ width: Int, _ height: Int, _ sums: [SIMD4<Float>]) -> RasterImage {
     let all = Float(options.samplesPerSide * options.samplesPerSide)
     let background = SIMD3<Float>(options.background)
@@ -70,7 +73,7 @@ struct ModelPicture: Sendable {
   }
 }
 
-/// The rays of a picture's samples.
+/// Viewing rays of a picture's samples.
 private struct Eye {
   let right: SIMD3<Float>
   let down: SIMD3<Float>
@@ -86,21 +89,21 @@ private struct Eye {
     center = SIMD2<Float>(camera.principalPoint)
   }
 
-  /// The unit vector towards the eye at a sample.
+  /// The unit vector toward the viewer at a sample.
   func direction(_ x: Int, _ y: Int) -> SIMD3<Float> {
     let place = SIMD2(Float(x), Float(y)) + 0.5 - center
     return -(right * place.x + down * place.y + forward).normalized
   }
 }
 
-/// What the samples of one triangle have in common.
+/// Per-triangle constants of shading.
 private struct TriangleShading {
   let edges: TriangleEdges
   /// By corner.
   let inverseDepths: SIMD3<Float>
   let coordinates: (SIMD2<Float>, SIMD2<Float>, SIMD2<Float>)
   let normals: (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)
-  /// Texels a sample, times the cube of the inverse depth.
+  /// Texels per sample, times the cube of the inverse depth.
   let texelScale: Float
 
   init?(_ model: TexturedMesh, _ index: Int, _ vertices: [ScreenVertex], texels: Float) {
@@ -121,7 +124,7 @@ private struct TriangleShading {
     texelScale = texelArea * edges.inverseArea * part * part * depths
   }
 
-  /// The weights of the corners on the surface, and the inverse depth, at a sample.
+  /// The perspective-correct barycentric weights and the inverse depth at a sample.
   func weights(_ x: Int, _ y: Int) -> (corners: SIMD3<Float>, inverseDepth: Float) {
     let values = edges.values(x: x, y: y)
     let flat = SIMD3(Float(values.a), Float(values.b), Float(values.c)) * edges.inverseArea
@@ -132,7 +135,7 @@ private struct TriangleShading {
 }
 
 extension ModelPicture {
-  /// Adds the samples of an atlas's triangles to the pixels.
+  /// Accumulates the shaded samples of an atlas's triangles into the pixels.
   private func shade(
     _ range: Range<Int>, _ texture: MipMap?, _ buffer: VisibilityBuffer,
     _ vertices: [ScreenVertex], _ eye: Eye, _ sums: inout [SIMD4<Float>]
@@ -156,6 +159,7 @@ extension ModelPicture {
     }
   }
 
+  /// The shaded color of a front face at a sample, 0…255.
   private func color(
     _ x: Int, _ y: Int, _ triangle: TriangleShading, _ texture: MipMap?, _ eye: Eye
   ) -> SIMD3<Float> {
@@ -168,7 +172,7 @@ extension ModelPicture {
       return SIMD3<Float>(options.untextured) * light
     }
     let coordinate = uv.0 * weights.x + uv.1 * weights.y + uv.2 * weights.z
-    // The area of the texture that a sample stands for, from the Jacobian of the projection.
+    // The texture area that a sample covers, from the Jacobian of the projection.
     let texels = triangle.texelScale / (inverseDepth * inverseDepth * inverseDepth)
     let color = texture.color(coordinate, level: 0.5 * log2(texels))
     return color * (1 - options.shading * (1 - facing))

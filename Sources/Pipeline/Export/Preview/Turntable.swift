@@ -2,35 +2,35 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Viewpoints from which all of a model is seen, at one scale: all around its upright axis, or before
-/// the side that the photos saw where they saw one side only.
+/// Viewpoints that see the whole model at one scale: all around its vertical axis, or in front of
+/// the photographed side if the photos show only one.
 ///
-/// An azimuth counts from +z towards +x, an elevation from the horizon upwards.
+/// Azimuth is measured from +z toward +x, elevation upward from the horizon; both in radians.
 struct Turntable: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var viewCount = 8
-    /// About the angle that a picture spans.
+    /// Approximate angle that a picture spans.
     var fieldOfViewDegrees = 30.0
-    /// Free space around the model, as a share of a picture's longer side.
+    /// Margin around the model, as a share of a picture's longer side.
     var margin = 0.04
-    /// The shorter side of a picture at least, as a share of the longer one.
+    /// Minimum of a picture's shorter side, as a share of the longer one.
     var minimumAspect = 0.3
-    /// Elevation where there are no photos.
+    /// Elevation without photos.
     var elevationDegrees = 20.0
-    /// The photos' own elevation is kept within these.
+    /// Bounds of the photos' median elevation.
     var minimumElevationDegrees = 10.0
     var maximumElevationDegrees = 50.0
-    /// Photos whose horizontal directions have a mean longer than this, 0…1, saw one side: 0.64 is
-    /// half a circle.
+    /// Photos whose horizontal unit directions have a longer mean than this, 0…1, show one side;
+    /// 0.64 corresponds to a semicircle.
     var oneSidedConcentration = 0.6
-    /// Viewpoints before one side span twice this angle at least and at most.
+    /// Bounds of half the angle that viewpoints of a single side span.
     var minimumReachDegrees = 40.0
     var maximumReachDegrees = 80.0
     /// Share of the photos that this angle covers.
     var reachShare = 0.8
   }
 
-  /// A direction to look from, in radians.
+  /// A viewing direction as seen from the model, in radians.
   struct Direction: Hashable, Sendable {
     var azimuth: Double
     var elevation: Double
@@ -38,15 +38,15 @@ struct Turntable: Sendable {
 
   var options = Options()
 
-  /// What all pictures are taken with, and from where.
+  /// The shared camera of all pictures, and their poses.
   struct Viewpoints: Sendable {
     var camera: Camera
-    /// `cameraFromWorld`; none where there is nothing to see.
+    /// `cameraFromWorld`; empty for an empty model.
     var poses: [RigidTransform]
   }
 
-  /// Viewpoints that see every position within the margins of pictures as wide and high as it takes,
-  /// whose longer side has `side` pixels. `cameras` are the poses of the photos.
+  /// Viewpoints that see every position within the margins. The pictures are cropped to the model,
+  /// their longer side has at most `side` pixels. `cameras` are the poses of the photos.
   func viewpoints(
     of positions: [SIMD3<Float>], cameras: [RigidTransform], side: Int, _ control: KernelControl
   ) throws -> Viewpoints {
@@ -71,10 +71,10 @@ struct Turntable: Sendable {
     return Viewpoints(camera: camera(framing: outline, side), poses: poses)
   }
 
-  /// A corner and the opposite one at depth 1.
+  /// Two opposite corners of a rectangle at depth 1.
   private typealias Outline = (low: SIMD2<Double>, high: SIMD2<Double>)
 
-  /// The rectangle that holds all positions in a picture.
+  /// The bounding rectangle of all positions in a picture.
   private static func outline(
     of positions: [SIMD3<Float>], from pose: RigidTransform
   ) -> Outline {
@@ -91,6 +91,7 @@ struct Turntable: Sendable {
     return (low, high)
   }
 
+  /// A camera whose picture holds the outline and the margins.
   private func camera(framing outline: Outline, _ side: Int) -> Camera {
     let extent = outline.high - outline.low
     let longer = max(extent.x, extent.y)
@@ -106,7 +107,7 @@ struct Turntable: Sendable {
       principalPoint: SIMD2(Double(width), Double(height)) / 2 - middle)
   }
 
-  /// Where the viewers are, seen from the model.
+  /// Directions of the viewpoints as seen from the model.
   func directions(_ cameras: [RigidTransform]) -> [Direction] {
     let sights = cameras.map { -($0.rotation.conjugate * SIMD3<Double>(0, 0, 1)) }
     let elevation = medianElevation(sights)
@@ -122,7 +123,7 @@ struct Turntable: Sendable {
     }
   }
 
-  /// The middle of the photos' elevations.
+  /// The median elevation of the photos, within bounds.
   private func medianElevation(_ sights: [SIMD3<Double>]) -> Double {
     let elevations = sights.map { asin(min(max($0.y, -1), 1)) }.sorted()
     let middle = elevations.isEmpty ? nil : elevations[elevations.count / 2] * 180 / .pi
@@ -132,12 +133,12 @@ struct Turntable: Sendable {
     return (degrees ?? options.elevationDegrees) * .pi / 180
   }
 
-  /// The side that the photos saw; nil where they went around, or looked down.
+  /// The photographed side; nil if the photos surround the object or look down at it.
   private func seenSide(_ sights: [SIMD3<Double>]) -> (azimuth: Double, reach: Double)? {
     let flat = sights.map { SIMD2($0.x, $0.z) }
     let sum = flat.reduce(SIMD2<Double>.zero, +)
     let lengths = flat.reduce(0) { $0 + $1.length }
-    // Of photos from above the horizontal part says nothing.
+    // For photos from above, the horizontal part carries no information.
     guard lengths > 0.2 * Double(flat.count), sum.length > options.oneSidedConcentration * lengths
     else { return nil }
     let azimuth = atan2(sum.x, sum.y)
@@ -147,7 +148,7 @@ struct Turntable: Sendable {
     return (azimuth, degrees * .pi / 180)
   }
 
-  /// The rotation of a camera, upright, that looks at the model from a direction.
+  /// The rotation of an upright camera that looks at the model from a direction.
   private static func rotation(_ direction: Direction) -> Quaternion {
     let (a, e) = (direction.azimuth, direction.elevation)
     let forward = -SIMD3(cos(e) * sin(a), sin(e), cos(e) * cos(a))
@@ -155,7 +156,7 @@ struct Turntable: Sendable {
     return Quaternion(Matrix3(rows: right, forward.cross(right), forward))
   }
 
-  /// The least distance from the centre from which no position is outside the field of view.
+  /// The minimum distance from the center at which all positions are within the field of view.
   private func leastDistance(
     of positions: [SIMD3<Float>], around center: SIMD3<Double>, _ rotation: Quaternion
   ) -> Double {
@@ -168,7 +169,7 @@ struct Turntable: Sendable {
       distance = max(distance, max(abs(x), abs(y)) * spread - z)
       radius = max(radius, p.squaredLength)
     }
-    // From closer, a needle that points at the viewer would touch the eye.
+    // Any closer, a needle that points at the viewer would touch the eye.
     let nearest = 2 * radius.squareRoot()
     return max(distance, nearest > 0 ? nearest : 1)
   }

@@ -1,25 +1,25 @@
 import SceneModel
 
-/// A vertex in a picture.
+/// A projected vertex in fixed-point coordinates.
 struct ScreenVertex: Hashable, Sendable {
-  /// Parts of a sample that places are rounded to.
+  /// Fixed-point units per sample.
   static let subdivision = 256.0
 
-  /// In parts of a sample, from the top-left corner of the picture.
+  /// In fixed-point units from the top-left corner of the picture.
   var x: Int32
   var y: Int32
-  /// 1 / z in the camera's frame; linear in the picture.
+  /// 1 / z in the camera frame; linear in the picture.
   var inverseDepth: Float
 }
 
-/// Which triangle is nearest at each sample of a picture: a z-buffer that keeps the triangle
-/// and no colour, so that each sample is shaded once.
+/// A visibility buffer: the nearest triangle at each sample of a picture, without color, so that
+/// each sample is shaded once.
 struct VisibilityBuffer: Sendable {
   let width: Int
   let height: Int
-  /// By sample, top row first; -1 where there is nothing.
+  /// By sample, top row first; −1 for none.
   private(set) var triangles: [Int32]
-  /// 0 where there is nothing.
+  /// 0 for none.
   private var inverseDepths: [Float]
 
   init(width: Int, height: Int) {
@@ -28,10 +28,10 @@ struct VisibilityBuffer: Sendable {
     inverseDepths = [Float](repeating: 0, count: width * height)
   }
 
-  /// Draws a triangle, front or back, over what is behind it; of equal depths the first one stays.
+  /// Rasterizes a triangle, front or back, with a depth test; at equal depths the first one stays.
   ///
-  /// A sample belongs to the triangle that covers its centre, and on an edge that two share to one of
-  /// them: edge functions are integers (Pineda, SIGGRAPH 1988), with the top-left rule.
+  /// A sample belongs to the triangle that covers its center, and on a shared edge to exactly one
+  /// of the two: edge functions are integers (Pineda, SIGGRAPH 1988) with the top-left rule.
   mutating func draw(_ triangle: Int32, _ a: ScreenVertex, _ b: ScreenVertex, _ c: ScreenVertex) {
     guard let edges = TriangleEdges(a, b, c) else { return }
     let (left, right) = span(a.x, b.x, c.x, width)
@@ -60,24 +60,25 @@ struct VisibilityBuffer: Sendable {
     }
   }
 
-  /// The first and the last of `count` columns, or rows, whose centres lie between three places.
+  /// The first and the last of `count` columns, or rows, whose centers lie between three
+  /// coordinates.
   private func span(_ a: Int32, _ b: Int32, _ c: Int32, _ count: Int) -> (first: Int, last: Int) {
     let (low, high) = (Int(min(a, b, c)), Int(max(a, b, c)))
     return (max(0, (low + 127) >> 8), min(count - 1, (high - 128) >> 8))
   }
 }
 
-/// The edge functions of a triangle in a picture: at a place inside, each is positive, and its share
-/// of their sum is the weight of the opposite corner.
+/// The edge functions of a triangle: all positive inside; each one's share of their sum is the
+/// barycentric weight of the opposite corner.
 struct TriangleEdges: Sendable {
-  /// Twice the area on one side of an edge and a place.
+  /// Twice the signed area spanned by an edge and a point.
   struct Edge: Sendable {
-    /// At the centre of the sample in the corner.
+    /// Value at the center of the corner sample.
     let origin: Int64
-    /// From sample to sample.
+    /// Increments from sample to sample.
     let stepX: Int64
     let stepY: Int64
-    /// 0 for a top or left edge, whose places belong to the triangle, else 1.
+    /// 0 for a top or left edge, whose points belong to the triangle, else 1.
     let exclusion: Int64
 
     init(from a: ScreenVertex, to b: ScreenVertex, sign: Int64) {
@@ -91,22 +92,22 @@ struct TriangleEdges: Sendable {
     func value(_ x: Int, _ y: Int) -> Int64 { origin &+ Int64(x) &* stepX &+ Int64(y) &* stepY }
   }
 
-  /// Opposite the corners of these names.
+  /// Each edge is opposite the corner of the same name.
   let a: Edge
   let b: Edge
   let c: Edge
   /// One over the sum of the three functions, which is 2¹⁷ times the area in samples.
   let inverseArea: Float
-  /// Whether the viewer sees the outside.
+  /// Whether the front face is visible.
   let isFront: Bool
 
-  /// Nil for a triangle without area.
+  /// Nil for a degenerate triangle.
   init?(_ a: ScreenVertex, _ b: ScreenVertex, _ c: ScreenVertex) {
     let (ux, uy) = (Int64(b.x) - Int64(a.x), Int64(b.y) - Int64(a.y))
     let (vx, vy) = (Int64(c.x) - Int64(a.x), Int64(c.y) - Int64(a.y))
     let area = ux * vy - uy * vx
     guard area != 0 else { return nil }
-    // y points down: what is counter-clockwise to the eye has a negative area.
+    // y points down: counter-clockwise in the picture means negative area.
     isFront = area < 0
     let sign: Int64 = isFront ? -1 : 1
     self.a = Edge(from: b, to: c, sign: sign)
@@ -115,7 +116,7 @@ struct TriangleEdges: Sendable {
     inverseArea = 1 / Float(abs(area))
   }
 
-  /// The three functions at the centre of a sample.
+  /// The three functions at the center of a sample.
   func values(x: Int, y: Int) -> (a: Int64, b: Int64, c: Int64) {
     (a.value(x, y), b.value(x, y), c.value(x, y))
   }

@@ -1,82 +1,89 @@
 import Kernels
 import SceneModel
 
-/// Tells whether parts of the scene that look alike have been laid on each other.
+/// Detects reconstructions that superimpose repeated structures of the scene.
 ///
-/// Two sides of a box, or two bays of a facade, share features like two photos of one side, and the map
-/// folds. Two things give it away. Some pairs match the right parts and some the wrong ones, so that
-/// strong pairs contradict the reconstruction. And photos that have been put at nearly the same place
-/// differ beside what is alike: the one shows points that nothing hides from the other, and whose
-/// texture isn't there (after Zach et al., "What can missing correspondences tell us about 3D structure
-/// and motion?", CVPR 2008, and Heinly et al., "Correcting for duplicate scene structure in sparse 3D
-/// reconstruction", ECCV 2014). A feature that is missing proves nothing, so the texture is looked for.
+/// Two sides of a box, or two bays of a facade, share features as if they were two photos of one
+/// side, and the map folds. Two signs reveal this. First, some pairs match the correct parts and
+/// others the wrong ones, so that strong pairs contradict the reconstruction. Second, photos with
+/// nearly the same estimated pose differ outside the repeated structure: one photo shows points
+/// that nothing occludes from the other, yet their texture is missing there (after Zach et al. on
+/// missing correspondences, CVPR 2008, and Heinly et al., "Correcting for duplicate scene structure
+/// in sparse 3D reconstruction", ECCV 2014). A missing feature alone proves nothing, so the texture
+/// itself is searched for.
 package struct LookAlikeCheck: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Photos that each one is compared with: the nearest.
+    /// Number of nearest photos that each photo is compared with.
     package var neighbours = 4
-    /// Their largest distance relative to the median depth, and the largest angle of the optical axes.
+    /// Their maximum distance relative to the median depth, and the maximum angle of the optical
+    /// axes.
     package var relativeDistance = 0.6
     package var axisDegrees = 45.0
-    /// Points count that both photos see from directions up to this angle apart, in degrees, and from
-    /// distances up to this ratio.
+    /// Points are compared if both photos observe them from directions up to this angle apart, in
+    /// degrees, and at distances up to this ratio.
     package var maximumAngleDegrees = 20.0
     package var maximumDistanceRatio = 1.4
-    /// Points of a photo that are looked for in another at most.
+    /// Maximum number of points of a photo that are searched for in another.
     package var maximumPoints = 150
-    /// A point further away than what the photo shows around it, by more than this ratio, may be hidden.
+    /// A point that is farther away than its surroundings in the photo by more than this ratio may
+    /// be occluded.
     package var depthTolerance = 1.03
-    /// Distance of a template's samples in σ of its feature, and at least as a fraction of the photo's
-    /// longer side.
+    /// Distance between template samples in σ of the feature, and its minimum as a fraction of the
+    /// photo's longer side.
     package var stepPerScale = 1.0 / 3
     package var relativeStep = 1.0 / 1400
-    /// Photos of more pixels are reduced to this size.
+    /// Photos with more pixels are reduced to this size.
     package var workingPixels = 6_500_000
-    /// Correlation from which on a point is there, and below which it isn't.
+    /// Correlation (ZNCC) from which on a point counts as present, and below which it counts as
+    /// absent.
     package var agreement = 0.75
     package var contradiction = 0.5
-    /// Cells along the longer side of a photo; one with this many points that aren't there, and less
-    /// than half as many that are, contradicts.
+    /// Cells along the longer side of a photo. A cell contradicts if it has at least `cellPoints`
+    /// absent points and fewer than half as many present ones.
     package var cells = 20
     package var cellPoints = 2
-    /// Contradicting cells of both photos together, and points in them, that make the photos differ.
+    /// Minimum number of cells that contradict, in both photos together, and of absent points, for
+    /// a conflict.
     package var minimumCells = 6
     package var minimumPoints = 12
-    /// Share of the pairs of photos close together that have to differ, and how many at least.
+    /// Minimum fraction and minimum number of the compared pairs that must be in conflict.
     package var minimumConflictShare = 0.1
     package var minimumConflicts = 2
-    /// Pairs whose matches contradict the reconstruction from which on it is doubted.
+    /// Number of pairs whose matches contradict the reconstruction from which on it is questioned.
     package var minimumContradicted = 2
 
     package init() {}
   }
 
-  /// What two photos say about being at nearly the same place.
+  /// Evidence for or against two photos having nearly the same pose.
   package struct Evidence: Hashable, Sendable {
     package var pair: PhotoPair
-    /// Points that feature matching found in one of the photos only and whose texture both show.
+    /// Points that feature matching found in only one of the photos and whose texture both show.
     package var agreeing = 0
-    /// Points that one shows and the other, which should, doesn't.
+    /// Points that one photo shows and the other should show but doesn't.
     package var contradicting = 0
-    /// Cells of the photos in which points contradict.
+    /// Cells of the photos with absent points.
     package var contradictingCells = 0
   }
 
-  /// What speaks against a reconstruction.
+  /// The evidence against a reconstruction.
   package struct Findings: Hashable, Sendable {
-    /// Pairs of photos close together that could be compared.
+    /// Number of pairs of nearby photos that could be compared.
     package var compared = 0
-    /// Those that show different things, the most different first.
+    /// The pairs in conflict, the strongest conflict first.
     package var conflicts: [Evidence] = []
-    /// Pairs of photos whose matches contradict the reconstruction, sorted.
+    /// Pairs whose matches contradict the reconstruction, sorted.
     package var contradicted: [PhotoPair] = []
     package var verdict = Verdict.sound
   }
 
+  /// The result of the check.
   package enum Verdict: Hashable, Sendable {
+  /// Neither sign is present.
     case sound
-    /// One of the two signs is there.
+    /// One of the two signs is present.
     case doubtful
-    /// Both are.
+    /// Both signs are present.
     case folded
   }
 
@@ -84,7 +91,7 @@ package struct LookAlikeCheck: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// `graph` is what the reconstruction was made of.
+  /// Checks a reconstruction; `graph` is the view graph that it was estimated from.
   package func run(
     _ reconstruction: Reconstruction, _ graph: ViewGraph, features: [FeatureSet],
     images: ImageStore, _ context: StageContext
@@ -109,7 +116,7 @@ package struct LookAlikeCheck: Sendable {
     return findings
   }
 
-  /// The evidence on every two photos that a reconstruction puts close together, sorted by pair.
+  /// The evidence for every two photos that a reconstruction places close together, sorted by pair.
   package func evidence(
     _ reconstruction: Reconstruction, features: [FeatureSet], images: ImageStore,
     _ context: StageContext
@@ -129,7 +136,7 @@ package struct LookAlikeCheck: Sendable {
     return found.values.sorted { $0.pair < $1.pair }
   }
 
-  /// Whether the photos show different things.
+  /// Whether the photos show different parts of the scene.
   private func isConflict(_ evidence: Evidence) -> Bool {
     evidence.contradictingCells >= options.minimumCells
       && evidence.contradicting >= options.minimumPoints
@@ -137,7 +144,7 @@ package struct LookAlikeCheck: Sendable {
 }
 
 extension LookAlikeCheck.Findings {
-  /// A sentence that names the photos.
+  /// An explanation that names up to three pairs of photos.
   package func reason(_ photos: [Photo]) -> String {
     func name(_ pair: PhotoPair) -> String {
       "\(photos[pair.first.index].name) and \(photos[pair.second.index].name)"
@@ -146,7 +153,7 @@ extension LookAlikeCheck.Findings {
     let shown = pairs.prefix(3).map(name).joined(separator: ", ")
     let more = pairs.count > 3 ? " and \(pairs.count - 3) more pairs" : ""
     return conflicts.isEmpty
-      ? "\(shown)\(more) match, and the model puts what they show in different places"
-      : "\(shown)\(more) show the same in part and something else beside it"
+      ? "\(shown)\(more) match, but the model places what they show at different positions"
+      : "\(shown)\(more) show the same structure with different surroundings"
   }
 }

@@ -2,33 +2,35 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// A point of one photo that another one should show.
+/// A point of one photo that another photo is expected to show.
 struct ExpectedPoint: Sendable {
-  /// Where the first photo shows it.
+  /// The point and its template in the first photo.
   var reference: TrackReference
-  /// Where the other one should, and how its surroundings are warped there.
+  /// The expected position in the other photo, in pixels, and the local affine warp of the
+  /// template.
   var pixel: SIMD2<Double>
   var warp: SIMD4<Double>
 }
 
-/// Points of one photo that another one should show, and what of it that one shows for certain.
+/// A visibility hypothesis: the points of photo `other` that `photo` should show if both poses are
+/// correct, and the points that it demonstrably shows.
 struct NearbyQuestion: Sendable {
   var other: Int
   var photo: Int
   var points: [ExpectedPoint] = []
-  /// Pixels of points that features of both photos show.
+  /// Pixels in `photo` of points that are matched features of both photos.
   var agreed: [SIMD2<Double>] = []
 }
 
-/// Which points a photo should show, from its pose and what it shows.
+/// Predicts which points a photo should show, from its pose and the points it observes.
 struct NearbyView {
   let photo: Int
   let pose: RigidTransform
   private let surroundings: DepthGrid
-  /// Tracks that features of the photo show, and where.
+  /// Tracks observed by features of the photo, and their pixels.
   private let known: [Int32: SIMD2<Double>]
 
-  /// `seen` has the tracks that features of the photo show.
+  /// `seen` lists the tracks observed by features of the photo.
   init(
     _ photo: Int, at pose: RigidTransform, seen: [(track: Int32, pixel: SIMD2<Double>)],
     _ map: SparseMap, _ options: LookAlikeCheck.Options
@@ -40,10 +42,10 @@ struct NearbyView {
     known = Dictionary(seen.map { ($0.track, $0.pixel) }) { first, _ in first }
   }
 
-  /// Of all points that the photo shows; nil without any.
+  /// Median depth of all points that the photo observes; nil without any.
   var medianDepth: Double? { surroundings.medianDepth }
 
-  /// What the photo should show of another one.
+  /// The points of another photo that this photo should show.
   func question(
     about other: Int, _ map: SparseMap, _ options: LookAlikeCheck.Options,
     reference: (_ observation: Int) -> TrackReference
@@ -66,7 +68,8 @@ struct NearbyView {
     return question
   }
 
-  /// A point that is seen from `theirs`; nil where the photo may not show it, or very differently.
+  /// The expected position of a point observed from the center `theirs`; nil if it may be occluded,
+  /// lies outside, or is viewed too differently.
   private func expected(
     _ reference: TrackReference, from theirs: SIMD3<Double>, _ photos: PosedPhotos,
     _ options: LookAlikeCheck.Options
@@ -80,7 +83,7 @@ struct NearbyView {
       mine.dot(their) > cos(limit) * mine.length * their.length,
       let (pixel, warp) = reference.warp(to: photo, in: photos)
     else { return nil }
-    // The whole template and the steps of the search have to lie within the photo.
+    // The whole template, including the search range, must lie within the photo.
     let margin = NearbySearch.templateReach * reference.step
     guard pixel.x > margin, pixel.y > margin, pixel.x < Double(camera.width) - margin,
       pixel.y < Double(camera.height) - margin,
@@ -90,14 +93,14 @@ struct NearbyView {
   }
 }
 
-/// Looks for points of photos in photos that stand close to them.
+/// Tests visibility hypotheses between nearby photos by template matching.
 struct NearbySearch: Sendable {
   let map: SparseMap
   private let features: [FeatureSet]
   private let photos: [Photo]
   private let reading: TemplateReading
   private let options: LookAlikeCheck.Options
-  /// The mean viewing direction of each track.
+  /// The mean viewing direction of each track's point, a unit vector in the world frame.
   private let normals: [SIMD3<Double>]
 
   init(
@@ -130,9 +133,9 @@ struct NearbySearch: Sendable {
       point: map.positions[track], normal: normals[track])
   }
 
-  // MARK: Questions
+  // MARK: Hypotheses
 
-  /// What each photo should show of its neighbours, as the map has them.
+  /// The points that each photo should show of its neighbors if the map is correct.
   func questions(_ control: KernelControl) throws -> [NearbyQuestion] {
     try control.parallelMap(photos.count) { photo -> [NearbyQuestion] in
       guard let pose = map.photos.poses[photo] else { return [] }
@@ -146,7 +149,7 @@ struct NearbySearch: Sendable {
     }.flatMap { $0 }
   }
 
-  /// The nearest photos that look the same way.
+  /// The nearest photos with a similar viewing direction.
   private func neighbours(of photo: Int, _ pose: RigidTransform, within reach: Double) -> [Int] {
     func axis(_ pose: RigidTransform) -> SIMD3<Double> {
       pose.rotation.conjugate * SIMD3(0, 0, 1)
@@ -162,9 +165,9 @@ struct NearbySearch: Sendable {
       .prefix(options.neighbours).map(\.photo)
   }
 
-  // MARK: Answers
+  // MARK: Evaluation
 
-  /// The evidence of each question.
+  /// The evidence for each hypothesis, in their order.
   func answers(
     _ questions: [NearbyQuestion], _ control: KernelControl
   ) throws -> [LookAlikeCheck.Evidence] {
@@ -192,8 +195,8 @@ struct NearbySearch: Sendable {
     }
   }
 
-  /// The best correlation of some of the points in a photo, searched for from a few places around the
-  /// expected one; nil for points without a template.
+  /// The highest correlation of each of some points in a photo, searched from several starting
+  /// positions around the expected one; nil for points without a template.
   private func correlations(
     _ numbers: [Int], _ points: [ExpectedPoint], _ templates: TemplateMatching.Templates,
     in photo: Int
@@ -201,7 +204,7 @@ struct NearbySearch: Sendable {
     guard !numbers.isEmpty else { return [] }
     let (image, factor) = try reading.image(photo)
     let isOfObject = try reading.isOfObject(photo)
-    // What a mask leaves out may hide the point, or be different every time.
+    // Masked-out areas may occlude the point or differ between photos.
     var best = numbers.map { number -> Double? in
       let (pixel, reach) = (
         points[number].pixel, Self.templateReach * points[number].reference.step
@@ -229,11 +232,11 @@ struct NearbySearch: Sendable {
     return best
   }
 
-  /// Half the side of a template with the steps of its search, in its samples.
+  /// Half the side of a template plus the search range, in template samples.
   fileprivate static let templateReach = 10.0
   private static let corners: [SIMD2<Double>] = [[-1, -1], [1, -1], [-1, 1], [1, 1]]
 
-  /// Starts of the search in samples of the template.
+  /// Starting positions of the search, in template samples.
   private static let offsets: [SIMD2<Double>] = [
     [0, 0], [2, 0], [-2, 0], [0, 2], [0, -2], [2, 2], [-2, -2], [2, -2], [-2, 2],
   ]

@@ -1,36 +1,39 @@
 import Foundation
 import SceneModel
 
-/// Tells whether all photos were taken from one place, the camera only turned.
+/// Detects sets in which all photos were taken from one place and the camera was only rotated.
 ///
-/// Such photos hold no depth, yet with a focal length that is free a map can be bent out of them. A
-/// turned camera keeps the angles between the rays of all points, so the angle between two points of
-/// one photo is compared with that between their matches in the other, for a range of focal lengths.
+/// Such photos contain no depth information, yet with a free focal length a map can be fitted to
+/// them. Pure rotation preserves the angles between the rays of all points, so the angle between
+/// two points of one photo is compared with the angle between their matches in the other, for a
+/// range of focal lengths.
 package struct StandpointCheck: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Focal lengths lie between the given one divided and multiplied by this: where it was assumed, and
-    /// where metadata tell it.
+    /// Focal lengths range from the given one divided by this to the one multiplied by it, for
+    /// assumed values and for values from metadata.
     package var assumedRange = 2.6
     package var exifRange = 1.15
-    /// Focal lengths tried, evenly spaced by their logarithms.
+    /// Number of focal lengths tested, evenly spaced in their logarithms.
     package var candidates = 81
-    /// Matches used of a pair at most.
+    /// Maximum number of matches used per pair.
     package var maximumMatches = 200
-    /// Pairs used at most, those with the most matches.
+    /// Maximum number of pairs used, those with the most matches.
     package var maximumPairs = 60
-    /// Median change of angles, as a fraction of the photo's longer side, that noise explains.
+    /// Maximum median change of angles explained by noise, as a fraction of the photo's longer
+    /// side.
     package var relativeError = 0.002
-    /// Share of the pairs that have to be turns.
+    /// Minimum fraction of the pairs that must be pure rotations.
     package var turnedShare = 0.9
 
     package init() {}
   }
 
-  /// The matches of a pair relative to the principal points, in units of the focal lengths.
+  /// The matches of a pair at depth 1 (relative to the principal points, in units of the focal
+  /// lengths).
   private struct Sample: Sendable {
     var first: [SIMD2<Double>]
     var second: [SIMD2<Double>]
-    /// The largest median change of angles of a turn at the given focal length, in radians.
+    /// Maximum median change of angles under pure rotation at the given focal length, in radians.
     var limit: Double
   }
 
@@ -38,6 +41,7 @@ package struct StandpointCheck: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
+  /// Whether the matches are consistent with a camera that only rotated.
   package func isOfOnePlace(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera]
   ) -> Bool {
@@ -73,8 +77,8 @@ package struct StandpointCheck: Sendable {
       limit: pixels / camera.focalLength.x)
   }
 
-  /// The median change in radians of the angle between two points, with the focal lengths multiplied by
-  /// `factor`.
+  /// The median change, in radians, of the angle between two points, with the focal lengths
+  /// multiplied by `factor`.
   private func medianChange(_ sample: Sample, _ factor: Double) -> Double {
     func rays(_ points: [SIMD2<Double>]) -> [SIMD3<Double>] {
       points.map { SIMD3($0.x / factor, $0.y / factor, 1).normalized }

@@ -1,12 +1,13 @@
 import Kernels
 import SceneModel
 
-/// From features to verified pairs: pair selection, matching, verification, and self-calibration of
-/// cameras without metadata.
+/// From features to verified pairs: pair selection, matching, geometric verification, and
+/// self-calibration of cameras without metadata.
 package struct CorrespondenceSearch {
   package struct Options: Hashable, Codable, Sendable {
     package var selection = PairSelection.Options()
-    /// Share of the sample of pairs that looked hopeless above which the look isn't believed.
+    /// Maximum fraction of the sampled rejections that may turn out verifiable. Above it,
+    /// preemptive matching is considered unreliable and all candidates are matched.
     package var maximumWrongRejections = 0.03
     package var expansion = PairExpansion.Options()
     package var matching = FeatureMatching.Options()
@@ -21,8 +22,8 @@ package struct CorrespondenceSearch {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The verified pairs, and the cameras with a better first focal length where only an assumption was
-  /// known and the matches tell more.
+  /// Returns the verified pairs, and the cameras. A camera whose focal length was only assumed gets
+  /// an improved initial value if the matches determine one.
   package func run(
     photos: [Photo], cameras: [Camera], features: [FeatureSet], isSequential: Bool,
     _ context: StageContext
@@ -57,7 +58,7 @@ package struct CorrespondenceSearch {
     return (round.graph, calibrated)
   }
 
-  /// Whether too many of the pairs that looked hopeless were verified.
+  /// Whether preemptive matching rejected too many pairs that turned out to be verifiable.
   private func isLookWrong(_ choice: PairSelection.Choice, _ graph: ViewGraph) -> Bool {
     let verified = Set(graph.pairs.map(\.pair))
     let wrong = choice.sample.count { verified.contains($0) }
@@ -100,7 +101,8 @@ private struct Round {
     graph.rejected = (graph.rejected + verified.rejected).sorted { $0.pair < $1.pair }
   }
 
-  /// Verifies all pairs with cameras known well enough for essential matrices.
+  /// Verifies all pairs again, now that the focal lengths are known well enough for essential
+  /// matrices.
   mutating func verifyAgain(_ cameras: [Camera], _ context: StageContext) throws {
     verification.isUncalibratedWhereAssumed = false
     graph = try PairVerification(verification)
@@ -108,13 +110,14 @@ private struct Round {
         pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
   }
 
-  /// Looks for more matches of weak pairs.
+  /// Searches for additional matches of weak pairs along the epipolar lines.
   mutating func guide(_ cameras: [Camera], _ context: StageContext) throws {
     graph = try GuidedMatching(
       options.guidedMatching, verification: PairVerification(verification)
     ).run(graph, features: features, photos: photos, cameras: cameras, context)
   }
 
+  /// Records the numbers of pairs and matches, and warns if no pair was verified.
   func report(_ notes: StageNotes) {
     notes.count("pairs", Double(pairs.count))
     notes.count("matches", Double(matches.reduce(0) { $0 + $1.count }))

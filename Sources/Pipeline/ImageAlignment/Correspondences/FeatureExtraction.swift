@@ -1,40 +1,43 @@
 import Kernels
 import SceneModel
 
-/// Finds the features of every photo by SIFT (Lowe, IJCV 2004).
+/// Detects the features of every photo with SIFT (Lowe, IJCV 2004).
 ///
-/// Of a photo with a mask, features beside the object are not used: what a mask leaves out needn't
-/// stand still. On a turntable the background would else tell that the camera never moved.
+/// If a photo has a mask, features outside the object are discarded, because the masked-out area
+/// may move relative to the object. On a turntable, for example, the background would indicate that
+/// the camera never moved.
 package struct FeatureExtraction {
   package struct Options: Hashable, Codable, Sendable {
-    /// How hard to look.
+    /// Sensitivity of the detector.
     package enum Sensitivity: String, Hashable, Codable, Sendable { case normal, high }
 
     package var sensitivity = Sensitivity.normal
     package var detection = FeatureDetection()
-    /// Photos of at most this number of pixels are doubled for the first octave, which finds the small
-    /// features. Larger ones have enough without: sensors with a mosaic of colours and lenses resolve
-    /// less than their pixels.
+    /// Photos with at most this number of pixels are upsampled by two for the first octave, which
+    /// finds the smallest features. Larger photos have enough features without it: color filter
+    /// mosaics and lenses resolve less than the pixel grid.
     package var doubledPixels = 3_200_000
-    /// Pixels of the largest photo that is searched at full size; larger ones are reduced to it.
+    /// Largest number of pixels that is searched; larger photos are reduced to it.
     package var maximumPixels = 6_500_000
-    /// A photo with fewer features than this is searched again with the threshold of contrast
+    /// A photo with fewer features than this is searched again with the contrast threshold
     /// multiplied by `sparseFactor`.
     package var sparseFeatures = 1500
     package var sparseFactor = 0.4
-    /// Pixels for each feature at least, so that tiny photos don't get more than they hold.
+    /// Minimum number of pixels per feature, so that tiny photos don't get more features than they
+    /// can hold.
     package var pixelsPerFeature = 80
-    /// Photos of fewer pixels get fewer features, in proportion to their sides: matching takes the
-    /// square of their number.
+    /// Photos with fewer pixels get fewer features, in proportion to their side length: the cost of
+    /// matching grows with the square of the number of features.
     package var manyFeaturePixels = 2_000_000
-    /// How far beyond its mask an object may reach, as a fraction of the photo's longer side.
+    /// Distance beyond the mask up to which features are kept, as a fraction of the photo's longer
+    /// side.
     package var maskMargin = 0.002
-    /// How high sensitivity looks.
+    /// Changes made by high sensitivity.
     package var high = HighSensitivity()
 
     package init() {}
 
-    /// The size and the options to search a photo with.
+    /// The working size in pixels and the detector options for a photo.
     fileprivate func plan(of photo: Photo) -> (maximumPixels: Int, detection: FeatureDetection) {
       var detection = detection
       guard sensitivity == .high else {
@@ -49,14 +52,15 @@ package struct FeatureExtraction {
     }
   }
 
-  /// What high sensitivity changes: every photo is doubled, and fainter and more edge-like features are
-  /// kept, and more of them.
+  /// The changes that high sensitivity makes: every photo is upsampled, and more, fainter and more
+  /// edge-like features are kept.
   package struct HighSensitivity: Hashable, Codable, Sendable {
     /// Multiplies the contrast threshold.
     package var contrastFactor = 0.25
     /// Multiplies the limit on the ratio of principal curvatures.
     package var edgeFactor = 1.6
-    /// Multiplies the numbers of features, the pixels for each feature divide by it.
+    /// Multiplies the maximum numbers of features and divides the minimum number of pixels per
+    /// feature.
     package var featureFactor = 2
     /// Larger photos are reduced to this number of pixels.
     package var maximumPixels = 4_000_000
@@ -68,7 +72,8 @@ package struct FeatureExtraction {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// One set a photo, in pixels of the upright photo at full size; empty where there is no texture.
+  /// Returns one feature set per photo, in pixels of the upright photo at full size; empty where
+  /// there is no texture.
   package func run(
     _ photos: [Photo], images: ImageStore, _ context: StageContext
   ) throws -> [FeatureSet] {
@@ -93,7 +98,7 @@ package struct FeatureExtraction {
     let margin = max(1, options.maskMargin * Double(max(image.width, image.height)))
     let mask = try images.mask(photo.id, maximumPixels: maximumPixels)?
       .dilated(by: Int(margin.rounded()))
-    // A unit runs on one thread; the units run side by side.
+    // Each task is single-threaded; tasks run in parallel.
     let control = KernelControl()
     let factor = options.sensitivity == .high ? options.high.featureFactor : 1
     let pixels = image.width * image.height
@@ -116,7 +121,7 @@ package struct FeatureExtraction {
 }
 
 extension FeatureSet {
-  /// From the pixels of a reduced photo to those of the full one.
+  /// Scales positions and sizes from the reduced photo to the full-size photo.
   fileprivate mutating func scale(by factor: SIMD2<Float>) {
     guard factor != [1, 1] else { return }
     let mean = (factor.x * factor.y).squareRoot()

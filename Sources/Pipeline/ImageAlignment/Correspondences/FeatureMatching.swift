@@ -1,7 +1,7 @@
 import Kernels
 import SceneModel
 
-/// Matches the features of pairs of photos: exact nearest neighbours, mutual, with Lowe's ratio test.
+/// Matches the features of pairs of photos: exact mutual nearest neighbors with Lowe's ratio test.
 package struct FeatureMatching {
   package struct Options: Hashable, Codable, Sendable {
     package var matching = DescriptorMatching()
@@ -13,7 +13,7 @@ package struct FeatureMatching {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The matches of each pair, the most distinctive first.
+  /// Returns the matches of each pair, the most distinctive first.
   package func run(
     _ pairs: [PhotoPair], features: [FeatureSet], _ context: StageContext
   ) throws -> [[FeatureMatch]] {

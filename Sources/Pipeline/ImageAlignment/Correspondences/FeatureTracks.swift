@@ -1,24 +1,32 @@
 import SceneModel
 
-/// Features of several photos that are taken for the same point, as parallel arrays.
+/// Feature tracks: features of several photos that are assumed to show the same point, as parallel
+/// arrays.
 ///
-/// The observations of track i are `observations(of: i)`, sorted by photo, at most one a photo.
+/// The observations of track i are `observations(of: i)`, sorted by photo, at most one per photo.
 package struct FeatureTracks: Sendable {
+  /// Track i covers the observations `offsets[i]..<offsets[i + 1]`.
   package private(set) var offsets: [Int32] = [0]
+  /// The photo of each observation.
   package private(set) var photos: [Int32] = []
+  /// The feature of each observation, an index into the photo's `FeatureSet`.
   package private(set) var features: [Int32] = []
-  /// Pixels of the upright photo, origin at the top-left corner.
+  /// The position of each observation in pixels of the upright photo, origin at the top-left
+  /// corner.
   package private(set) var pixels: [SIMD2<Double>] = []
+  /// The track of each observation.
   package private(set) var trackOfObservation: [Int32] = []
-  /// The observations of each photo, ascending.
+  /// The observations of each photo, in ascending order.
   package private(set) var observationsOfPhoto: [[Int32]]
 
   package init(photoCount: Int) {
     observationsOfPhoto = Array(repeating: [], count: photoCount)
   }
 
+  /// The number of tracks.
   package var count: Int { offsets.count - 1 }
 
+  /// The indices of the track's observations.
   package func observations(of track: Int) -> Range<Int> {
     Int(offsets[track])..<Int(offsets[track + 1])
   }
@@ -27,7 +35,7 @@ package struct FeatureTracks: Sendable {
     pixels[observation] = pixel
   }
 
-  /// Adds a track; `members` are sorted by photo.
+  /// Appends a track; `members` are sorted by photo.
   package mutating func append(
     _ members: some Sequence<(photo: Int32, feature: Int32, pixel: SIMD2<Double>)>
   ) {

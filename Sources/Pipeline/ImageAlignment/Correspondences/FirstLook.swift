@@ -1,17 +1,19 @@
 import Kernels
 import SceneModel
 
-/// Tells cheaply whether two photos may show the same surface, by matching their features of the
-/// largest scale only, which are few and which a change of distance hides last.
+/// Preemptive matching (Wu, "Towards linear-time incremental structure from motion", 3DV 2013):
+/// tests at low cost whether two photos may show the same surface, by matching only their
+/// largest-scale features. These are few, and they survive a change of distance longest.
 package struct FirstLook {
   package struct Options: Hashable, Codable, Sendable {
-    /// Features of each photo that are matched.
+    /// Number of features per photo that are matched.
     package var features = 1024
-    /// More permissive than the ratio of the matching.
+    /// Ratio of the ratio test; more permissive than that of full matching.
     package var ratio = 0.8
-    /// Pairs with fewer matches are hopeless.
+    /// Pairs with fewer matches are unpromising.
     package var minimumMatches = 5
-    /// Photos of fewer features than this multiple of `features` are matched as fast in full.
+    /// Photos with fewer features than this multiple of `features` skip the test: full matching is
+    /// just as fast.
     package var worthwhileFactor = 2
 
     package init() {}
@@ -21,7 +23,7 @@ package struct FirstLook {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Those of `pairs` that aren't hopeless, in the same order.
+  /// Returns the promising pairs of `pairs`, in the same order.
   package func run(
     _ pairs: [PhotoPair], features: [FeatureSet], _ context: StageContext
   ) throws -> [PhotoPair] {
@@ -38,7 +40,7 @@ package struct FirstLook {
     return zip(pairs, isHopeful).filter { $1 }.map(\.0)
   }
 
-  /// How many of the largest features of each of `pairs` match.
+  /// Returns the number of matches among the largest features of each pair.
   package func counts(
     _ pairs: [PhotoPair], features: [FeatureSet], _ context: StageContext
   ) throws -> [Int] {

@@ -2,12 +2,13 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Gives weak pairs a second pass: once their geometry is known, features are matched among those near
-/// their epipolar line, where what looks alike elsewhere in the photo can't confuse them. New matches
-/// have to change scale and orientation as the known ones do.
+/// Guided matching: a second matching pass over weak pairs. Once the epipolar geometry of a pair is
+/// known, features are matched only to candidates near their epipolar line, where similar features
+/// elsewhere in the photo can't cause ambiguity. New matches must change scale and orientation
+/// consistently with the known ones.
 package struct GuidedMatching {
   package struct Options: Hashable, Codable, Sendable {
-    /// Pairs with as many matches don't need more.
+    /// Pairs with at least this number of matches are skipped.
     package var sufficientMatches = 60
     package var matching = EpipolarMatching()
 
@@ -15,14 +16,14 @@ package struct GuidedMatching {
   }
 
   package var options: Options
-  /// How pairs are verified: its limit also bounds the distance from the epipolar line.
+  /// Verifies the new matches; its error limit also bounds the distance from the epipolar line.
   package var verification: PairVerification
 
   package init(_ options: Options, verification: PairVerification) {
     (self.options, self.verification) = (options, verification)
   }
 
-  /// The graph in which weak pairs with a known geometry have the matches that it leads to.
+  /// Returns the graph with the additional matches of weak pairs of known geometry.
   package func run(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
     _ context: StageContext
@@ -50,7 +51,7 @@ package struct GuidedMatching {
     return result
   }
 
-  /// The pair with more matches, or as it was where they don't help.
+  /// The pair with additional matches, or unchanged if they don't help.
   private func guided(
     _ pair: VerifiedPair, _ features: [FeatureSet], _ points: [[SIMD2<Double>]],
     _ cameraOfPhoto: [Camera]
@@ -77,7 +78,7 @@ package struct GuidedMatching {
 }
 
 extension RigidTransform {
-  /// The essential matrix E of `bFromA`, `x_bᵀ E x_a = 0` for viewing rays of one point.
+  /// The essential matrix E of `bFromA`: `x_bᵀ E x_a = 0` for corresponding viewing rays.
   var essentialMatrix: Matrix3 {
     let t = translation
     let cross = Matrix3(rows: [0, -t.z, t.y], [t.z, 0, -t.x], [-t.y, t.x, 0])

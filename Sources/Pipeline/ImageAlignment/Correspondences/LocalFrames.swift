@@ -1,20 +1,21 @@
 import Foundation
 import SceneModel
 
-/// How the local frames of a pair's known matches, the scales and orientations of their features, change
-/// from the first photo to the second: chance matches change otherwise.
+/// The typical change of the local feature frames (scale and orientation) between the two photos of
+/// a pair, estimated from its known matches; chance matches deviate from it.
 struct LocalFrames {
   private let first: FeatureSet
   private let second: FeatureSet
-  /// The median of the logarithm of the ratio of scales.
+  /// Median logarithm of the scale ratio.
   private var scale = 0.0
-  /// The mean turn, as a vector: the shorter, the less it says.
+  /// Mean rotation as a vector; the shorter it is, the larger the spread.
   private var turn = SIMD2<Double>.zero
 
-  /// Largest change from the median as a factor, and from the mean turn in degrees.
+  /// Maximum deviation from the median scale ratio, as a factor, and from the mean rotation, in
+  /// degrees.
   private static let maximumFactor = 2.0
   private static let maximumTurnDegrees = 45.0
-  /// Length of the mean turn below which turns differ too much to judge by.
+  /// Length of the mean rotation vector below which rotations vary too much to be a criterion.
   private static let minimumAgreement = 0.5
 
   init(_ known: [FeatureMatch], _ first: FeatureSet, _ second: FeatureSet) {
@@ -34,6 +35,7 @@ struct LocalFrames {
     return [cos(angle), sin(angle)]
   }
 
+  /// Whether a match changes scale and orientation like the known ones.
   func agrees(_ match: FeatureMatch) -> Bool {
     guard abs(logarithmOfScales(match) - scale) <= log(Self.maximumFactor) else { return false }
     let length = (turn * turn).sum().squareRoot()

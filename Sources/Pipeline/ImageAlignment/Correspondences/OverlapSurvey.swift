@@ -1,6 +1,6 @@
 import SceneModel
 
-/// Which photos overlap with which, found without aligning them.
+/// Determines which photos overlap, without aligning them.
 package struct OverlapSurvey: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// The photos are in the order of capture.
@@ -11,24 +11,28 @@ package struct OverlapSurvey: Sendable {
     package init() {}
   }
 
+  /// The overlaps of one photo.
   package struct Overlap: Hashable, Sendable {
+    /// Another photo and the number of matches with it.
     package struct Partner: Hashable, Sendable {
       package var photo: ID<Photo>
       package var matches: Int
     }
 
     package var photo: ID<Photo>
+    /// Number of features.
     package var features: Int
-    /// Photos that share enough matches, most first.
+    /// Photos with a verified overlap, the most matches first.
     package var partners: [Partner]
-    /// The photo that comes nearest where there is no partner.
+    /// The photo with the most matches among those without a verified overlap.
     package var nearest: Partner?
   }
 
+  /// The overlaps of all photos and the groups that they form.
   package struct Result: Sendable {
-    /// By photo.
+    /// Indexed by photo ID.
     package var overlaps: [Overlap]
-    /// Photos that are connected over partners, the largest group first.
+    /// Photos connected by verified overlaps, the largest group first.
     package var groups: [[ID<Photo>]]
   }
 
@@ -36,6 +40,7 @@ package struct OverlapSurvey: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
+  /// Extracts and matches features; no poses are estimated.
   package func run(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Result {
@@ -49,7 +54,7 @@ package struct OverlapSurvey: Sendable {
 }
 
 extension OverlapSurvey.Result {
-  /// What a view graph tells; `featureCounts` is by photo.
+  /// Summarizes a view graph; `featureCounts` is indexed by photo ID.
   package init(_ graph: ViewGraph, featureCounts: [Int]) {
     overlaps = featureCounts.enumerated().map {
       OverlapSurvey.Overlap(photo: ID($0), features: $1, partners: [])

@@ -1,19 +1,21 @@
 import Kernels
 import SceneModel
 
-/// Chooses more pairs from those that were verified: partners of partners, and a second chance for
-/// photos that have found few partners or are cut off from the rest.
+/// Selects additional pairs on the basis of the verified ones (cf. query expansion in image
+/// retrieval, Chum et al., ICCV 2007): partners of partners, and retries for photos that have few
+/// partners or are disconnected from the largest group.
 package struct PairExpansion {
   package struct Options: Hashable, Codable, Sendable {
-    /// Partners of partners that a photo is paired with at most.
+    /// Maximum number of partners of partners that a photo is paired with.
     package var partners = 10
     /// The same for photos in order of capture.
     package var sequencePartners = 1
-    /// Verified partners that two photos must have in common.
+    /// Minimum number of verified partners that two photos must have in common.
     package var commonPartners = 2
-    /// A photo with fewer verified partners is matched with all its candidates, the hopeless too.
+    /// A photo with fewer verified partners is matched with all its candidates, including the
+    /// unpromising ones.
     package var fewPartners = 4
-    /// The photos most alike such a photo that it is matched with as well.
+    /// Number of most similar photos that such a photo is additionally matched with.
     package var chances = 10
 
     package init() {}
@@ -23,7 +25,7 @@ package struct PairExpansion {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Pairs that are not among those of `choice`, sorted.
+  /// Returns pairs that are not among those of `choice`, sorted.
   package func run(
     _ choice: PairSelection.Choice, _ graph: ViewGraph, features: [FeatureSet],
     firstLook: FirstLook, _ context: StageContext
@@ -40,7 +42,7 @@ package struct PairExpansion {
     return chosen.sorted()
   }
 
-  /// The verified partners of each photo, ascending.
+  /// The verified partners of each photo, in ascending order.
   private func partners(_ graph: ViewGraph) -> [[Int]] {
     var partners = [[Int]](repeating: [], count: graph.photoCount)
     for pair in graph.pairs {
@@ -50,7 +52,8 @@ package struct PairExpansion {
     return partners.map { $0.sorted() }
   }
 
-  /// All candidates, and those most alike, of photos with few partners or outside the largest group.
+  /// All candidates and the most similar photos of photos with few partners or outside the largest
+  /// group.
   private func secondChances(
     _ choice: PairSelection.Choice, _ partners: [[Int]]
   ) -> Set<PhotoPair> {
@@ -67,7 +70,7 @@ package struct PairExpansion {
     return chances
   }
 
-  /// The lowest photo of each photo's connected group.
+  /// The lowest photo index in each photo's connected component.
   private func groups(_ partners: [[Int]]) -> [Int] {
     var group = [Int](repeating: -1, count: partners.count)
     for start in partners.indices where group[start] < 0 {

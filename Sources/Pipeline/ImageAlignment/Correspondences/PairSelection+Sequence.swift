@@ -2,9 +2,10 @@ import Kernels
 import SceneModel
 
 extension PairSelection {
-  /// Pairs of photos in order of capture that are few enough to look at all pairs of them: the nearest
-  /// neighbours, and for each photo those that share the most of its large features. These are further
-  /// neighbours, and photos from another time where the path comes back to itself.
+  /// Selects pairs of a sequence that is short enough for preemptive matching of all pairs: the
+  /// nearest neighbors in the order of capture, and for each photo those that share the most
+  /// large-scale features. The latter are more distant neighbors, and photos from another time at
+  /// which the path returns to the same place (loop closures).
   func sequence(
     _ photos: [Int], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Choice {
@@ -21,7 +22,7 @@ extension PairSelection {
       alike: alike, isSequential: true)
   }
 
-  /// For each photo the others that share enough of its large features, those that share most first.
+  /// For each photo the others that share enough large-scale features, the most matches first.
   private func ranked(
     _ pairs: [PhotoPair], _ counts: [Int], _ features: [FeatureSet]
   ) -> [[Int]] {
@@ -29,7 +30,7 @@ extension PairSelection {
     var alike = [[(photo: Int, matches: Int)]](repeating: [], count: features.count)
     for (pair, matches) in zip(pairs, counts) {
       let (first, second) = (pair.first.index, pair.second.index)
-      // Photos of few features share few, and are matched quickly.
+      // Photos with few features share few, and full matching is fast.
       let hasFew = min(features[first].count, features[second].count) < fewFeatures
       guard matches >= (hasFew ? 1 : options.sequenceMatches) else { continue }
       alike[first].append((second, matches))

@@ -2,42 +2,46 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Chooses the pairs of photos worth matching.
+/// Selects the pairs of photos to match.
 ///
-/// Few photos: all pairs, of which a first look rejects the hopeless, with a sample to prove it right.
-/// Many photos: for each the photos most alike as a whole and the nearest by GPS. Photos in order of
-/// capture: the nearest neighbours, and the photos that a first look finds to share the most; among
-/// many, a window of neighbours, and the photos most alike where the path comes back to itself.
-/// Pairs that the order does not vouch for must pass the first look.
+/// Few photos: all pairs, of which preemptive matching rejects the unpromising ones; a sample of
+/// the rejected pairs is matched to validate this. Many photos: for each photo the most similar
+/// ones by image retrieval and the nearest ones by GPS. Photos in order of capture: the nearest
+/// neighbors, and the photos that preemptive matching finds to share the most features; in long
+/// sequences, a window of neighbors, and the most similar photos for loop closures. Pairs that
+/// don't follow from the order must pass preemptive matching.
 package struct PairSelection {
   package struct Options: Hashable, Codable, Sendable {
-    /// Up to this number of pairs all are considered.
+    /// Up to this number of pairs, all pairs are candidates.
     package var exhaustivePairs = 1300
-    /// From this number of pairs on, a first look at all of them pays.
+    /// From this number of pairs on, preemptive matching of all pairs pays off.
     package var lookedPairs = 100
-    /// One of so many pairs that the first look rejects is matched all the same: the look is wrong
-    /// about pairs whose large features differ, as those of close-ups and of fine texture do.
+    /// One in this number of pairs that preemptive matching rejects is matched anyway: rejection
+    /// fails for pairs whose large-scale features differ, such as close-ups and fine texture.
     package var sampledRejection = 4
-    /// Partners of a photo among many: those most alike.
+    /// Number of partners of a photo in large sets: the most similar ones.
     package var partners = 40
-    /// Partners of a photo by its position.
+    /// Number of partners of a photo by GPS position.
     package var positionPartners = 10
     /// Distances in the order of capture at which photos are paired.
     package var sequenceSteps = [1, 2, 3, 4]
-    /// Partners of a photo of a sequence: those most alike outside its window of neighbours.
+    /// Number of partners of a photo of a sequence: the most similar ones outside its window of
+    /// neighbors.
     package var sequencePartners = 4
-    /// Up to this number of pairs of a sequence all are looked at, which tells more than retrieval.
-    /// Beyond some sixty photos it would cost more than it spares.
+    /// Up to this number of pairs of a sequence, preemptive matching tests all of them, which is
+    /// more informative than retrieval. Beyond about sixty photos it would cost more than it saves.
     package var sequenceLookedPairs = 2000
-    /// Distances in the order of capture at which photos of such a sequence are paired; further
-    /// neighbours compete with the rest by what the look has seen of them.
+    /// Distances in the order of capture at which photos of such a sequence are paired
+    /// unconditionally; more distant neighbors compete with the others by their number of
+    /// preemptive matches.
     package var lookedSequenceSteps = [1, 2]
-    /// Pairs of such a sequence that the look finds fewer matches for are taken for strangers: of
-    /// pairs with fewer, one in a hundred is verified, and barely.
+    /// Pairs of such a sequence with fewer preemptive matches are considered unrelated: one in a
+    /// hundred of them is verifiable, and barely.
     package var sequenceMatches = 8
-    /// Photos are taken to be in order of capture when this share of them is most like a neighbour.
+    /// Photos are assumed to be in order of capture if this fraction of them is most similar to a
+    /// neighbor.
     package var orderedShare = 0.7
-    /// Partners of a photo among many that turned out to be in order.
+    /// Number of partners of a photo in a large set that turned out to be in order.
     package var orderedPartners = 20
     package var retrieval = PhotoRetrieval.Options()
     package var firstLook = FirstLook.Options()
@@ -45,15 +49,16 @@ package struct PairSelection {
     package init() {}
   }
 
-  /// The pairs chosen, sorted, and what they were chosen from.
+  /// The selected pairs, sorted, and the candidates that they were selected from.
   package struct Choice: Sendable {
     package var pairs: [PhotoPair]
-    /// Pairs that were considered, sorted; those that aren't in `pairs` looked hopeless.
+    /// Considered pairs, sorted; those that aren't in `pairs` are unpromising.
     package var candidates: [PhotoPair]
-    /// The photos most alike each photo; empty where retrieval wasn't needed.
+    /// The photos most similar to each photo; empty if retrieval wasn't needed.
     package var alike: [[Int]]
+    /// Whether the photos are in order of capture.
     package var isSequential: Bool
-    /// Those of `pairs` that looked hopeless and show whether the first look was right.
+    /// The unpromising pairs that are part of `pairs` to validate preemptive matching.
     package var sample: [PhotoPair]
 
     package init(
@@ -69,7 +74,7 @@ package struct PairSelection {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The pairs to match. `positions` has the photos' GPS positions, or is empty.
+  /// Returns the pairs to match. `positions` has the photos' GPS positions, or is empty.
   package func run(
     _ features: [FeatureSet], positions: [GeographicPosition?] = [], isSequential: Bool,
     _ context: StageContext
@@ -98,7 +103,8 @@ package struct PairSelection {
       isSequential: isSequential)
   }
 
-  /// All pairs but those that the first look rejects and that aren't in the sample of these.
+  /// All pairs but those that preemptive matching rejects and that aren't part of the validation
+  /// sample.
   private func exhaustive(
     _ all: [PhotoPair], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Choice {
@@ -116,7 +122,7 @@ package struct PairSelection {
 
   func pair(_ first: Int, _ second: Int) -> PhotoPair { PhotoPair(ID(first), ID(second)) }
 
-  /// Pairs of each photo with the `count` photos most alike that it isn't paired with already.
+  /// Pairs of each photo with the `count` most similar photos that it isn't paired with already.
   func retrieved(
     _ alike: [[Int]], _ count: Int, besides known: Set<PhotoPair>
   ) -> Set<PhotoPair> {
@@ -126,7 +132,7 @@ package struct PairSelection {
       })
   }
 
-  /// Whether most photos are most like one of the next but one in their order.
+  /// Whether most photos are most similar to one of the two preceding or following photos.
   private func isInOrder(_ alike: [[Int]]) -> Bool {
     let near = alike.enumerated().count { photo, others in
       others.first.map { abs($0 - photo) <= 2 } ?? false
@@ -134,8 +140,8 @@ package struct PairSelection {
     return Double(near) >= options.orderedShare * Double(alike.count)
   }
 
-  /// A window of neighbours among `photos`, and the two ends, which may have come together. Photos
-  /// left out in between, which have no features, don't break the path.
+  /// A window of neighbors among `photos`, and the two ends, where the path may close. Skipped
+  /// photos in between, which have no features, don't interrupt the path.
   func neighbours(_ photos: [Int], _ steps: [Int]) -> Set<PhotoPair> {
     let count = photos.count
     var chosen: Set<PhotoPair> = []

@@ -1,23 +1,24 @@
 import Kernels
 import SceneModel
 
-/// Keeps the matches of a pair that agree with one two-view geometry, by LO-RANSAC with the five-point
-/// solver (Nistér, PAMI 2004), or seven points where no focal length is known.
+/// Geometric verification: keeps the matches of a pair that agree with one two-view geometry, by
+/// LO-RANSAC with the five-point solver (Nistér, PAMI 2004), or the seven-point solver if no focal
+/// length is known.
 package struct PairVerification {
   package struct Options: Hashable, Codable, Sendable {
-    /// Largest distance from the epipolar line, as a fraction of the photo's longer side.
+    /// Maximum distance from the epipolar line, as a fraction of the photo's longer side.
     package var relativeMaximumError = 0.0012
     /// A pair with fewer inliers is dropped.
     package var minimumInliers = 20
-    /// A pair with a smaller share of inliers among its matches is dropped.
+    /// A pair with a smaller fraction of inliers among its matches is dropped.
     package var minimumInlierRatio = 0.15
-    /// Probability with which the best model is to be found.
+    /// Probability that RANSAC finds the best model.
     package var confidence = 0.9999
-    /// Iterations of RANSAC at most.
+    /// Maximum number of RANSAC iterations.
     package var maximumIterations = 1000
-    /// From this share of inliers on that a homography explains, the pair counts as planar.
+    /// Fraction of inliers explained by a homography from which on the pair counts as planar.
     package var homographyRatio = 0.8
-    /// Where the focal length is only assumed, estimate fundamental matrices.
+    /// Estimates fundamental matrices if the focal length is only assumed.
     package var isUncalibratedWhereAssumed = true
     package var seed: UInt64 = 0
 
@@ -28,7 +29,8 @@ package struct PairVerification {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The verified ones of `pairs`, sorted. `matches` has the matches of each pair, the best first.
+  /// Returns the verified pairs of `pairs`, sorted. `matches` has the matches of each pair, the
+  /// best first.
   package func run(
     _ pairs: [PhotoPair], matches: [[FeatureMatch]], features: [FeatureSet], photos: [Photo],
     cameras: [Camera], _ context: StageContext
@@ -63,7 +65,8 @@ package struct PairVerification {
     case rejected(RejectedPair)
   }
 
-  /// Rejects a pair where no geometry agrees with enough of the matches.
+  /// Rejects a pair if no geometry agrees with enough of the matches. `points` are the features of
+  /// both photos at depth 1.
   func verify(
     _ pair: PhotoPair, _ matches: [FeatureMatch],
     points: ([SIMD2<Double>], [SIMD2<Double>]), cameras: (Camera, Camera)
@@ -81,7 +84,7 @@ package struct PairVerification {
     estimation.confidence = options.confidence
     estimation.maximumIterations = options.maximumIterations
     estimation.seed = options.seed &+ UInt64(pair.first.index) << 32 &+ UInt64(pair.second.index)
-    // A unit runs on one thread; the units run side by side.
+    // Each task is single-threaded; tasks run in parallel.
     let geometry = try estimation.geometry(
       matches.map { points.0[Int($0.first)] }, matches.map { points.1[Int($0.second)] },
       KernelControl())
@@ -106,7 +109,7 @@ package struct PairVerification {
       || (cameras.0.calibration != .assumed && cameras.1.calibration != .assumed)
   }
 
-  /// The largest error at depth 1, the mean of the two photos'.
+  /// The error limit in normalized image coordinates (depth 1), the mean over both photos.
   func maximumError(_ cameras: (Camera, Camera)) -> Double {
     func size(_ camera: Camera) -> Double {
       Double(max(camera.width, camera.height)) * 2 / (camera.focalLength.x + camera.focalLength.y)

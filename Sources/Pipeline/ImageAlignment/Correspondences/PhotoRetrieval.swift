@@ -1,12 +1,13 @@
 import Kernels
 import SceneModel
 
-/// Finds photos that look alike as a whole, without matching them: VLAD vectors (Jégou et al., CVPR
-/// 2010) over words learnt from the photos' own descriptors.
+/// Image retrieval: finds similar photos without matching them, by VLAD vectors (Jégou et al., CVPR
+/// 2010) over a visual vocabulary learned from the photos' descriptors.
 package struct PhotoRetrieval: Sendable {
   package struct Options: Hashable, Codable, Sendable {
+    /// Number of visual words.
     package var words = 128
-    /// Descriptors of all photos together that the words are learnt from.
+    /// Number of descriptors, over all photos, that the words are learned from.
     package var sampledDescriptors = 40_000
     package var seed: UInt64 = 0
 
@@ -17,8 +18,8 @@ package struct PhotoRetrieval: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The `partners` photos most similar to each photo, the most similar first; none for a photo without
-  /// features.
+  /// Returns the `partners` photos most similar to each photo, the most similar first; none for a
+  /// photo without features.
   package func run(
     _ features: [FeatureSet], partners: Int, _ context: StageContext
   ) throws -> [[Int]] {
@@ -37,7 +38,7 @@ package struct PhotoRetrieval: Sendable {
     }
   }
 
-  /// Descriptors at equal steps through all photos.
+  /// Descriptors at regular intervals over all photos.
   private func sample(_ features: [FeatureSet]) -> [UInt8] {
     let length = FeatureSet.descriptorLength
     let count = features.reduce(0) { $0 + $1.count }

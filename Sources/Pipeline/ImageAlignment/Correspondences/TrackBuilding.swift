@@ -1,10 +1,11 @@
 import SceneModel
 
-/// Joins matches of pairs into tracks over many photos: union–find that never joins two features of
-/// one photo (Moulon and Monasse, "Unordered feature tracking made fast and easy", CVMP 2012).
+/// Links the matches of pairs into tracks over many photos: union–find that never joins two
+/// features of one photo (Moulon and Monasse, "Unordered feature tracking made fast and easy", CVMP
+/// 2012).
 ///
-/// Matches that third photos confirm are joined first, so that a wrong match is the one that is
-/// refused.
+/// Matches that are confirmed by third photos are joined first, so that in a conflict the wrong
+/// match is rejected.
 package struct TrackBuilding: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Shorter tracks are dropped.
@@ -17,6 +18,7 @@ package struct TrackBuilding: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
+  /// Returns the tracks, in order of their first features.
   package func run(
     _ graph: ViewGraph, features: [FeatureSet], _ context: StageContext
   ) throws -> FeatureTracks {
@@ -54,7 +56,7 @@ package struct TrackBuilding: Sendable {
     return tracks
   }
 
-  /// The matches as pairs of nodes; matches that name features that aren't there are left out.
+  /// The matches as pairs of nodes; matches with feature indices out of range are skipped.
   private func edges(of graph: ViewGraph, _ nodes: Nodes) -> [(Int32, Int32)] {
     var edges: [(Int32, Int32)] = []
     for pair in graph.pairs {
@@ -69,7 +71,7 @@ package struct TrackBuilding: Sendable {
     return edges
   }
 
-  /// How many other nodes are matched with both ends of each edge.
+  /// For each edge, the number of nodes matched with both of its ends.
   private func supports(of edges: [(Int32, Int32)], nodeCount: Int) -> [Int32] {
     var offsets = [Int](repeating: 0, count: nodeCount + 1)
     for edge in edges {
@@ -99,11 +101,11 @@ package struct TrackBuilding: Sendable {
   }
 }
 
-/// Numbers the features of all photos; features at the same place of a photo share one node.
+/// Numbers the features of all photos; features at the same position of a photo share one node.
 private struct Nodes {
   var offsets = [0]
   var photos: [Int32] = []
-  /// The first feature at the same place as each feature.
+  /// The first feature at the same position as each feature.
   var representatives: [Int32] = []
 
   var count: Int { photos.count }
@@ -133,10 +135,10 @@ private struct Nodes {
   }
 }
 
-/// Union–find whose components hold at most one node a photo.
+/// Union–find whose components hold at most one node per photo.
 private struct ConsistentForest {
   private var parents: [Int32]
-  /// The nodes of each root's component sorted by photo; empty for a single node.
+  /// The nodes of each root's component, sorted by photo; empty for a single node.
   private var members: [[Int32]]
   private let photoOfNode: [Int32]
 
@@ -186,7 +188,8 @@ private struct ConsistentForest {
     members[Int(root)].isEmpty ? [root] : members[Int(root)]
   }
 
-  /// The nodes of each large enough component, in order of the components' first nodes.
+  /// The nodes of each component of at least `minimumSize`, in order of the components' first
+  /// nodes.
   func components(minimumSize: Int) -> [[Int32]] {
     members.filter { $0.count >= minimumSize }.sorted { $0[0] < $1[0] }
   }

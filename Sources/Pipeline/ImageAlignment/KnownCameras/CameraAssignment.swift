@@ -1,22 +1,23 @@
 import Foundation
 import SceneModel
 
-/// Gives the photos of a run the cameras and poses that were found elsewhere, by file name.
+/// Assigns externally estimated cameras and poses to the photos of a run, by file name.
 package struct CameraAssignment: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Fewer photos with a camera are an error.
+    /// Minimum number of photos with a camera; fewer are an error.
     package var minimumPhotos = 3
-    /// Names in one sentence.
+    /// Maximum number of file names listed in one message.
     package var namesInSentence = 5
 
     package init() {}
   }
 
+  /// The photos with their assigned cameras and poses.
   package struct Result: Sendable {
-    /// The photos of the run with the poses that were given, bit for bit unless a camera had to be
-    /// turned, and the points that two of the photos or more see.
+    /// The photos of the run with the given poses, bit for bit unless a camera had to be rotated,
+    /// and the points observed by at least two of the photos.
     package var reconstruction: Reconstruction
-    /// The names of cameras without a file.
+    /// Names of the cameras that have no file.
     package var missing: [String]
   }
 
@@ -24,7 +25,8 @@ package struct CameraAssignment: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Throws `PipelineError.tooFewCameras` where too few photos have one.
+  /// Matches `known` to the ingested photos. Throws `PipelineError.tooFewCameras` if fewer than
+  /// `minimumPhotos` photos have a camera.
   package func run(
     _ known: KnownCameras, to ingested: IngestedPhotos, _ context: StageContext
   ) throws -> Result {
@@ -53,6 +55,7 @@ package struct CameraAssignment: Sendable {
     return result
   }
 
+  /// Records metrics and logs which cameras are missing, scaled or rotated.
   private func report(_ result: Result, _ assigned: Assigned, _ notes: StageNotes) {
     notes.count("registered", Double(result.reconstruction.registered.count))
     notes.count("camerasWithoutPhoto", Double(result.missing.count))
@@ -62,11 +65,11 @@ package struct CameraAssignment: Sendable {
     }
     if !assigned.scaled.isEmpty {
       notes.tell(
-        "Cameras are for another size of these photos and were scaled: \(list(assigned.scaled)).")
+        "Cameras were scaled to the size of these photos: \(list(assigned.scaled)).")
     }
     if !assigned.turned.isEmpty {
       notes.tell(
-        "Cameras are for photos as they are stored and were turned upright: "
+        "Cameras of photos in stored orientation were rotated upright: "
           + "\(list(assigned.turned)).")
     }
   }
@@ -78,8 +81,8 @@ package struct CameraAssignment: Sendable {
   }
 }
 
-/// Finds cameras by the name of a file: the whole name, or what follows the last slash where no two
-/// have it in common.
+/// Looks up cameras by file name: by the full name, or by its last path component if that is
+/// unique.
 private struct PhotoNames {
   private var places: [String: Int] = [:]
   private var lastPlaces: [String: Int?] = [:]
@@ -92,6 +95,7 @@ private struct PhotoNames {
     }
   }
 
+  /// The last path component.
   static func last(_ name: String) -> String {
     String(name[(name.lastIndex(of: "/").map(name.index(after:)) ?? name.startIndex)...])
   }
@@ -99,13 +103,13 @@ private struct PhotoNames {
   func place(of name: String) -> Int? { places[name] ?? lastPlaces[name] ?? nil }
 }
 
-/// The photos that have a camera so far.
+/// The photos that have been assigned a camera so far.
 private struct Assigned {
   private(set) var reconstruction: Reconstruction
   private(set) var scaled: [String] = []
   private(set) var turned: [String] = []
   private var cameras: [Camera: ID<Camera>] = [:]
-  /// The photo of each place among the known ones, and how its camera went over.
+  /// The photo assigned to each known camera, and how the camera was fitted to it.
   private var fits: [Int: (photo: ID<Photo>, fit: CameraFit)] = [:]
 
   init(photos: [Photo], worldFrame: WorldFrame) {
@@ -114,6 +118,7 @@ private struct Assigned {
       worldFrame: worldFrame)
   }
 
+  /// Assigns camera and pose number `place` of `known` to `photo`.
   mutating func take(_ place: Int, of known: KnownCameras, for photo: Photo) {
     let own = known.reconstruction.photos[place]
     let camera = known.reconstruction.camera(of: own.id)
@@ -144,14 +149,15 @@ private struct Assigned {
     fits[place] = (photo.id, fit)
   }
 
+  /// Records that `photo` has no pose; `end` completes the sentence "NAME is not used: …".
   mutating func refuse(_ photo: Photo, because end: String) {
     reconstruction.unregistered.append(
       RefusedPhoto(sampleID: photo.sampleID, name: photo.name, fault: .notRegistered, end: end))
-    // A photo without a pose needs some camera, which nothing looks at.
+    // A photo without a pose still needs a valid camera index; it is never read.
     reconstruction.photos[photo.id.index].camera = ID(0)
   }
 
-  /// Takes over the points that two photos or more see.
+  /// Copies the points that at least two assigned photos observe.
   mutating func takePoints(of known: KnownCameras) {
     reconstruction.points = known.reconstruction.points.compactMap { point in
       var point = point

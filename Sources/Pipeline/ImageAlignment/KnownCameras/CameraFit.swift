@@ -1,17 +1,18 @@
 import SceneModel
 
-/// How a camera that was made for one size of a photo goes over to the photo that is there.
+/// The conversion of a camera that was estimated for one size or orientation of a photo to the
+/// photo at hand.
 struct CameraFit: Hashable {
   /// The camera of the upright photo.
   private(set) var camera: Camera
-  /// Quarter turns clockwise from the photo that the camera was made for to the upright one.
+  /// Clockwise quarter turns from the photo that the camera was estimated for to the upright photo.
   private(set) var quarterTurns = 0
-  /// Pixels of the photo for one pixel of the camera, after the turns.
+  /// Pixels of the photo per pixel of the camera, after the quarter turns.
   private(set) var scale = SIMD2(1.0, 1.0)
-  /// Size that the camera was made for.
+  /// Size in pixels that the camera was estimated for.
   private let original: SIMD2<Double>
 
-  /// Nil where the camera is for a photo of another shape.
+  /// Nil if the camera and the photo differ in aspect ratio.
   init?(_ camera: Camera, to photo: Photo, isSizeKnown: Bool) {
     var camera = camera
     if !isSizeKnown {
@@ -32,8 +33,8 @@ struct CameraFit: Hashable {
     self.camera = self.camera.resized(width: photo.width, height: photo.height)
   }
 
-  /// The size, of the upright or of the stored photo, that has the principal point nearer to its
-  /// middle; nil where it is far from both.
+  /// The size, of the upright or of the stored photo, whose center is closer to the principal
+  /// point; nil if both centers are far from it.
   private static func size(
     _ principalPoint: SIMD2<Double>, _ photo: Photo
   ) -> (width: Int, height: Int)? {
@@ -47,24 +48,24 @@ struct CameraFit: Hashable {
     return upright <= stored ? (photo.width, photo.height) : (photo.height, photo.width)
   }
 
-  /// Whether the shapes agree, up to a pixel of the smaller of the two.
+  /// Whether the aspect ratios agree to within one pixel of the smaller of the two.
   private static func agree(_ camera: Camera, _ photo: Photo) -> Bool {
     let (w, h) = (Double(camera.width), Double(camera.height))
     let (width, height) = (Double(photo.width), Double(photo.height))
     return abs(w * height - h * width) <= max(w, width, h, height)
   }
 
-  /// Whether the photo has another size than the camera was made for.
+  /// Whether the photo differs in size from the photo that the camera was estimated for.
   var isScaled: Bool { scale != [1, 1] }
 
-  /// The pose of the upright photo; the world doesn't move.
+  /// The pose of the upright photo; the world frame stays unchanged.
   func pose(_ cameraFromWorld: RigidTransform) -> RigidTransform {
     guard quarterTurns > 0 else { return cameraFromWorld }
     let turn = Quaternion(angle: Double(quarterTurns) * .pi / 2, axis: [0, 0, 1])
     return RigidTransform(rotation: turn, translation: .zero) * cameraFromWorld
   }
 
-  /// The place in the upright photo of a pixel of the photo that the camera was made for.
+  /// Maps a pixel of the photo that the camera was estimated for to the upright photo.
   func pixel(_ pixel: SIMD2<Double>) -> SIMD2<Double> {
     var (result, size) = (pixel, original)
     for _ in 0..<quarterTurns {
@@ -76,7 +77,8 @@ struct CameraFit: Hashable {
 }
 
 extension Camera {
-  /// The camera of the photo turned by a quarter clockwise, in which x is the old −y and y the old x.
+  /// The camera of the photo rotated clockwise by a quarter turn: the new x axis is the old −y
+  /// axis, the new y axis is the old x axis.
   func turnedClockwise() -> Camera {
     Camera(
       width: height, height: width, focalLength: [focalLength.y, focalLength.x],

@@ -1,14 +1,14 @@
 import SceneModel
 
-/// Cameras and poses that were found elsewhere, by the names of their photos.
+/// Externally estimated cameras and poses, identified by the names of their photos.
 ///
-/// Cameras are for photos turned upright by their EXIF orientation, as `align` writes them; those for
-/// photos as they are stored, which COLMAP makes, are turned where their size tells.
+/// Cameras refer to photos rotated upright by their EXIF orientation, as `align` writes them.
+/// Cameras of photos in stored orientation, as COLMAP estimates them, are rotated if their size
+/// reveals it.
 package struct KnownCameras: Sendable {
-  /// Its photos have a name, a camera and a pose, and nothing else that counts. Its points may be
-  /// none.
+  /// Only the names, cameras and poses of its photos are used, and its points, which may be empty.
   package var reconstruction: Reconstruction
-  /// The photos whose cameras don't tell for which size they are: they are for that of the photo.
+  /// The photos whose cameras don't state an image size; it is taken from the photo.
   package var sizeless: Set<ID<Photo>>
 
   package init(_ reconstruction: Reconstruction, sizeless: Set<ID<Photo>> = []) {

@@ -1,20 +1,22 @@
 import Kernels
 import SceneModel
 
-/// The sparse points of photos with known cameras: those that came with the cameras where they are
-/// enough for the dense stage, else new ones.
+/// The sparse points of photos with known cameras: the given points if they suffice for the dense
+/// stage, newly triangulated ones otherwise.
 struct KnownPoints: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Points that a photo sees, in the mean, from which on no others are looked for.
+    /// Mean number of points observed per photo from which the given points suffice.
     var sufficientPoints = 50.0
-    /// Largest median error of reprojection of points that came with the cameras, as a fraction of the
-    /// photos' longer side: far beyond what the worst cameras have.
+    /// Maximum median reprojection error of the given points, as a fraction of the photo's longer
+    /// side: far beyond that of the worst usable cameras.
     var relativeMaximumError = 0.02
     var triangulation = KnownPoseTriangulation.Options()
   }
 
   var options = Options()
 
+  /// Returns the reconstruction with given or new points. Throws `PipelineError.camerasDontFit` if
+  /// the points don't match the photos.
   func run(
     _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
@@ -28,7 +30,7 @@ struct KnownPoints: Sendable {
     } else {
       if given > 0 {
         context.notes.tell(
-          "The \(given) points that came with the cameras are too few; others are looked for.")
+          "The \(given) points given with the cameras are too few; new points are triangulated.")
       }
       result = try KnownPoseTriangulation(options.triangulation)
         .run(reconstruction, images: images, context)
@@ -38,7 +40,7 @@ struct KnownPoints: Sendable {
     return result
   }
 
-  /// Throws where the points are nowhere near where the photos see them.
+  /// Throws if the median reprojection error of the points is implausibly large.
   private func check(_ reconstruction: Reconstruction) throws {
     let errors = reconstruction.points.flatMap { point in
       point.track.compactMap { observation -> Double? in
@@ -54,6 +56,6 @@ struct KnownPoints: Sendable {
       !(median <= options.relativeMaximumError)
     else { return }
     throw PipelineError.camerasDontFit(
-      reason: "most points that came with them are not where the photos see them.")
+      reason: "most points given with them are not where the photos see them.")
   }
 }

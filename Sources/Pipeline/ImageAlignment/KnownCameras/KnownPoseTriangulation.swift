@@ -1,30 +1,30 @@
 import Kernels
 import SceneModel
 
-/// Sparse points for photos whose cameras and poses are known: features are matched, the epipolar
-/// geometry of the poses says which matches are right, and tracks are triangulated from where the
-/// photos stand. No pose and no camera changes.
+/// Triangulates sparse points for photos with known cameras and poses: features are matched,
+/// verified against the epipolar geometry of the poses, linked to tracks and triangulated. Poses
+/// and cameras stay unchanged.
 package struct KnownPoseTriangulation: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     package var features = FeatureExtraction.Options()
     package var selection = PairSelection.Options()
     package var matching = FeatureMatching.Options()
     package var guided = EpipolarMatching()
-    /// Largest distance from the epipolar line, and then largest error of reprojection, as a fraction
+    /// Maximum distance from the epipolar line, and then maximum reprojection error, as a fraction
     /// of the photo's longer side.
     package var relativeMaximumError = 0.0012
-    /// Pairs with fewer matches that agree with the poses are dropped.
+    /// Pairs with fewer matches consistent with the poses are dropped.
     package var minimumMatches = 12
-    /// Points may be off by so many times the median error of reprojection, which shows how exact the
-    /// cameras are.
+    /// Maximum reprojection error as a multiple of the median, which reflects the accuracy of the
+    /// cameras.
     package var maximumErrorFactor = 3.0
-    /// Errors below this number of pixels are those of features.
+    /// Error in pixels that is attributed to feature localization; the error limit is never lower.
     package var featureError = 1.0
-    /// Smallest angle in degrees between two rays of a point.
+    /// Minimum triangulation angle of a point in degrees.
     package var minimumAngleDegrees = 1.5
-    /// Share of matches that agree with the cameras below which these are suspected, in a warning.
+    /// Fraction of matches consistent with the cameras below which a warning is issued.
     package var suspiciousAgreement = 0.4
-    /// And below which they are refused: by chance hardly more agree.
+    /// Fraction below which the cameras are rejected: close to what chance matches reach.
     package var minimumAgreement = 0.15
 
     package init() {}
@@ -34,7 +34,8 @@ package struct KnownPoseTriangulation: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The reconstruction with new points; throws `PipelineError.camerasDontFit` where there are none.
+  /// Returns the reconstruction with new points. Throws `PipelineError.camerasDontFit` if there are
+  /// none or too few matches agree with the cameras.
   package func run(
     _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
@@ -54,7 +55,7 @@ package struct KnownPoseTriangulation: Sendable {
     return result
   }
 
-  /// The features of the photos that have a pose, by photo id.
+  /// The features of the photos that have a pose, by photo ID.
   private func features(
     of reconstruction: Reconstruction, _ images: ImageStore, _ context: StageContext
   ) throws -> [FeatureSet] {
@@ -66,7 +67,7 @@ package struct KnownPoseTriangulation: Sendable {
     return features
   }
 
-  /// The pairs of photos with the matches that agree with the poses.
+  /// The pairs of photos with the matches that are consistent with the poses.
   private func viewGraph(
     _ reconstruction: Reconstruction, _ features: [FeatureSet], _ context: StageContext
   ) throws -> ViewGraph {
@@ -89,8 +90,8 @@ package struct KnownPoseTriangulation: Sendable {
     return graph
   }
 
-  /// Keeps the matches that agree with the poses, counts them, and looks along the epipolar lines for
-  /// more; no pair where few agree.
+  /// Keeps and counts the matches that are consistent with the poses and adds matches along the
+  /// epipolar lines; nil if too few are consistent.
   private func verify(
     _ pair: PhotoPair, _ matches: [FeatureMatch], _ reconstruction: Reconstruction,
     _ features: [FeatureSet], _ points: [[SIMD2<Double>]]
@@ -117,8 +118,8 @@ package struct KnownPoseTriangulation: Sendable {
     return (verified, count)
   }
 
-  /// `secondFromFirst` of a pair with a translation of unit length; nil where both photos were taken
-  /// from one place, from which nothing can be triangulated.
+  /// `secondFromFirst` of a pair, with a unit translation; nil if both photos share one center, so
+  /// that nothing can be triangulated.
   private func direction(
     _ pair: PhotoPair, _ reconstruction: Reconstruction
   ) -> RigidTransform? {
@@ -132,7 +133,7 @@ package struct KnownPoseTriangulation: Sendable {
     return secondFromFirst
   }
 
-  /// The largest error at depth 1, the mean of the two photos'.
+  /// The error limit in normalized image coordinates (depth 1), the mean over both photos.
   private func maximumError(_ first: Camera, _ second: Camera) -> Double {
     let sizes = [first, second].map {
       Double(max($0.width, $0.height)) * 2 / $0.focalLength.sum()
@@ -140,7 +141,7 @@ package struct KnownPoseTriangulation: Sendable {
     return options.relativeMaximumError * (sizes[0] + sizes[1]) / 2
   }
 
-  /// Notes the figures, and warns or throws where few of `all` matches agree with the cameras.
+  /// Records the metrics, and warns or throws if too few of `all` matches agree with the cameras.
   private func report(
     _ graph: ViewGraph, _ all: Int, agreeing: Int, _ notes: StageNotes
   ) throws {
@@ -151,7 +152,7 @@ package struct KnownPoseTriangulation: Sendable {
     notes.count("verifiedMatches", Double(verified))
     let agreement = Double(agreeing) / Double(max(1, all))
     let sentence =
-      "only \(Int(100 * agreement)) % of the features that look alike in two photos agree with the "
+      "only \(Int(100 * agreement)) % of the feature matches between two photos agree with the "
       + "cameras"
     guard all == 0 || agreement >= options.minimumAgreement else {
       throw PipelineError.camerasDontFit(reason: sentence + ".")
@@ -161,7 +162,7 @@ package struct KnownPoseTriangulation: Sendable {
     }
   }
 
-  /// Triangulates the tracks with the poses as they are and takes off what disagrees.
+  /// Triangulates the tracks with fixed poses and removes inconsistent observations.
   private func triangulate(
     _ tracks: FeatureTracks, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> SparseMap {
@@ -180,7 +181,7 @@ package struct KnownPoseTriangulation: Sendable {
       options.featureError, options.relativeMaximumError * side)
     let control = context.control
     try step.triangulate(Array(0..<map.tracks.count), in: &map, control)
-    // Tracks of two points that look alike give both.
+    // Tracks that merge two similar points are split into both.
     map.splitTracks()
     try step.triangulate(Array(0..<map.tracks.count), in: &map, control)
     let median = try map.medianError(control)
@@ -192,8 +193,8 @@ package struct KnownPoseTriangulation: Sendable {
 }
 
 extension Matrix3 {
-  /// How far two points at depth 1 are from agreeing with this essential matrix, to first order
-  /// (Sampson): about the distance that they would have to move.
+  /// The Sampson distance of two points at depth 1 from this essential matrix: to first order, the
+  /// distance that they would have to move to satisfy it.
   fileprivate func sampsonError(_ first: SIMD2<Double>, _ second: SIMD2<Double>) -> Double {
     let (a, b) = (SIMD3(first, 1), SIMD3(second, 1))
     let line = SIMD3(row0.dot(a), row1.dot(a), row2.dot(a))

@@ -2,12 +2,12 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The directions in which photos of known rotation see some of the tracks.
+/// The viewing directions, in world orientation, of some tracks in the photos of known rotation.
 private struct TrackDirections {
   /// The track of each point.
   var tracks: [Int]
   var directions: [PointDirection] = []
-  /// The observation behind each direction.
+  /// The observation that each direction stems from.
   var observations: [Int] = []
 
   init(_ tracks: [Int], _ map: SparseMap, _ rotations: [Quaternion?]) {
@@ -29,8 +29,8 @@ private struct TrackDirections {
 }
 
 extension GlobalMapping {
-  /// Registers the photos that have a rotation, with points for some of the tracks; false where no
-  /// track helps.
+  /// Global positioning: registers the photos that have a rotation and creates points for some of
+  /// the tracks. Returns false if no track is usable.
   func position(
     _ map: inout SparseMap, _ rotations: [Quaternion?], _ context: StageContext
   ) throws -> Bool {
@@ -58,7 +58,8 @@ extension GlobalMapping {
     return true
   }
 
-  /// Tracks for positions: the longest first, until every photo sees enough of them.
+  /// Selects tracks for global positioning: the longest first, until every photo observes enough of
+  /// them.
   private func chosenTracks(_ map: SparseMap, _ rotations: [Quaternion?]) -> [Int] {
     let lengths = (0..<map.tracks.count).map { track in
       map.tracks.observations(of: track).count { rotations[Int(map.tracks.photos[$0])] != nil }
@@ -76,8 +77,8 @@ extension GlobalMapping {
     return chosen.sorted()
   }
 
-  /// Moves the world to a photo of the pair with the best view of its points, which adjustment keeps in
-  /// place, and makes the pair's baseline the unit.
+  /// Fixes the gauge: moves the world frame to a photo of the pair with the best-conditioned
+  /// points, which bundle adjustment holds constant, and scales the pair's baseline to unit length.
   func anchor(_ map: inout SparseMap, _ graph: ViewGraph) {
     let registered = Set(map.registered)
     let best = graph.pairs.enumerated().filter { _, pair in
@@ -105,8 +106,8 @@ extension GlobalMapping {
     }
   }
 
-  /// Adjusts the chosen points with growing demands, then makes all points. Photos that contradict
-  /// the points they see are taken out.
+  /// Adjusts the selected points with increasingly strict error limits, then triangulates all
+  /// tracks. Removes photos that contradict the points they observe.
   func refine(_ map: inout SparseMap, _ context: StageContext) throws {
     let all = Array(map.isTriangulated.indices)
     let initialCameras = map.photos.cameras
@@ -141,7 +142,7 @@ extension GlobalMapping {
 }
 
 extension SplitMix64 {
-  /// A place in the cube of −100…100.
+  /// A random position in the cube [−100, 100]³.
   fileprivate mutating func place() -> SIMD3<Double> {
     let (x, y, z) = (uniform(), uniform(), uniform())
     return 100 * (2 * SIMD3(x, y, z) - 1)

@@ -2,7 +2,8 @@ import Kernels
 import SceneModel
 
 extension GlobalMapping {
-  /// The pairs' rotations; where a pair was verified without focal lengths they are estimated anew.
+  /// The relative rotations of the pairs; re-estimated for pairs that were verified without focal
+  /// lengths.
   func relativeRotations(
     _ graph: ViewGraph, _ features: [FeatureSet], _ photos: PosedPhotos, _ context: StageContext
   ) throws -> RotationGraph {
@@ -23,7 +24,7 @@ extension GlobalMapping {
       })
   }
 
-  /// The rotation of the essential matrix that the inliers of a fundamental matrix agree on.
+  /// The rotation of the essential matrix estimated from the inliers of a fundamental matrix.
   private func calibratedRotation(
     _ pair: VerifiedPair, _ features: [FeatureSet], _ photos: PosedPhotos
   ) throws -> Quaternion? {
@@ -35,7 +36,7 @@ extension GlobalMapping {
     let cameras = [pair.pair.first, pair.pair.second]
       .map { photos.cameras[Int(photos.cameraOfPhoto[$0.index])] }
     var estimation = TwoViewEstimation()
-    // A wrong focal length shows as a few pixels.
+    // Allows for a wrong focal length, which causes errors of a few pixels.
     estimation.maximumError =
       cameras.map { 0.003 * Double(max($0.width, $0.height)) / $0.focalLength.x }.max() ?? 0.003
     estimation.seed = UInt64(pair.pair.first.index) << 32 &+ UInt64(pair.pair.second.index)
@@ -45,8 +46,8 @@ extension GlobalMapping {
     return geometry.secondFromFirst.rotation
   }
 
-  /// `cameraFromWorld` rotations of the photos that the pairs hold well, nil for the others and where
-  /// less than three are.
+  /// `cameraFromWorld` rotations of the photos that are well constrained by the pairs, nil for the
+  /// others; nil as a whole for fewer than three photos.
   func rotations(
     _ relative: RotationGraph, _ context: StageContext
   ) throws -> [Quaternion?]? {

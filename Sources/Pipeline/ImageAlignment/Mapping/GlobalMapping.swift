@@ -1,43 +1,46 @@
 import Kernels
 import SceneModel
 
-/// Reconstructs all photos at once: rotations from the pairs' rotations, then the places of cameras and
-/// points from their directions, then bundle adjustment (Pan et al., "Global structure-from-motion
-/// revisited", ECCV 2024).
+/// Global structure from motion: rotation averaging over the pairs, then global positioning of
+/// cameras and points from their viewing directions, then bundle adjustment (Pan et al., "Global
+/// structure-from-motion revisited", ECCV 2024).
 ///
-/// Photos that the start misses are registered one by one afterwards, as incremental mapping does.
+/// Photos that the global start misses are registered one at a time afterwards, as in incremental
+/// mapping.
 package struct GlobalMapping: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Matches of a pair whose rotation counts.
+    /// Minimum number of matches of a pair whose rotation is used.
     package var minimumMatches = 30
-    /// Largest rotation around three photos whose pairs agree, in degrees.
+    /// Maximum rotation of a consistent triplet's loop, in degrees.
     package var tripletErrorDegrees = 5.0
-    /// Share of its triplets that a pair has to agree with.
+    /// Minimum fraction of its triplets in which a pair must be consistent.
     package var tripletShare = 0.2
-    /// A pair that is off by more than this from the average, in degrees, is dropped.
+    /// Pairs that deviate from the averaged rotations by more than this, in degrees, are dropped.
     package var rotationErrorDegrees = 10.0
-    /// Averages at most, each without the pairs that the one before contradicts.
+    /// Maximum number of averaging rounds; each drops the pairs that the previous result
+    /// contradicts.
     package var rotationRounds = 3
     package var averaging = RotationAveraging.Options()
-    /// Photos that see a point used for positions.
+    /// Minimum number of photos that observe a track used for positioning.
     package var minimumTrackLength = 3
-    /// Points used for positions that each photo sees, if there are as many.
+    /// Number of tracks used for positioning that each photo observes, if available.
     package var pointsPerPhoto = 100
     package var positioning = GlobalPositioning.Options()
-    /// Largest angle in degrees between an observation and its point after positioning.
+    /// Maximum angle in degrees between an observation and the direction to its point after
+    /// positioning.
     package var positionErrorDegrees = 3.0
-    /// Largest reprojection errors in the first adjustments, in units of that of growth.
+    /// Maximum reprojection errors in the first adjustments, as multiples of `growthError`.
     package var errorFactors = [4.0, 1.0]
-    /// Share of the points it sees that a photo has to agree with.
+    /// Minimum fraction of the points it observes that a photo must agree with.
     package var minimumPhotoShare = 0.4
-    /// Seed of the random places that positioning starts with.
+    /// Seed of the random initial positions of global positioning.
     package var seed: UInt64 = 1
 
     package init() {}
   }
 
   package var options: Options
-  /// How the start is completed and finished.
+  /// Options of the incremental completion of the global start.
   package var growth: IncrementalMapping.Options
   var adjustment = MapAdjustment.Options()
 
@@ -48,8 +51,8 @@ package struct GlobalMapping: Sendable {
     (self.options, self.growth) = (options, growth)
   }
 
-  /// A map of all photos whose rotations and places the pairs determine, to grow from; nil for less
-  /// than three. `empty` has the tracks.
+  /// Returns an initial map of all photos whose rotations and positions the pairs determine; nil
+  /// for fewer than three photos. `empty` holds the tracks.
   func start(
     _ graph: ViewGraph, features: [FeatureSet], _ empty: SparseMap, _ context: StageContext
   ) throws -> SparseMap? {
@@ -63,7 +66,7 @@ package struct GlobalMapping: Sendable {
       guard try position(&map, rotations, context.part(from: 0.2, to: 0.6)) else { return nil }
       anchor(&map, graph)
       try refine(&map, context.part(from: 0.6, to: 1))
-      // The photos that held the world may be gone.
+      // The photos that define the gauge may have been removed.
       anchor(&map, graph)
       return map.registered.count >= 3 ? map : nil
     } catch let error as KernelError where error != .outOfMemory {

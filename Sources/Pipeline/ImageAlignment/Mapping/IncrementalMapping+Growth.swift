@@ -1,12 +1,12 @@
 import Kernels
 import SceneModel
 
-/// The verbs of incremental mapping on one view graph.
+/// The operations of incremental mapping on one view graph.
 struct MapGrowth: Sendable {
   let mapping: IncrementalMapping
   let graph: ViewGraph
   let photos: [Photo]
-  /// The map without any photo.
+  /// The map without any registered photo.
   let empty: SparseMap
   let context: StageContext
 
@@ -22,13 +22,15 @@ struct MapGrowth: Sendable {
         maximumError: options.growthError, minimumAngleDegrees: options.minimumAngleDegrees))
   }
 
-  /// The control of a kernel inside the loop: cancels, and leaves the progress where it is.
+  /// The control of a kernel inside the loop: forwards cancellation and keeps the progress
+  /// constant.
   func control(_ map: SparseMap) -> KernelControl {
     let done = Double(map.registered.count) / Double(max(1, photos.count))
     return context.control.part(from: done, to: done)
   }
 
-  /// All maps that share no photo, the largest first; the first one grows from `start`, if given.
+  /// Returns all maps, with disjoint photos, the largest first; the first one grows from `start`,
+  /// if given.
   func run(from start: SparseMap? = nil) throws -> [SparseMap] {
     var maps: [SparseMap] = []
     var isTaken = [Bool](repeating: false, count: photos.count)
@@ -51,7 +53,7 @@ struct MapGrowth: Sendable {
     }.map(\.element)
   }
 
-  /// The best map from a few first pairs among the photos that are not taken.
+  /// The best map grown from a few initial pairs of unregistered photos.
   private func bestMap(within group: [Int], _ isTaken: [Bool]) throws -> SparseMap? {
     var best: SparseMap?
     var used = Set<PhotoPair>()
@@ -66,7 +68,7 @@ struct MapGrowth: Sendable {
     return best
   }
 
-  /// Registers photo after photo until none can be added, then settles the whole.
+  /// Registers photo after photo until none can be added, then runs the final adjustment.
   private func grown(_ start: SparseMap, _ isTaken: [Bool]) throws -> SparseMap {
     var map = start
     var ranking = PhotoRanking(photos)
@@ -97,7 +99,7 @@ struct MapGrowth: Sendable {
     return map
   }
 
-  /// Registers the photo that sees the most of the map; false when none can be.
+  /// Registers the next best photo; false if none can be registered.
   private func registerNext(
     _ map: inout SparseMap, _ isTaken: [Bool], _ isRelaxed: Bool, _ ranking: inout PhotoRanking,
     _ failures: inout [Int]
@@ -113,7 +115,8 @@ struct MapGrowth: Sendable {
     return false
   }
 
-  /// Finds a photo's pose from the points it sees, then the points that it adds.
+  /// Estimates a photo's pose from the points it observes (PnP), then triangulates the points that
+  /// it adds.
   private func register(
     _ photo: Int, _ map: inout SparseMap, _ isRelaxed: Bool
   ) throws -> Bool {
@@ -143,7 +146,7 @@ struct MapGrowth: Sendable {
     return try addPoints(of: photo, &map)
   }
 
-  /// Brings the points that a new photo sees up to date, and its pose; false when too few are left.
+  /// Updates the points that a new photo observes, and its pose; false if too few remain.
   func addPoints(of photo: Int, _ map: inout SparseMap) throws -> Bool {
     let tracks = map.tracks(ofPhoto: photo)
     try growthPoints.filter(tracks, in: &map, control(map))
@@ -154,7 +157,7 @@ struct MapGrowth: Sendable {
     return dropWeakPhotos(&map, only: photo) == 0
   }
 
-  /// Adjusts everything and brings the points up to date.
+  /// Runs a global bundle adjustment, then filters, completes and re-triangulates the points.
   private func settle(_ map: inout SparseMap) throws {
     let all = Array(map.isTriangulated.indices)
     try adjustment.adjustGlobally(&map, control(map))
@@ -164,7 +167,7 @@ struct MapGrowth: Sendable {
     dropWeakPhotos(&map)
   }
 
-  /// Adjusts, splits, completes and filters until little changes.
+  /// Adjusts, splits tracks, completes and filters until little changes.
   private func finish(_ map: inout SparseMap) throws {
     try settle(&map)
     map.splitTracks()
@@ -184,7 +187,7 @@ struct MapGrowth: Sendable {
     dropWeakPhotos(&map)
   }
 
-  /// Takes out photos that hardly any point holds any more; returns how many.
+  /// Removes photos with too few active observations; returns how many.
   @discardableResult
   private func dropWeakPhotos(_ map: inout SparseMap, only photo: Int? = nil) -> Int {
     let weak = (photo.map { [$0] } ?? map.registered)

@@ -1,7 +1,7 @@
 import SceneModel
 
 extension IncrementalMapping {
-  /// A sentence for each photo that has no pose.
+  /// An explanation for each photo that has no pose.
   func unregistered(
     _ map: SparseMap, others: [SparseMap], _ graph: ViewGraph, _ features: [FeatureSet],
     _ photos: [Photo]
@@ -17,15 +17,15 @@ extension IncrementalMapping {
   }
 }
 
-/// Tells why photos have no pose, with the photos that are nearest to them.
+/// Explains why photos have no pose, naming the photos with the strongest overlap.
 private struct MissingPoseReasons {
-  /// A link from a photo to another.
+  /// An overlap with another photo.
   struct Link {
     var other: Int
     var matches: Int
-    /// Matches that would be enough; nil where they are.
+    /// Number of matches that would suffice; nil for verified pairs.
     var needed: Int?
-    /// Median angle of the matches in radians.
+    /// Median triangulation angle of the matches in radians.
     var angle: Double
   }
 
@@ -34,14 +34,14 @@ private struct MissingPoseReasons {
   let features: [FeatureSet]
   let photos: [Photo]
   let neededPoints: Int
-  /// Of each photo, the strongest first.
+  /// The links of each photo, the strongest first.
   private var links: [[Link]]
 
-  /// Photos with fewer features hardly ever find a place.
+  /// Photos with fewer features can rarely be registered.
   private static let fewFeatures = 100
-  /// Fewer matches are down to chance.
+  /// Fewer matches may occur by chance.
   private static let chanceMatches = 8
-  /// Below this median angle in radians two photos are of one standpoint.
+  /// Pairs below this median triangulation angle, in radians, share one viewpoint.
   private static let standpointAngle = 0.5 * Double.pi / 180
 
   init(
@@ -68,16 +68,16 @@ private struct MissingPoseReasons {
     if let group = others.first(where: { $0.isRegistered(photo) }) { return separate(group) }
     if features[photo].count < Self.fewFeatures {
       return "shows hardly any texture (\(features[photo].count) features); "
-        + "take it sharper, in better light, or with something textured beside the object"
+        + "take it sharper, in better light, or with something textured next to the object"
     }
     guard let strongest = verified.first else { return isolated(links[photo].first) }
     if verified.allSatisfy({ $0.angle < Self.standpointAngle }) {
-      return "was taken from the same place as \(name(strongest.other)), so that it tells nothing "
-        + "of depth; step aside between photos"
+      return "was taken from the same place as \(name(strongest.other)), so that it adds no "
+        + "depth information; step aside between photos"
     }
     guard let aligned = verified.first(where: { map.isRegistered($0.other) }) else {
-      return "overlaps with \(name(strongest.other)) (\(strongest.matches) matches) and not enough "
-        + "with any aligned photo" + closest([photo]) + "; add photos in between"
+      return "overlaps with \(name(strongest.other)) (\(strongest.matches) matches), but not "
+        + "enough with any aligned photo" + closest([photo]) + "; add photos in between"
     }
     return thin(photo, aligned)
   }
@@ -85,7 +85,7 @@ private struct MissingPoseReasons {
   private func name(_ photo: Int) -> String { photos[photo].name }
 
   private func isolated(_ link: Link?) -> String {
-    let advice = "it needs sharp texture and an overlap of two thirds with its neighbours"
+    let advice = "it needs sharp texture and an overlap of two thirds with its neighbors"
     guard let link, let needed = link.needed else {
       return "shares no matches with any other photo; \(advice)"
     }
@@ -96,11 +96,11 @@ private struct MissingPoseReasons {
   private func separate(_ group: SparseMap) -> String {
     let members = group.registered.sorted()
     return "belongs to a separate group of \(members.count) photos "
-      + "(\(name(members[0])) to \(name(members[members.count - 1]))) that could not be joined with "
-      + "the rest" + closest(members) + "; add photos between the two groups"
+      + "(\(name(members[0])) to \(name(members[members.count - 1]))) that could not be joined "
+      + "with the rest" + closest(members) + "; add photos between the two groups"
   }
 
-  /// The strongest link from one of the photos to an aligned one.
+  /// The strongest link from one of the photos to an aligned photo.
   private func closest(_ members: [Int]) -> String {
     let best = members.flatMap { photo in
       links[photo].filter { map.isRegistered($0.other) }.map { (photo: photo, link: $0) }
@@ -111,17 +111,17 @@ private struct MissingPoseReasons {
       + (best.link.needed.map { " where \($0) are needed" } ?? "")
   }
 
-  /// Of a photo with verified links to aligned ones.
+  /// The explanation for a photo with verified links to aligned photos.
   private func thin(_ photo: Int, _ link: Link) -> String {
     let seen = map.tracks.observationsOfPhoto[photo]
       .count { map.isTriangulated[Int(map.tracks.trackOfObservation[Int($0)])] }
     let start = "overlaps with \(name(link.other)) (\(link.matches) matches), but "
     if seen < neededPoints {
       return start
-        + "sees only \(seen) points that other photos see too, where \(neededPoints) are "
+        + "sees only \(seen) points of the other photos, where \(neededPoints) are "
         + "needed; add photos in between"
     }
-    return start + "the \(seen) points that it sees don't agree on where it was taken from; "
+    return start + "the \(seen) points that it sees disagree about its position; "
       + "add photos from nearby"
   }
 }

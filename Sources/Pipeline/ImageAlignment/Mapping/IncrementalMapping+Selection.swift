@@ -1,9 +1,9 @@
 import Kernels
 import SceneModel
 
-/// Which pair to begin with, and which photo comes next.
+/// Selection of the initial pair.
 extension MapGrowth {
-  /// A map of the best first pair that holds together.
+  /// A map of the best initial pair that can be triangulated.
   func initialMap(
     within group: [Int], _ isTaken: [Bool], _ used: inout Set<PhotoPair>
   ) throws -> SparseMap? {
@@ -20,7 +20,7 @@ extension MapGrowth {
     return nil
   }
 
-  /// Pairs that fulfil a level, the most promising first.
+  /// Pairs that satisfy a level, the most promising first.
   private func candidates(
     _ level: IncrementalMapping.InitialPairLevel, _ members: Set<Int>, _ isTaken: [Bool]
   ) -> [VerifiedPair] {
@@ -32,7 +32,7 @@ extension MapGrowth {
         pair.secondFromFirst != nil, pair.matches.count >= level.matches,
         degrees >= level.angleDegrees, ids.allSatisfy({ members.contains($0) && !isTaken[$0] })
       else { return nil }
-      // Planes and rotations leave the relative pose ambiguous.
+      // A plane or a pure rotation leaves the relative pose ambiguous.
       let certainty = pair.model == .homography ? 0.3 : 1
       let width = min(degrees, 2 * level.angleDegrees) / level.angleDegrees
       return (certainty * width * Double(pair.matches.count), index, pair)
@@ -40,7 +40,7 @@ extension MapGrowth {
     return scored.sorted { ($1.score, $0.index) < ($0.score, $1.index) }.map(\.pair)
   }
 
-  /// Triangulates and adjusts one pair; nil when too few points stand.
+  /// Triangulates and adjusts one pair; nil if too few points remain.
   private func begin(
     with pair: VerifiedPair, _ level: IncrementalMapping.InitialPairLevel
   ) throws -> SparseMap? {

@@ -1,9 +1,9 @@
 extension MapGrowth {
-  /// Failures of a photo that had all its trials.
+  /// Failure count that marks a photo whose only trial was used.
   private static let lastTrial = 100
 
-  /// Registers a photo by its pairs with registered photos alone; false when none can be. A photo has
-  /// one trial.
+  /// Registers one photo by its pairs with registered photos only, without scene points; false if
+  /// none can be registered. Each photo has one trial.
   func registerWithoutStructure(
     _ map: inout SparseMap, _ isTaken: [Bool], _ failures: inout [Int]
   ) throws -> Bool {
@@ -17,7 +17,7 @@ extension MapGrowth {
       }
       failures[photo] = Self.lastTrial
       map.register(photo, pose)
-      // The pose is rough: its points may be off until it is adjusted.
+      // The pose is rough: its points may have large errors until it is adjusted.
       var roughPoints = growthPoints
       roughPoints.options.maximumError = 4 * options.growthError
       let tracks = map.tracks(ofPhoto: photo)

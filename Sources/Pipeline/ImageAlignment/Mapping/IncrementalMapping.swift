@@ -1,45 +1,50 @@
 import Kernels
 import SceneModel
 
-/// Grows a reconstruction from one pair of photos, one photo at a time (Snavely et al., "Photo
-/// tourism", 2006; Schönberger and Frahm, "Structure-from-motion revisited", CVPR 2016).
+/// Incremental structure from motion: grows a reconstruction from one pair of photos, one photo at
+/// a time (Snavely et al., "Photo tourism", 2006; Schönberger and Frahm, "Structure-from-motion
+/// revisited", CVPR 2016).
 package struct IncrementalMapping: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Matches and median angle in degrees that the first pair needs; the first row that a pair
-    /// fulfils decides.
+    /// Requirements on the initial pair, in matches and median triangulation angle; levels are
+    /// tried in this order.
     package var initialPairLevels = [
       InitialPairLevel(matches: 100, angleDegrees: 16),
       InitialPairLevel(matches: 50, angleDegrees: 8),
       InitialPairLevel(matches: 30, angleDegrees: 4),
       InitialPairLevel(matches: 15, angleDegrees: 2),
     ]
-    /// First pairs tried before a group of photos is given up.
+    /// Maximum number of initial pairs tried per group of photos.
     package var initialPairTrials = 12
-    /// Other first pairs tried when less than half of the connected photos came in.
+    /// Maximum number of restarts from another initial pair if less than half of the connected
+    /// photos were registered.
     package var restarts = 2
-    /// Points that a photo must agree with to be registered, and when nothing else is left.
+    /// Minimum number of inlier points to register a photo, and after no other photo can be
+    /// registered.
     package var minimumInliers = 30
     package var relaxedMinimumInliers = 12
-    /// Share of the points seen that must agree.
+    /// Minimum fraction of inliers among the observed points.
     package var minimumInlierRatio = 0.25
-    /// Largest reprojection error in pixels while a photo is registered.
+    /// Maximum reprojection error in pixels for the registration of a photo.
     package var resectionError = 10.0
-    /// Largest reprojection error of an observation in pixels while the map grows.
+    /// Maximum reprojection error of an observation in pixels while the map grows.
     package var growthError = 4.0
-    /// Largest reprojection error of an observation in pixels at the end.
+    /// Maximum reprojection error of an observation in pixels at the end.
     package var finalError = 3.0
-    /// Smallest angle of a point in degrees.
+    /// Minimum triangulation angle of a point in degrees.
     package var minimumAngleDegrees = 1.5
-    /// Growth of photos or points after which all is adjusted.
+    /// Growth factor of photos or points that triggers a global adjustment.
     package var globalGrowth = 1.1
-    /// Adjustments of everything at the end, at most.
+    /// Maximum number of global adjustments at the end.
     package var finalRounds = 4
-    /// Observations that keep a photo registered.
+    /// Minimum number of observations that keep a photo registered.
     package var minimumObservations = 10
 
     package init() {}
   }
 
+  /// Minimum number of matches and minimum median triangulation angle, in degrees, of an initial
+  /// pair.
   package struct InitialPairLevel: Hashable, Codable, Sendable {
     package var matches: Int
     package var angleDegrees: Double
@@ -55,9 +60,9 @@ package struct IncrementalMapping: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The largest reconstruction that the view graph gives, grown from `empty`, which holds the tracks,
-  /// and from `start` where there is one, else in the frame of its first photo and the unit of its
-  /// first pair; `unregistered` says why photos are missing.
+  /// Returns the largest reconstruction of the view graph, grown from `empty`, which holds the
+  /// tracks, and from `start` if given; otherwise in the frame of its first photo, with the
+  /// baseline of the initial pair as unit. `unregistered` gives the reasons why photos are missing.
   func run(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], empty: SparseMap,
     from start: SparseMap?, _ context: StageContext

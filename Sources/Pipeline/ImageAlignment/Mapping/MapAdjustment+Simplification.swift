@@ -2,12 +2,13 @@ import Kernels
 import SceneModel
 
 extension MapAdjustment {
-  /// Takes parameters of the cameras back that explain next to nothing.
+  /// Removes camera parameters that explain next to nothing (model selection).
   ///
-  /// Errors of measurement aren't independent, so nearly every parameter looks significant, and on few
-  /// photos it bends the poses. Of the models k2 = 0, no distortion, and no distortion with the principal
-  /// point in the centre, the simplest is taken whose cost is higher by less than
-  /// `simplificationTolerance`. A part of the points decides; the map isn't adjusted.
+  /// Measurement errors aren't independent, so nearly every parameter appears significant, and with
+  /// few photos it distorts the poses. Among the models with k2 = 0, without distortion, and
+  /// without distortion and with a centered principal point, the simplest one is chosen whose cost
+  /// is higher by less than `simplificationTolerance`. The decision is made on a subset of the
+  /// points; the map isn't adjusted.
   mutating func simplifyCameras(_ map: inout SparseMap, _ control: KernelControl) throws {
     guard withheld.isEmpty else { return }
     var probe = map.thinned(toObservations: options.simplificationObservations)
@@ -24,11 +25,12 @@ extension MapAdjustment {
     resetWithheld(&map)
   }
 
-  /// Adjusts all and returns the robust cost.
+  /// Runs a global adjustment and returns the robust cost.
   private func cost(of map: inout SparseMap, _ control: KernelControl) throws -> Double {
     try adjustGlobally(&map, control)?.finalCost ?? .infinity
   }
 
+  /// Resets the excluded parameters to their initial values.
   private func resetWithheld(_ map: inout SparseMap) {
     for index in map.photos.cameras.indices {
       if withheld.contains(.k1) { map.photos.cameras[index].distortion.x = 0 }
@@ -41,7 +43,7 @@ extension MapAdjustment {
 }
 
 extension SparseMap {
-  /// The map with every n-th point only, so that about `count` observations are left.
+  /// The map with only every n-th point, so that about `count` observations remain.
   fileprivate func thinned(toObservations count: Int) -> SparseMap {
     let step = isActive.count { $0 } / max(1, count) + 1
     var map = self

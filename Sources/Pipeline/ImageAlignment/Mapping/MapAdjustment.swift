@@ -1,46 +1,48 @@
 import Kernels
 import SceneModel
 
-/// Adjusts a map: a few photos with what they see, or all of it.
+/// Bundle adjustment of a map: locally around one photo, or globally.
 struct MapAdjustment: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Photos adjusted together after a new one came in, itself included.
+    /// Number of photos in a local adjustment, including the new one.
     var localPhotoCount = 6
     var localIterations = 15
     var globalIterations = 30
-    /// Relative decrease of the cost below which an adjustment ends: while the map grows, and last.
-    /// Single points creep on under the Huber loss long after cameras and poses have settled.
+    /// Relative cost decrease at which an adjustment terminates, while the map grows and for the
+    /// final one. Under the Huber loss, single points keep drifting long after cameras and poses
+    /// have converged.
     var growthTolerance = 1e-4
     var finalTolerance = 5e-6
-    /// Where the loss turns from square to linear, in pixels.
+    /// Residual in pixels at which the Huber loss changes from quadratic to linear.
     var huberWidth = 1.0
     /// Standard deviation of a focal length from EXIF, relative.
     var exifFocalDeviation = 0.15
     /// Standard deviation of an assumed focal length, relative.
     var assumedFocalDeviation = 0.5
-    /// Standard deviation of the principal point relative to the longer side of the photo.
+    /// Standard deviation of the principal point, relative to the longer side of the photo.
     var principalPointDeviation = 0.02
     /// Standard deviation of k1 and k2.
     var radialDeviation = 0.3
-    /// Registered photos of a camera from which on k1, k2 and the principal point are freed.
+    /// Number of registered photos of a camera from which on the focal length, k1, k2 and the
+    /// principal point are refined.
     var photosForFocalLength = 3
     var photosForK1 = 3
     var photosForK2 = 5
     var photosForPrincipalPoint = 6
-    /// Relative rise of the cost that a simpler camera model may bring.
+    /// Maximum relative cost increase accepted for a simpler camera model.
     var simplificationTolerance = 0.01
-    /// Observations that decide on it.
+    /// Approximate number of observations used for this decision.
     var simplificationObservations = 20_000
   }
 
   var options = Options()
-  /// The cameras before any adjustment: what the priors rest on.
+  /// The cameras before any adjustment, which the priors are centered on.
   var initialCameras: [Camera]
-  /// Parameters that stay as they are however many photos there are.
+  /// Parameters that are held constant regardless of the number of photos.
   var withheld: BundleAdjustment.CameraFreedom = []
 
-  /// Adjusts `photo`, the photos that share most points with it, and the points it sees. The other
-  /// points of these photos hold them in place, and cameras keep their intrinsics.
+  /// Adjusts `photo`, the photos that share the most points with it, and the points it observes.
+  /// The other points of these photos are constant and anchor them; intrinsics are constant.
   func adjustLocally(
     around photo: Int, _ map: inout SparseMap, _ control: KernelControl
   ) throws {
@@ -52,7 +54,7 @@ struct MapAdjustment: Sendable {
       for other in map.activeObservations(of: track) { shared[Int(map.tracks.photos[other])] += 1 }
     }
     guard points.count >= 3 else { return }
-    // The first photo carries the world: it stays.
+    // The first photo fixes the gauge: its pose is constant.
     let neighbours = map.registered.dropFirst().filter { $0 != photo && shared[$0] > 0 }
       .sorted { (-shared[$0], $0) < (-shared[$1], $1) }.prefix(options.localPhotoCount - 1)
     var poses = map.photos.poses.map { _ in BundleAdjustment.PoseFreedom.constant }
@@ -71,7 +73,7 @@ struct MapAdjustment: Sendable {
       tolerance: options.growthTolerance, control)
   }
 
-  /// Adjusts all poses and points, and what the data supports of the intrinsics.
+  /// Adjusts all poses and points, and the intrinsics that the data constrains.
   @discardableResult
   func adjustGlobally(
     _ map: inout SparseMap, isFinal: Bool = false, _ control: KernelControl
@@ -89,14 +91,14 @@ struct MapAdjustment: Sendable {
       points, poses: poses, cameras: freedom(map), &map, iterations: iterations,
       tolerance: tolerance, control)
     guard !map.photos.cameras.allSatisfy(\.isPlausible) else { return summary }
-    // Weak geometry can bend a camera out of shape; the same without the intrinsics can't.
+    // Weak geometry can produce implausible intrinsics; repeat with constant intrinsics.
     map = before
     return try adjust(
       points, poses: poses, cameras: map.photos.cameras.map { _ in [] }, &map,
       iterations: iterations, tolerance: tolerance, control)
   }
 
-  /// The parameters of each camera that its photos determine.
+  /// The parameters of each camera that its number of photos constrains.
   private func freedom(_ map: SparseMap) -> [BundleAdjustment.CameraFreedom] {
     var photos = [Int](repeating: 0, count: map.photos.cameras.count)
     for photo in map.registered { photos[Int(map.photos.cameraOfPhoto[photo])] += 1 }
@@ -159,7 +161,7 @@ struct MapAdjustment: Sendable {
 }
 
 extension Camera {
-  /// False for a focal length or distortion that no lens has.
+  /// False for a focal length, principal point or distortion that no real lens has.
   var isPlausible: Bool {
     let ratio = focalLength.x / Double(max(width, height))
     let center = principalPoint / SIMD2(Double(width), Double(height))

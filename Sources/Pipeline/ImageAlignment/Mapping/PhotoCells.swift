@@ -1,17 +1,20 @@
 import SceneModel
 
-/// Square cells over a photo.
+/// A grid of square cells over a photo.
 struct PhotoCells: Sendable {
+  /// Side of a cell in pixels.
   let side: Double
   let columns: Int
   let rows: Int
 
+  /// `cells` is the number of cells along the longer side.
   init(width: Int, height: Int, cells: Int) {
     side = Double(max(width, height)) / Double(max(1, cells))
     columns = max(1, Int((Double(width) / side).rounded(.up)))
     rows = max(1, Int((Double(height) / side).rounded(.up)))
   }
 
+  /// The cell of a pixel, clamped to the grid.
   func place(_ pixel: SIMD2<Double>) -> (column: Int, row: Int) {
     (
       min(columns - 1, max(0, Int(pixel.x / side))), min(rows - 1, max(0, Int(pixel.y / side)))
@@ -19,11 +22,11 @@ struct PhotoCells: Sendable {
   }
 }
 
-/// The depths that a photo shows, by cell.
+/// The depths that a photo observes, by cell.
 struct DepthGrid: Sendable {
   private let cells: PhotoCells
   private var points: [[(pixel: SIMD2<Double>, depth: Double)]]
-  /// Of all points; nil without any.
+  /// Median depth of all points; nil without any.
   private(set) var medianDepth: Double?
 
   init(_ camera: Camera, _ seen: [(pixel: SIMD2<Double>, depth: Double)], cells count: Int) {
@@ -37,7 +40,7 @@ struct DepthGrid: Sendable {
     medianDepth = depths.isEmpty ? nil : depths[depths.count / 2]
   }
 
-  /// The least depth within a cell's side of a pixel; nil where nothing is seen.
+  /// The smallest depth within one cell side of a pixel; nil if nothing is observed there.
   func front(at pixel: SIMD2<Double>) -> Double? {
     let (column, row) = cells.place(pixel)
     var front: Double?
@@ -53,7 +56,7 @@ struct DepthGrid: Sendable {
   }
 }
 
-/// Points that agree and that contradict, by cell.
+/// Counts of present and absent points, by cell.
 struct AgreementGrid: Sendable {
   private let cells: PhotoCells
   private var agreeing: [Int]
@@ -74,7 +77,8 @@ struct AgreementGrid: Sendable {
 
   mutating func contradict(_ pixel: SIMD2<Double>) { contradicting[index(pixel)] += 1 }
 
-  /// Cells with at least `minimum` points that contradict, and less than half as many that agree.
+  /// The number of cells with at least `minimum` absent points and fewer than half as many present
+  /// ones.
   func contradictingCells(minimum: Int) -> Int {
     agreeing.indices.count {
       contradicting[$0] >= minimum && contradicting[$0] > 2 * agreeing[$0]

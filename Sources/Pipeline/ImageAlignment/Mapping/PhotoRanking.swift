@@ -1,9 +1,10 @@
 import SceneModel
 
-/// Which photo to register next: the one that sees the most of the map over most of its frame
-/// (Schönberger and Frahm, "Structure-from-motion revisited", CVPR 2016).
+/// Next best view selection: ranks the photos by how many points of the map they observe and how
+/// evenly these cover the frame (Schönberger and Frahm, "Structure-from-motion revisited", CVPR
+/// 2016).
 ///
-/// Remembers the scores, so that a new photo costs what it changes, not a look at all photos.
+/// Scores are cached, so that a newly registered photo costs only the photos it affects.
 struct PhotoRanking: Sendable {
   private let photos: [Photo]
   private var scores: [Int]
@@ -14,20 +15,20 @@ struct PhotoRanking: Sendable {
     scores = photos.map { _ in 0 }
   }
 
-  /// Looks again at the photos that see a point that came or went.
+  /// Recomputes the scores of the photos that observe an added or removed point.
   mutating func update(_ map: inout SparseMap) {
     for photo in map.takeChangedPhotos() where !map.isRegistered(photo) {
       scores[photo] = score(photo, map)
     }
   }
 
-  /// The photos that see points, the best first.
+  /// The photos that observe points, the best first.
   func photos(where isCandidate: (Int) -> Bool) -> [Int] {
     scores.indices.filter { scores[$0] > 0 && isCandidate($0) }
       .sorted { (-scores[$0], $0) < (-scores[$1], $1) }
   }
 
-  /// Counts occupied cells of grids of 2×2 to 32×32 over the photo, finer cells for more.
+  /// Counts the occupied cells of grids of 2×2 to 32×32 over the photo, weighted by resolution.
   private func score(_ photo: Int, _ map: SparseMap) -> Int {
     let finest = 32
     let size = SIMD2(Double(photos[photo].width), Double(photos[photo].height))

@@ -1,12 +1,12 @@
 import Kernels
 import SceneModel
 
-/// Makes, completes and removes the points of a map.
+/// Triangulates, completes and filters the points of a map.
 struct PointTriangulation: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Largest reprojection error in pixels.
+    /// Maximum reprojection error in pixels.
     var maximumError = 4.0
-    /// Smallest angle in degrees between two rays of a point.
+    /// Minimum triangulation angle of a point in degrees.
     var minimumAngleDegrees = 1.5
   }
 
@@ -14,7 +14,7 @@ struct PointTriangulation: Sendable {
 
   private var minimumAngle: Double { options.minimumAngleDegrees * .pi / 180 }
 
-  /// Triangulates those of the given tracks that have no point yet; returns how many got one.
+  /// Triangulates the given tracks that have no point yet; returns how many succeeded.
   @discardableResult
   func triangulate(
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
@@ -43,8 +43,7 @@ struct PointTriangulation: Sendable {
     return count
   }
 
-  /// Lets the points of the given tracks gain the observations that agree with them; returns how
-  /// many.
+  /// Activates the observations of the given tracks that agree with their points; returns how many.
   @discardableResult
   func complete(
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
@@ -71,8 +70,9 @@ struct PointTriangulation: Sendable {
     return count
   }
 
-  /// Removes observations that are off by more than the limit, and points that are left with fewer
-  /// than two or seen at too narrow an angle; returns how many observations went.
+  /// Deactivates observations whose error exceeds the limit, and removes points with fewer than two
+  /// remaining observations or too small a triangulation angle; returns how many observations were
+  /// deactivated.
   @discardableResult
   func filter(
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl

@@ -1,13 +1,13 @@
 import Kernels
 import SceneModel
 
-/// Photos and the relative rotations between them.
+/// The relative rotations between pairs of photos.
 struct RotationGraph: Sendable {
   var photoCount: Int
   /// Sorted by pair, `first < second`.
   var pairs: [RelativeRotation]
 
-  /// The pairs of each photo: the other photo, ascending, and the index of the pair.
+  /// The pairs of each photo: the other photo, in ascending order, and the index of the pair.
   private var neighbours: [[(photo: Int32, pair: Int32)]] {
     var result = [[(photo: Int32, pair: Int32)]](repeating: [], count: photoCount)
     for (index, pair) in pairs.enumerated() {
@@ -18,13 +18,13 @@ struct RotationGraph: Sendable {
     return result
   }
 
-  // MARK: Cycles of three
+  // MARK: Triplets
 
-  /// The graph without the pairs that contradict most of their triplets: the three rotations around
-  /// a triplet of photos should make none (Zach et al., "Disambiguating visual relations using loop
-  /// constraints", CVPR 2010).
+  /// The graph without the pairs that are inconsistent in most of their triplets: the composition
+  /// of the three rotations around a triplet should be the identity (Zach et al., "Disambiguating
+  /// visual relations using loop constraints", CVPR 2010).
   ///
-  /// Pairs in no triplet stay. `limit` is in radians.
+  /// Pairs that are part of no triplet are kept. `limit` is in radians.
   func consistent(limit: Double, minimumShare: Double) -> RotationGraph {
     let neighbours = neighbours
     var (good, total) = (pairs.map { _ in 0 }, pairs.map { _ in 0 })
@@ -32,7 +32,7 @@ struct RotationGraph: Sendable {
       let (a, b) = (neighbours[Int(pair.first)], neighbours[Int(pair.second)])
       var (i, j) = (0, 0)
       while i < a.count, j < b.count {
-        // Each triplet once, from its two lowest photos.
+        // Visits each triplet once, from its two lowest photos.
         if a[i].photo == b[j].photo, a[i].photo > pair.second {
           let (other, third) = (pairs[Int(b[j].pair)], pairs[Int(a[i].pair)])
           let loop = third.rotation.conjugate * other.rotation * pair.rotation
@@ -52,9 +52,10 @@ struct RotationGraph: Sendable {
     return result
   }
 
-  // MARK: Connection
+  // MARK: Connectivity
 
-  /// The largest set of photos, ascending, that stays connected without any one pair.
+  /// The largest 2-edge-connected component: photos, in ascending order, that stay connected
+  /// without any single pair.
   func largestTwoConnectedPart() -> [Int] {
     let bridges = bridges()
     var sets = DisjointSets(count: photoCount)
@@ -64,7 +65,8 @@ struct RotationGraph: Sendable {
     return sets.groups().max { ($0.count, $1[0]) < ($1.count, $0[0]) } ?? []
   }
 
-  /// Whether the graph falls apart without each pair (Tarjan, 1974).
+  /// For each pair, whether it is a bridge: the graph becomes disconnected without it (Tarjan,
+  /// 1974).
   private func bridges() -> [Bool] {
     let neighbours = neighbours
     var isBridge = pairs.map { _ in false }
@@ -96,7 +98,7 @@ struct RotationGraph: Sendable {
     return isBridge
   }
 
-  /// The graph of some of the photos, renumbered in their order.
+  /// The subgraph of some of the photos, renumbered in their order.
   func restricted(to photos: [Int]) -> RotationGraph {
     var numbers = [Int32](repeating: -1, count: photoCount)
     for (number, photo) in photos.enumerated() { numbers[photo] = Int32(number) }
@@ -109,10 +111,10 @@ struct RotationGraph: Sendable {
       })
   }
 
-  // MARK: Start
+  // MARK: Initialization
 
-  /// Rotations along the tree of the pairs with the highest weights, from photo 0; photos out of its
-  /// reach keep none.
+  /// Rotations along the maximum spanning tree of the pair weights, from photo 0; the identity for
+  /// photos that the tree doesn't reach.
   func treeRotations() -> [Quaternion] {
     var sets = DisjointSets(count: photoCount)
     var isInTree = pairs.map { _ in false }

@@ -2,39 +2,40 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Finds the focal length of a camera without metadata from the matches between its photos.
+/// Estimates the focal length of a camera without metadata from the matches between its photos.
 ///
-/// For each candidate it fits the relative pose of a pair and adds up what the matches are off; the true
-/// focal length leaves least. The pairs' best candidates vote, each with the weight of what a wrong one
-/// costs it: unlike with closed forms (Bougnoux, ICCV 1998), pairs whose geometry doesn't determine the
-/// focal length have no say, since their error is the same for all candidates.
+/// For each candidate focal length, the relative pose of a pair is fitted and the residuals of the
+/// matches are summed; the true focal length has the smallest sum. The best candidates of the pairs
+/// vote, each weighted by the cost increase of wrong candidates. Unlike with closed forms
+/// (Bougnoux, ICCV 1998), pairs whose geometry doesn't determine the focal length have no weight,
+/// since their error is the same for all candidates.
 package struct SelfCalibration {
   package struct Options: Hashable, Codable, Sendable {
-    /// Candidates lie between the assumed focal length divided and multiplied by this.
+    /// Candidates range from the assumed focal length divided by this to the one multiplied by it.
     package var range = 2.6
-    /// Candidates of the search, evenly spaced by their logarithms.
+    /// Number of candidates, evenly spaced in their logarithms.
     package var candidates = 25
-    /// Pairs used at most for each camera, those with the most matches.
+    /// Maximum number of pairs used per camera, those with the most matches.
     package var maximumPairs = 60
-    /// Matches used at most of a pair.
+    /// Maximum number of matches used per pair.
     package var maximumMatches = 400
-    /// A pair with fewer matches isn't used.
+    /// Pairs with fewer matches aren't used.
     package var minimumMatches = 50
-    /// A pair's weight is the rise of its cost this many candidates from the best.
+    /// The weight of a pair is the rise of its cost this number of candidates away from the best.
     package var weightDistance = 4
-    /// Share of the votes' weight that has to be within `agreement` of the median.
+    /// Fraction of the total weight that must be within `agreement` of the median.
     package var minimumAgreement = 0.5
-    /// Relative distance of focal lengths that agree.
+    /// Maximum difference of agreeing focal lengths, as the logarithm of their ratio.
     package var agreement = 0.15
-    /// Weight of all votes together at least, in matches that become outliers.
+    /// Minimum total weight of all votes, in matches that become outliers.
     package var minimumWeight = 10.0
-    /// Largest error that counts in full, as a fraction of the photo's longer side.
+    /// Error at which the cost saturates, as a fraction of the photo's longer side.
     package var relativeMaximumError = 0.0012
 
     package init() {}
   }
 
-  /// The matches of a pair at depth 1 with the assumed focal length.
+  /// The matches of a pair, at depth 1 for the assumed focal length.
   private struct Evidence: Sendable {
     var first: [SIMD2<Double>]
     var second: [SIMD2<Double>]
@@ -45,7 +46,7 @@ package struct SelfCalibration {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The cameras, with a better focal length where it was only assumed and the pairs determine it.
+  /// Returns the cameras; assumed focal lengths are improved if the pairs determine them.
   package func run(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
     _ context: StageContext
@@ -73,7 +74,8 @@ package struct SelfCalibration {
     return Array(sorted.prefix(options.maximumPairs))
   }
 
-  /// By what the focal length has to be multiplied; nil where the pairs don't tell.
+  /// The factor from the assumed to the estimated focal length; nil if the pairs don't determine
+  /// it.
   private func factor(
     _ camera: Camera, _ pairs: [VerifiedPair], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Double? {
@@ -97,7 +99,8 @@ package struct SelfCalibration {
     return agreed(costs.compactMap { vote($0, candidates) }).map(exp)
   }
 
-  /// A pair's logarithm of the factor, by a parabola through its smallest cost, and its weight.
+  /// A pair's vote: the logarithm of the factor, from a parabola through its smallest cost, and its
+  /// weight.
   private func vote(_ costs: [Double], _ candidates: [Double]) -> (factor: Double, weight: Double)?
   {
     guard let best = costs.indices.min(by: { costs[$0] < costs[$1] }), best > 0,
@@ -112,7 +115,7 @@ package struct SelfCalibration {
     return (candidates[best] + shift * spacing, max(0, min(left, right) - b))
   }
 
-  /// The weighted median of the votes; nil where they disagree or say too little.
+  /// The weighted median of the votes; nil if they disagree or weigh too little.
   private func agreed(_ votes: [(factor: Double, weight: Double)]) -> Double? {
     let sorted = votes.sorted { ($0.factor, $0.weight) < ($1.factor, $1.weight) }
     let total = sorted.reduce(0) { $0 + $1.weight }

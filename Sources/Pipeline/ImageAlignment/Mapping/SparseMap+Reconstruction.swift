@@ -2,17 +2,17 @@ import Kernels
 import SceneModel
 
 extension SparseMap {
-  /// An observation that a track lacks.
+  /// A new observation of a track.
   struct Addition: Hashable, Sendable {
     var track: Int
     var photo: Int
     var pixel: SIMD2<Double>
   }
 
-  /// The feature of an observation that was found without one.
+  /// The feature index of an observation without a feature.
   static let noFeature: Int32 = -1
 
-  /// The map that a reconstruction shows: all its photos registered, all its observations active.
+  /// The map of a reconstruction: all its photos are registered, all its observations active.
   init(_ reconstruction: Reconstruction) {
     var tracks = FeatureTracks(photoCount: reconstruction.photos.count)
     for point in reconstruction.points {
@@ -26,7 +26,7 @@ extension SparseMap {
     isActive = isActive.map { _ in true }
   }
 
-  /// The reconstruction that the map shows now; photos and what isn't in the map are as in `other`.
+  /// The current map as a reconstruction; what the map doesn't hold is copied from `other`.
   func reconstruction(like other: Reconstruction, features: [FeatureSet]) -> Reconstruction {
     var result = other
     result.poses = photos.poses
@@ -41,7 +41,7 @@ extension SparseMap {
     return result
   }
 
-  /// The point of a track with its colour, error and active observations.
+  /// The scene point of a track with its color, error and active observations.
   func scenePoint(_ track: Int, _ features: [FeatureSet]) -> ScenePoint {
     var point = ScenePoint(position: positions[track])
     var (color, colored, error) = (SIMD3<Int>.zero, 0, 0.0)
@@ -63,7 +63,7 @@ extension SparseMap {
     return point
   }
 
-  /// The median of the active observations' reprojection errors in pixels.
+  /// The median reprojection error of the active observations in pixels.
   func medianError(_ control: KernelControl) throws -> Double {
     var batch = TrackObservations()
     var points: [SIMD3<Double>] = []
@@ -77,14 +77,14 @@ extension SparseMap {
     return errors.isEmpty ? 0 : errors[errors.count / 2]
   }
 
-  /// Drops points that fewer than two observations hold.
+  /// Drops points with fewer than two active observations.
   mutating func dropUnsupportedPoints() {
     for track in 0..<tracks.count where isTriangulated[track] {
       if activeObservations(of: track).count < 2 { dropPoint(track) }
     }
   }
 
-  /// Gives tracks observations in photos that they lack, or in the place of inactive ones.
+  /// Adds observations to tracks, or replaces inactive observations of the same photos.
   mutating func add(_ additions: [Addition]) {
     var added = [[Addition]](repeating: [], count: tracks.count)
     for addition in additions { added[addition.track].append(addition) }

@@ -1,19 +1,19 @@
 import Kernels
 import SceneModel
 
-/// A reconstruction while it grows: poses of some photos, and points of some tracks.
+/// A reconstruction in progress: poses of some photos, and points of some tracks.
 struct SparseMap: Sendable {
   var photos: PosedPhotos
   private(set) var tracks: FeatureTracks
-  /// The point of each track; valid where `isTriangulated`.
+  /// The point of each track; valid if `isTriangulated`.
   var positions: [SIMD3<Double>]
   private(set) var isTriangulated: [Bool]
   private(set) var pointCount = 0
   /// Whether each observation of the tracks supports its track's point.
   var isActive: [Bool]
-  /// In the order of registration.
+  /// Photos in the order of registration.
   var registered: [Int] = []
-  /// Photos that see a point that came or went since `takeChangedPhotos`, each once.
+  /// Photos that observe a point that was added or removed since `takeChangedPhotos`, each once.
   private var changedPhotos: [Int] = []
   private var isChanged: [Bool]
 
@@ -35,7 +35,8 @@ struct SparseMap: Sendable {
     photos.poses[photo] = cameraFromWorld
   }
 
-  /// Takes a photo out with its observations, and the points that less than two others hold.
+  /// Unregisters a photo, deactivates its observations, and drops the points that fewer than two
+  /// other photos support.
   mutating func remove(_ photo: Int) {
     photos.poses[photo] = nil
     registered.removeAll { $0 == photo }
@@ -72,7 +73,7 @@ struct SparseMap: Sendable {
     changedPhotos.append(photo)
   }
 
-  /// The photos that see a point that came or went since the last call.
+  /// Returns and clears the photos that observe a point added or removed since the last call.
   mutating func takeChangedPhotos() -> [Int] {
     for photo in changedPhotos { isChanged[photo] = false }
     defer { changedPhotos = [] }
@@ -87,12 +88,12 @@ struct SparseMap: Sendable {
     tracks.observationsOfPhoto[photo].count { isActive[Int($0)] }
   }
 
-  /// Puts an observation elsewhere in its photo.
+  /// Moves an observation within its photo.
   mutating func moveObservation(_ index: Int, to pixel: SIMD2<Double>) {
     tracks.movePixel(of: index, to: pixel)
   }
 
-  /// Exchanges the observations of all tracks, whose points stay.
+  /// Replaces the observations of all tracks; their points stay.
   mutating func replaceTracks(
     _ members: [[(photo: Int32, feature: Int32, pixel: SIMD2<Double>, isActive: Bool)]]
   ) {
@@ -106,13 +107,13 @@ struct SparseMap: Sendable {
       photo: tracks.photos[index], point: Int32(point), pixel: tracks.pixels[index])
   }
 
-  /// Tracks without a point, or with it, that `photo` has an observation of, ascending.
+  /// The tracks that `photo` observes, triangulated or not, in ascending order.
   func tracks(ofPhoto photo: Int) -> [Int] {
     tracks.observationsOfPhoto[photo].map { Int(tracks.trackOfObservation[Int($0)]) }
   }
 
-  /// Moves observations of registered photos that contradict their track's point to a track of
-  /// their own, two or more at a time.
+  /// Moves the observations of registered photos that contradict their track's point to a new
+  /// track, if there are at least two of them.
   mutating func splitTracks() {
     var result = FeatureTracks(photoCount: photos.poses.count)
     var newPositions: [SIMD3<Double>] = []

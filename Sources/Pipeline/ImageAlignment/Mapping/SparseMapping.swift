@@ -1,13 +1,13 @@
 import Kernels
 import SceneModel
 
-/// How the poses of photos are found.
+/// The structure-from-motion method.
 package enum MappingMethod: String, CaseIterable, Hashable, Codable, Sendable {
-  /// Globally where the view graph is strong enough for it, else incrementally.
+  /// Global if the view graph is strong enough, incremental otherwise.
   case automatic
-  /// Photo after photo.
+  /// One photo at a time.
   case incremental
-  /// All photos at once; those that are missed are added one by one.
+  /// All photos at once; the ones that are missed are then added one at a time.
   case global
 }
 
@@ -17,8 +17,8 @@ package struct SparseMapping: Sendable {
     package var method = MappingMethod.automatic
     package var incremental = IncrementalMapping.Options()
     package var global = GlobalMapping.Options()
-    /// Share of the largest connected group that the automatic choice wants of global mapping:
-    /// placed at once, and in the end.
+    /// Minimum fraction of the largest connected group that global mapping must register, at its
+    /// start and in the end, for the automatic method to use it.
     package var minimumShare = 0.8
 
     package init() {}
@@ -28,8 +28,8 @@ package struct SparseMapping: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The largest reconstruction that the view graph gives, in the frame of one of its photos;
-  /// `unregistered` says why photos are missing.
+  /// Returns the largest reconstruction of the view graph, in the frame of one of its photos;
+  /// `unregistered` gives the reasons why photos are missing.
   package func run(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
     _ context: StageContext

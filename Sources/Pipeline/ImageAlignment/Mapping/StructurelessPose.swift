@@ -1,36 +1,36 @@
 import Foundation
 import SceneModel
 
-/// The pose of a photo from its pairs with posed photos alone, for photos that see too few points of
-/// the map: the rotations that the pairs imply are averaged, and the centre is where the directions
-/// from the other photos meet (in the spirit of Zheng and Wu, "Structure from motion using
-/// structure-less resection", ICCV 2015).
+/// Estimates the pose of a photo from its pairs with registered photos only, for photos that
+/// observe too few points of the map: the rotations implied by the pairs are averaged, and the
+/// center is the intersection of the directions from the other photos (in the spirit of Zheng and
+/// Wu, "Structure from motion using structure-less resection", ICCV 2015).
 struct StructurelessPose: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Matches of a pair that counts.
+    /// Minimum number of matches of a pair.
     var minimumMatches = 30
-    /// Median angle in degrees of a pair whose direction counts.
+    /// Minimum median triangulation angle of a pair in degrees.
     var minimumAngleDegrees = 2.0
-    /// Pairs that have to agree.
+    /// Minimum number of agreeing pairs.
     var minimumPairs = 2
-    /// Largest angle in degrees between a pair's rotation or direction and the pose.
+    /// Maximum angle in degrees between a pair's rotation or direction and the pose.
     var maximumErrorDegrees = 5.0
-    /// Smallest angle in degrees at which two directions have to meet.
+    /// Minimum angle in degrees at which two directions must intersect.
     var minimumMeetingDegrees = 10.0
   }
 
   var options = Options()
 
-  /// What a pair with a posed photo says.
+  /// The constraint from one pair with a registered photo.
   private struct Hint {
-    /// `photoFromWorld` of the photo that is looked for.
+    /// `photoFromWorld` rotation of the photo to be registered.
     var rotation: Quaternion
-    /// The other photo's centre, and the direction from there.
+    /// The other photo's center, and the unit direction from it, in the world frame.
     var origin: SIMD3<Double>
     var direction: SIMD3<Double>
   }
 
-  /// `cameraFromWorld` of `photo`; nil where too few of its verified pairs agree.
+  /// Returns `cameraFromWorld` of `photo`; nil if too few of its verified pairs agree.
   func run(
     _ photo: Int, pairs: [VerifiedPair], poses: [RigidTransform?]
   ) -> RigidTransform? {
@@ -57,7 +57,7 @@ struct StructurelessPose: Sendable {
       direction: (other.rotation.conjugate * photoFromOther.center).normalized)
   }
 
-  /// The indices of the rotations that are near the one that most are near to.
+  /// The indices of the largest set of rotations within the error limit of one of them.
   private func largestAgreement(_ rotations: [Quaternion]) -> [Int]? {
     let limit = options.maximumErrorDegrees * .pi / 180
     return rotations.map { center in
@@ -65,15 +65,16 @@ struct StructurelessPose: Sendable {
     }.max { $0.count < $1.count }
   }
 
-  /// The mean of rotations that lie near each other.
+  /// The mean of rotations that are close to each other.
   private func mean(_ rotations: [Quaternion]) -> Quaternion {
     let all = rotations.map { SIMD4($0.x, $0.y, $0.z, $0.w) }
-    // A quaternion and its negative are one rotation.
+    // A quaternion and its negative represent the same rotation.
     let sum = all.reduce(SIMD4<Double>.zero) { $0 + (($1 * all[0]).sum() < 0 ? -$1 : $1) }
     return Quaternion(x: sum.x, y: sum.y, z: sum.z, w: sum.w).normalized
   }
 
-  /// Where the directions of most hints meet: the best meeting of two, then of all that agree with it.
+  /// The robust intersection of the directions: the best intersection of two, then of all that
+  /// agree with it.
   private func meetingPoint(_ hints: [Hint]) -> SIMD3<Double>? {
     var best: [Hint] = []
     for first in hints.indices {
@@ -94,7 +95,7 @@ struct StructurelessPose: Sendable {
       >= cos(options.maximumErrorDegrees * .pi / 180)
   }
 
-  /// The point nearest to all lines; nil where they are nearly parallel.
+  /// The point closest to all lines in the least-squares sense; nil if they are nearly parallel.
   private func meeting(_ hints: [Hint]) -> SIMD3<Double>? {
     let cosines = hints.map { abs($0.direction.dot(hints[0].direction)) }
     guard (cosines.min() ?? 1) < cos(options.minimumMeetingDegrees * .pi / 180) else { return nil }

@@ -3,13 +3,14 @@ import SceneModel
 extension ViewGraph {
   /// Pairs whose matches don't show the same points in a reconstruction, sorted.
   ///
-  /// Where parts of a scene look alike, some pairs match the wrong parts and others the right ones, and
-  /// no reconstruction agrees with all of them.
+  /// If a scene has repeated structure, some pairs match the wrong parts and others the correct
+  /// ones, and no reconstruction agrees with all of them.
   ///
   /// - Parameters:
-  ///   - tolerance: largest distance of a point from its match, relative to the photo's longer side.
-  ///   - minimumMatches: matches with a point that a pair needs to be judged.
-  ///   - maximumShare: of them agree at most in a pair that is returned.
+  ///   - tolerance: maximum distance of a projected point from its match, relative to the photo's
+  ///     longer side.
+  ///   - minimumMatches: minimum number of matches with a point for a pair to be evaluated.
+  ///   - maximumShare: fraction of agreeing matches below which a pair is returned.
   func contradicted(
     by reconstruction: Reconstruction, features: [FeatureSet], tolerance: Double = 0.01,
     minimumMatches: Int = 30, maximumShare: Double = 0.2
@@ -20,7 +21,7 @@ extension ViewGraph {
         pointOf[observation.photo.index][Int(observation.feature)] = Int32(number)
       }
     }
-    /// Whether a point is seen at a feature; nil without a point.
+    /// Whether a point projects to a feature; nil without a point.
     func agrees(_ point: Int32, _ photo: ID<Photo>, _ feature: Int32) -> Bool? {
       guard point >= 0, let pose = reconstruction.poses[photo.index] else { return nil }
       let seen = pose * reconstruction.points[Int(point)].position

@@ -1,7 +1,7 @@
 import SceneModel
 
 extension ViewGraph {
-  /// The photos that verified pairs connect, each group ascending, larger groups first.
+  /// The connected components of the verified pairs, each in ascending order, larger groups first.
   package var connectedGroups: [[Int]] {
     var sets = DisjointSets(count: photoCount)
     for pair in pairs { sets.join(pair.pair.first.index, pair.pair.second.index) }

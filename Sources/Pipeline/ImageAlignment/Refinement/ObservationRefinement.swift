@@ -1,46 +1,49 @@
 import Kernels
 import SceneModel
 
-/// Puts observations where the texture says, to a few hundredths of a pixel, finds those that feature
-/// matching missed, and adjusts the reconstruction to them.
+/// Refines observations to a few hundredths of a pixel by template matching, finds observations
+/// that feature matching missed, and adjusts the reconstruction to them.
 ///
-/// Each photo's detector errs on its own by a third of a pixel. Here one photo of a track gives a
-/// template, and least squares matching (Gruen, "Adaptive least squares correlation", 1985) finds its
-/// place in the others, through the warp that the poses predict; also in photos where the point should
-/// be seen and has no feature. In spirit Lindenberger et al., "Pixel-perfect structure-from-motion",
-/// ICCV 2021.
+/// Independent detection in each photo has errors of about a third of a pixel. Here one photo of a
+/// track provides a template, and least squares matching (Gruen, "Adaptive least squares
+/// correlation", 1985) localizes it in the other photos through the warp predicted from the poses,
+/// also in photos where the point should be visible but has no feature. Similar in spirit to
+/// Lindenberger et al., "Pixel-perfect structure-from-motion", ICCV 2021.
 package struct ObservationRefinement: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Photos of more pixels are reduced to this size.
+    /// Photos with more pixels are reduced to this size.
     package var workingPixels = 6_500_000
-    /// Distance of a template's samples in σ of its feature; at least a working pixel.
+    /// Distance between template samples in σ of the feature; at least one working pixel.
     package var stepPerScale = 1.0 / 3
-    /// Correlation that a known observation needs, and one that is new.
+    /// Minimum correlation (ZNCC) of a known observation, and of a new one.
     package var minimumCorrelation = 0.8
     package var minimumNewCorrelation = 0.9
-    /// Working pixels that a known observation may move, and a new one from where it is expected.
+    /// Maximum displacement in working pixels of a known observation, and of a new one from its
+    /// expected position.
     package var maximumShift = 3.0
     package var maximumNewShift = 1.0
-    /// A photo with fewer confirmed observations than this share keeps the others as they were.
+    /// A photo with a smaller fraction of confirmed observations keeps the unconfirmed ones
+    /// unchanged.
     package var minimumConfirmedShare = 0.25
-    /// Observations that keep a photo registered.
+    /// Minimum number of observations that keep a photo registered.
     package var minimumObservations = 10
-    /// With fewer of the points left than this share, nothing is changed: the photos don't show what
-    /// the poses say.
+    /// If a smaller fraction of the points remains, the refinement is discarded: the photos don't
+    /// show what the poses predict.
     package var minimumPointShare = 0.5
-    /// Photos that a point is looked for in at most: those that share most points with its reference.
+    /// Maximum number of photos that a point is searched for in: those that share the most points
+    /// with its reference photo.
     package var neighbours = 20
-    /// Largest angle in degrees between a new observation's ray and the mean of the known ones.
+    /// Maximum angle in degrees between a new observation's ray and the mean of the known ones.
     package var maximumAngleDegrees = 40.0
-    /// Largest reprojection error as a multiple of the median, and its bounds in working pixels.
+    /// Maximum reprojection error as a multiple of the median, and its bounds in working pixels.
     package var errorFactor = 6.0
     package var errorBounds = 0.5...2.0
-    /// Where the loss turns from square to linear, as a multiple of the median error.
+    /// Transition of the Huber loss from quadratic to linear, as a multiple of the median error.
     package var huberFactor = 2.5
 
     package init() {}
 
-    /// The width of a working pixel of a photo in pixels of the full photo.
+    /// The width of a working pixel, in pixels of the full-size photo.
     func workingPixel(width: Int, height: Int) -> Double {
       max(1, (Double(width * height) / Double(workingPixels)).squareRoot())
     }
@@ -50,7 +53,8 @@ package struct ObservationRefinement: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The reconstruction, adjusted to refined observations; `cameras` are those before any adjustment.
+  /// Returns the reconstruction adjusted to refined observations; `cameras` are those before any
+  /// adjustment.
   package func run(
     _ reconstruction: Reconstruction, features: [FeatureSet], cameras: [Camera],
     images: ImageStore, _ context: StageContext
@@ -80,12 +84,12 @@ package struct ObservationRefinement: Sendable {
   private static func refusal(of photo: Photo) -> RefusedPhoto {
     RefusedPhoto(
       sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
-      reason: "\(photo.name) shows hardly any point where its pose says; it may be blurred, or "
-        + "something moved.")
+      reason: "\(photo.name) shows hardly any point where its pose predicts it; it may be "
+        + "blurred, or something moved.")
   }
 
-  /// Adjusts everything and takes out what then contradicts: observations, and photos that hardly any
-  /// observation holds any more, whose poses would go stale.
+  /// Runs a global adjustment and removes what then contradicts it: observations, and photos with
+  /// too few remaining observations, whose poses would no longer be updated.
   private func settle(
     _ map: inout SparseMap, _ adjustment: inout MapAdjustment, isFinal: Bool = false,
     _ context: StageContext

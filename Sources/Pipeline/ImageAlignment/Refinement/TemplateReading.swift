@@ -1,21 +1,22 @@
 import Kernels
 import SceneModel
 
-/// The photos at the size in which templates are read and looked for.
+/// Reads templates from the photos at working size.
 struct TemplateReading: Sendable {
   let photos: [Photo]
   let images: ImageStore
-  /// Photos of more pixels are reduced to this size.
+  /// Photos with more pixels are reduced to this size.
   let workingPixels: Int
 
-  /// A photo at working size, and working pixels a pixel of the full photo, by axis.
+  /// A photo at working size, and working pixels per pixel of the full-size photo, by axis.
   func image(_ photo: Int) throws -> (image: RasterImage, factor: SIMD2<Double>) {
     let image = try images.image(ID(photo), maximumPixels: workingPixels)
     let full = SIMD2(Double(photos[photo].width), Double(photos[photo].height))
     return (image, SIMD2(Double(image.width), Double(image.height)) / full)
   }
 
-  /// Tells whether a place, in working pixels, shows the object, for all that the photo's mask tells.
+  /// Returns a predicate for whether a position, in working pixels, is on the object according to
+  /// the photo's mask; always true without a mask.
   func isOfObject(_ photo: Int) throws -> (SIMD2<Double>) -> Bool {
     guard let mask = try images.mask(ID(photo), maximumPixels: workingPixels) else {
       return { _ in true }
@@ -23,7 +24,7 @@ struct TemplateReading: Sendable {
     return { place in mask.isMarked(at: place) }
   }
 
-  /// The template of each reference, by its index; none where there is no reference.
+  /// The template of each reference, by index; invalid where the reference is nil.
   func templates(
     of references: [TrackReference?], _ control: KernelControl
   ) throws -> TemplateMatching.Templates {

@@ -2,19 +2,19 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The templates of a map's tracks, and the search for them in the photos, photo by photo.
+/// The templates of a map's tracks, and the template matching in each photo.
 struct TemplateSearch: Sendable {
   private let options: ObservationRefinement.Options
   private let photos: [Photo]
   private let reading: TemplateReading
-  /// The reference of each track; nil where there is none.
+  /// The reference of each track; nil if it has none.
   private let references: [TrackReference?]
   private let templates: TemplateMatching.Templates
 
-  /// A search that waits for its photo.
+  /// A pending search in one photo.
   private struct Candidate: Sendable {
     var track: Int
-    /// The observation that is to be refined; nil for a new one.
+    /// The observation to be refined; nil for a new one.
     var observation: Int?
     var expected: SIMD2<Double>
     var warp: SIMD4<Double>
@@ -41,8 +41,8 @@ struct TemplateSearch: Sendable {
     templates = try reading.templates(of: references, context.control)
   }
 
-  /// Moves the observations of the map to where their templates are found; those whose texture differs
-  /// don't count any more.
+  /// Moves the observations of the map to where their templates are found; deactivates those whose
+  /// texture differs.
   func refine(_ map: inout SparseMap, _ context: StageContext) throws {
     var candidates = [[Candidate]](repeating: [], count: photos.count)
     for (track, reference) in references.enumerated() {
@@ -73,8 +73,8 @@ struct TemplateSearch: Sendable {
     map.dropUnsupportedPoints()
   }
 
-  /// Adds observations of points in photos that should see them, and whose masks don't leave them out;
-  /// returns how many.
+  /// Adds observations of points in photos that should show them, within the photos' masks; returns
+  /// how many.
   func extend(_ map: inout SparseMap, _ context: StageContext) throws -> Int {
     let neighbours = neighbours(map)
     var candidates = [[Candidate]](repeating: [], count: photos.count)
@@ -97,7 +97,7 @@ struct TemplateSearch: Sendable {
     return additions.count
   }
 
-  /// The photos in which a point should be seen and has no active observation.
+  /// The photos in which a point should be visible but has no active observation.
   private func newViews(
     of track: Int, _ reference: TrackReference, _ neighbours: [Int], _ map: SparseMap
   ) -> [(photo: Int, value: Candidate)] {
@@ -117,7 +117,7 @@ struct TemplateSearch: Sendable {
     }
   }
 
-  /// For each photo those that share most points with it.
+  /// For each photo, the photos that share the most points with it.
   private func neighbours(_ map: SparseMap) -> [[Int]] {
     (0..<photos.count).map { photo in
       var shared = [Int](repeating: 0, count: photos.count)
@@ -133,7 +133,8 @@ struct TemplateSearch: Sendable {
     }
   }
 
-  /// Where the candidates of each photo were found, in pixels of the full photo.
+  /// The found positions of the candidates of each photo, in pixels of the full-size photo; nil if
+  /// not found.
   private func finds(
     _ candidates: [[Candidate]], shift: Double, correlation: Double, _ context: StageContext
   ) throws -> [[SIMD2<Double>?]] {

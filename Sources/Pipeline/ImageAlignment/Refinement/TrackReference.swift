@@ -2,19 +2,21 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The photo whose view of a track's point the other photos are compared with.
+/// The photo whose view of a track's point is the template for the other photos.
 struct TrackReference: Sendable {
   var photo: Int
-  /// The point's keypoint there, in pixels of the full photo.
+  /// The point's keypoint in it, in pixels of the full-size photo.
   var pixel: SIMD2<Double>
-  /// Pixels of the full photo from one sample of the template to the next.
+  /// Distance between template samples in pixels of the full-size photo.
   var step: Double
-  /// The point and the normal of the surface there, in the world: the mean of the viewing directions.
+  /// The point and the surface normal in the world frame; the normal is the mean of the viewing
+  /// directions.
   var point: SIMD3<Double>
   var normal: SIMD3<Double>
 
-  /// Where another photo sees the centre, and the derivative by rows of its pixel by the pixel in the
-  /// reference, on the plane through the point; nil where one of them is seen from behind.
+  /// The projection of the template center into another photo, and the Jacobian by rows of its
+  /// pixel with respect to the reference pixel, on the plane through the point; nil if either photo
+  /// is behind that plane.
   func warp(to photo: Int, in photos: PosedPhotos) -> (pixel: SIMD2<Double>, warp: SIMD4<Double>)? {
     guard let from = photos.poses[self.photo], let into = photos.poses[photo] else { return nil }
     let camera = photos.cameras[Int(photos.cameraOfPhoto[self.photo])]
@@ -39,7 +41,7 @@ struct TrackReference: Sendable {
 }
 
 extension TrackReference {
-  /// Picks the observation with the most central viewing direction.
+  /// Selects the observation with the most central viewing direction as reference.
   init?(track: Int, of map: SparseMap, scale: (_ photo: Int, _ feature: Int32) -> Double) {
     let active = map.activeObservations(of: track)
     let directions = active.compactMap { index in

@@ -1,7 +1,8 @@
 import SceneModel
 
-/// The up direction that the cameras' attitude suggests.
+/// Estimates the up direction of the scene from the orientations of the cameras.
 struct CameraUp: Sendable {
+  /// Unit vector in the frame of the reconstruction.
   var direction: SIMD3<Double>
 
   init(_ reconstruction: Reconstruction) {
@@ -10,14 +11,15 @@ struct CameraUp: Sendable {
       rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, -1, 0] } / Double(rotations.count)
     let back =
       rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, 0, -1] } / Double(rotations.count)
-    // Cameras that look straight down have their tops all around: then their backs point up.
+    // The image tops of downward-looking cameras cancel out; then the backward axes point up.
     guard mean.length > 0.3 || mean.length > back.length else {
       direction = back.length > 0.1 ? back.normalized : [0, 1, 0]
       return
     }
     direction = mean.normalized
-    // Held level, a camera's x axis is horizontal whatever it looks at: more exact than the mean of
-    // tilted tops, where the axes spread enough.
+    // The x axis of a camera held level is horizontal whatever the viewing direction. If the x axes
+    // are spread enough, their common normal is more accurate than the mean of the tilted image
+    // tops.
     var scatter = [SIMD3<Double>](repeating: .zero, count: 3)
     for rotation in rotations {
       let x = rotation * SIMD3(1, 0, 0)

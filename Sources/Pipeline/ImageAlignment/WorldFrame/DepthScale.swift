@@ -1,28 +1,28 @@
 import Foundation
 import SceneModel
 
-/// The scale that depth maps of the photos give a reconstruction.
+/// The metric scale of a reconstruction from the depth maps of its photos.
 ///
-/// Each photo has the median of depth by map over depth in the reconstruction, over the sparse points
-/// that it sees; the scale is the mean of the photos that agree. Maps that may hold disparities are
-/// tried as both.
+/// For each photo, the median ratio of measured to reconstructed depth is taken over the sparse
+/// points that it observes; the scale is the mean over the photos that agree. Maps that may hold
+/// disparities are evaluated both as depths and as disparities.
 struct DepthScale: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Points of a photo whose depth its map knows.
+    /// Minimum number of points of a photo with a measured depth.
     var minimumPoints = 20
-    /// Median deviation of a photo's points from their median, relative: a map with more is of
-    /// something else, or not in metres along the axis.
+    /// Maximum median deviation of a photo's points from their median, relative. A map that exceeds
+    /// it shows something else, or is not in meters along the optical axis.
     var maximumDeviation = 0.1
-    /// Photos agree within this, relative.
+    /// Maximum relative deviation of a photo's scale from the median over the photos.
     var tolerance = 0.1
-    /// Share of the photos with maps that have to agree.
+    /// Minimum fraction of the photos with depth maps that must agree.
     var minimumShare = 0.5
   }
 
   var options = Options()
 
-  /// Metres per unit. `readings` are by sample id. Nil where no map can be used, or they contradict
-  /// each other.
+  /// Returns meters per unit of the reconstruction; `readings` are keyed by sample ID. Nil if no
+  /// map is usable or the maps contradict each other.
   func run(
     _ readings: [Int: SensorReading], _ reconstruction: Reconstruction, _ notes: StageNotes
   ) -> Double? {
@@ -36,22 +36,22 @@ struct DepthScale: Sendable {
     guard Double(best.scales.count) >= options.minimumShare * Double(best.maps) else {
       notes.warn(
         "The depth maps are not used: only \(best.scales.count) of \(best.maps) agree with each "
-          + "other and with the photos. They are meant in metres along the optical axis.")
+          + "other and with the photos. Depth maps must be in meters along the optical axis.")
       return nil
     }
     notes.tell(
-      "Depth maps: \(best.scales.count) of \(best.maps) agree about the scale, "
-        + String(format: "%.1f %% off (root mean square).", 100 * best.spread))
+      "Depth maps: \(best.scales.count) of \(best.maps) agree on the scale, "
+        + String(format: "with a root mean square deviation of %.1f %%.", 100 * best.spread))
     return exp(best.mean)
   }
 
-  /// The photos that agree about the scale.
+  /// The photos that agree on the scale.
   private struct Agreement {
-    /// Photos with a map.
+    /// Number of photos with a map.
     var maps: Int
-    /// Logarithms of metres per unit.
+    /// Logarithms of meters per unit, one per agreeing photo.
     var scales: [Double] = []
-    /// Mean of the median deviations of their points.
+    /// Mean over the photos of the median deviation of their points.
     var deviation = 0.0
 
     var mean: Double { scales.reduce(0, +) / Double(max(1, scales.count)) }
@@ -78,7 +78,7 @@ struct DepthScale: Sendable {
     return Agreement(maps: ratios.count, scales: agreeing.map(\.scale), deviation: deviation)
   }
 
-  /// Of each photo with a map, the logarithms of depth by map over depth in the reconstruction.
+  /// For each photo with a map, the logarithms of the ratio of measured to reconstructed depth.
   private func ratios(
     _ readings: [Int: SensorReading], _ reconstruction: Reconstruction, isDisparity: Bool
   ) -> [[Double]] {
@@ -100,7 +100,7 @@ struct DepthScale: Sendable {
       .filter { maps[$0] != nil && reconstruction.poses[$0] != nil }.map { ratios[$0] }
   }
 
-  /// The median and the points' median deviation from it; nil for too few points, or points that
+  /// The median and the median absolute deviation from it; nil for too few points or points that
   /// disagree.
   private func consensus(_ ratios: [Double]) -> (scale: Double, deviation: Double)? {
     guard ratios.count >= options.minimumPoints, let middle = ratios.upperMedian,

@@ -1,24 +1,26 @@
 import Foundation
 import SceneModel
 
-/// How the photos' GPS positions lie to the reconstruction's camera centres.
+/// The robust similarity fit of the camera centers of a reconstruction to the photos' GPS
+/// positions.
 struct GPSFit: Sendable {
-  /// What is left between the positions and the centres, in metres.
+  /// Residuals of the GPS positions after the fit, in meters.
   struct Residual: Hashable, Sendable {
-    /// Root mean squares over the positions that agree; vertical is nil without altitudes.
+    /// Root mean squares over the inliers; `vertical` is nil without altitudes.
     var horizontal: Double
     var vertical: Double?
-    /// Positions that agree, and all.
+    /// Number of inliers, and of all positions.
     var used: Int
     var count: Int
   }
 
-  /// Metres per unit of the reconstruction.
+  /// Meters per unit of the reconstruction.
   var scale: Double
-  /// Up in the reconstruction; nil where positions near a line, or their noise, leave it open.
+  /// Up direction in the frame of the reconstruction; nil if it is undetermined because the
+  /// positions are nearly collinear or too noisy.
   var up: SIMD3<Double>?
   var residual: Residual
-  /// Centres in the reconstruction and in the world (east, up, south) that agree.
+  /// The inliers: centers in the reconstruction and in the world (east, up, south).
   private var inliers: [Located]
 
   private struct Located: Sendable {
@@ -26,10 +28,11 @@ struct GPSFit: Sendable {
     var world: SIMD3<Double>
   }
 
-  /// Nil without three positions that spread well over their error and agree with the centres.
+  /// Nil unless at least three positions agree with the camera centers and spread well beyond their
+  /// error.
   ///
-  /// `up` is what is known of the vertical otherwise; where altitudes are missing, only the map is
-  /// compared, with the centres seen along it.
+  /// `priorUp` is the vertical known from another source. If altitudes are missing, the fit is
+  /// horizontal only: the centers are projected along `priorUp`.
   init?(
     _ reconstruction: Reconstruction, up priorUp: SIMD3<Double>, _ options: WorldFraming.Options
   ) {
@@ -51,7 +54,7 @@ struct GPSFit: Sendable {
     inliers = used
     scale = fit.scale
     residual = Self.residual(fit, used, of: pairs.count, hasAltitudes)
-    // A vertical error tilts the ground by the less the wider and the more the positions are.
+    // A vertical error tilts the ground less the wider and the more numerous the positions are.
     let width = Self.spread(used.map(\.world)).second / 2
     let vertical = max(residual.vertical ?? .infinity, 0.2 * options.gpsNoise)
     let tilt = vertical / (max(width, 1e-9) * Double(max(1, used.count - 3)).squareRoot())
@@ -59,7 +62,8 @@ struct GPSFit: Sendable {
     up = isKnown ? fit.rotation.conjugate * SIMD3(0, 1, 0) : nil
   }
 
-  /// The turn about +y that makes a levelled reconstruction face as the world does.
+  /// The rotation about +y, in radians, that aligns a leveled reconstruction with the world's
+  /// heading.
   func yaw(leveling: Quaternion) -> Double {
     let count = Double(inliers.count)
     let centerMean = inliers.reduce(SIMD3<Double>.zero) { $0 + $1.center } / count
@@ -73,7 +77,7 @@ struct GPSFit: Sendable {
     return atan2(sine, cosine)
   }
 
-  /// Metres to the east, up and south of the mean position (WGS 84).
+  /// Meters to the east, up and south of the mean position (WGS 84).
   private static func local(_ positions: [GeographicPosition]) -> [SIMD3<Double>] {
     let altitudes = positions.compactMap(\.altitude)
     let hasAll = altitudes.count == positions.count
@@ -89,6 +93,7 @@ struct GPSFit: Sendable {
     return earth.map { [($0 - mean).dot(east), ($0 - mean).dot(up), ($0 - mean).dot(south)] }
   }
 
+  /// Earth-centered, Earth-fixed coordinates in meters (WGS 84 ellipsoid).
   private static func earthCentered(
     _ position: GeographicPosition, _ altitude: Double
   ) -> SIMD3<Double> {
@@ -102,7 +107,7 @@ struct GPSFit: Sendable {
     ]
   }
 
-  /// Twice the standard deviations along the two widest directions.
+  /// Twice the standard deviations along the two directions of largest variance.
   private static func spread(_ points: [SIMD3<Double>]) -> (largest: Double, second: Double) {
     let mean = points.reduce(.zero, +) / Double(max(1, points.count))
     var rows = [SIMD3<Double>](repeating: .zero, count: 3)
@@ -126,8 +131,8 @@ struct GPSFit: Sendable {
       used: used.count, count: count)
   }
 
-  /// The similarity of least squares over the pairs that agree with it, found by RANSAC; nil where no
-  /// half of the pairs agrees.
+  /// The least-squares similarity over the inliers, found by RANSAC; nil unless more than half of
+  /// the pairs are inliers.
   private static func robustFit(
     _ pairs: [Located], _ options: WorldFraming.Options
   ) -> (SimilarityTransform, [Located])? {
@@ -139,7 +144,7 @@ struct GPSFit: Sendable {
       (fit * pair.center - pair.world).length
     }
     for round in 0..<300 {
-      // The first hypothesis is the fit of all.
+      // The first hypothesis is the fit to all pairs.
       let sample =
         round == 0
         ? pairs : (0..<4).map { _ in pairs[random.below(pairs.count)] }

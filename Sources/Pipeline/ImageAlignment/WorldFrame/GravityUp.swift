@@ -1,21 +1,22 @@
 import Foundation
 import SceneModel
 
-/// Up as the accelerometers of the cameras tell it: the mean of the photos that agree.
+/// The up direction from the accelerometers of the cameras: the mean over the photos that agree.
 struct GravityUp: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Photos agree within this angle.
     var toleranceDegrees = 10.0
-    /// Share of the photos that have to agree.
+    /// Minimum fraction of the photos that must agree.
     var minimumShare = 0.5
-    /// People hold cameras upright: gravity may differ so much from the way down in the photo.
+    /// Maximum roll of the camera: people hold cameras roughly upright, so gravity deviates from
+    /// the downward image axis by at most this.
     var maximumRollDegrees = 60.0
   }
 
   var options = Options()
 
-  /// `readings` are by sample id. Nil where none has gravity, or where they contradict each other or
-  /// the photos.
+  /// Returns a unit vector in the frame of the reconstruction; `readings` are keyed by sample ID.
+  /// Nil if there is no gravity reading, or the readings contradict each other or the photos.
   func run(
     _ readings: [Int: SensorReading], _ reconstruction: Reconstruction, _ notes: StageNotes
   ) -> SIMD3<Double>? {
@@ -35,9 +36,9 @@ struct GravityUp: Sendable {
     notes.count("gravityPhotosUsed", Double(agreeing.count))
     guard Double(agreeing.count) >= options.minimumShare * Double(known.count) else {
       notes.warn(
-        "The samples' gravity is not used: only \(agreeing.count) of \(known.count) agree with each "
-          + "other and with the photos. It is meant in the frame of a phone: x right, y up, z towards "
-          + "its user.")
+        "The samples' gravity is not used: only \(agreeing.count) of \(known.count) agree with "
+          + "each other and with the photos. Gravity must be in the frame of a phone: x right, "
+          + "y up, z toward the user.")
       return nil
     }
     return agreeing.reduce(.zero, +).normalized
@@ -47,7 +48,7 @@ struct GravityUp: Sendable {
     a.dot(b) > cos(options.toleranceDegrees * .pi / 180)
   }
 
-  /// Whether gravity points down in the photo, or mostly along the line of sight.
+  /// Whether gravity points down in the photo, or is nearly parallel to the optical axis.
   private func isUpright(_ down: SIMD3<Double>) -> Bool {
     let (across, along) = (down.x, down.y)
     guard hypot(across, along) > 0.3 else { return true }

@@ -1,7 +1,7 @@
-/// A distance in the scene that somebody measured.
+/// A measured distance in the scene.
 package struct KnownDistance: Hashable, Codable, Sendable {
   /// A point of the scene in one photo: pixels of the upright photo at full size, as image viewers
-  /// show it, origin at the top-left corner.
+  /// display it, origin at the top-left corner.
   package struct Pick: Hashable, Codable, Sendable {
     package var photo: String
     package var x: Double
@@ -12,13 +12,14 @@ package struct KnownDistance: Hashable, Codable, Sendable {
     }
   }
 
+  /// One end of the distance.
   package enum End: Hashable, Codable, Sendable {
-    /// Where the camera stood that took the photo of this file name.
+    /// The center of the camera that took the photo with this file name.
     case camera(String)
-    /// A point picked in two photos or more.
+    /// A point picked in at least two photos.
     case point([Pick])
 
-    /// The file names of the photos that it needs.
+    /// The file names of the photos that it refers to.
     package var photos: [String] {
       switch self {
       case .camera(let name): [name]
@@ -29,6 +30,7 @@ package struct KnownDistance: Hashable, Codable, Sendable {
 
   package var from: End
   package var to: End
+  /// The length in meters.
   package var meters: Double
 
   package init(from: End, to: End, meters: Double) {

@@ -1,17 +1,18 @@
 import SceneModel
 
-/// The scale that measured distances give a reconstruction.
+/// The metric scale of a reconstruction from measured distances.
 struct MeasuredScale: Sendable {
-  /// Metres per unit of the reconstruction, by least squares over all distances that could be used.
+  /// Meters per unit of the reconstruction, by least squares over all usable distances.
   var metersPerUnit: Double
-  /// Of each used distance: what the reconstruction makes of it, relative to what was measured, less 1.
+  /// For each used distance, the relative deviation of the scaled reconstruction from the measured
+  /// value.
   var deviations: [Double]
 
-  /// Largest distance of a pick from its point, as a fraction of the photo's longer side.
+  /// Maximum reprojection error of a pick, as a fraction of the photo's longer side.
   static let largestPickError = 0.01
 
-  /// Nil without a usable distance. `problems` are sentences about distances that could not be used,
-  /// or that disagree.
+  /// Estimates the scale. It is nil without a usable distance; `problems` are messages about
+  /// distances that are unusable or inconsistent.
   static func measure(
     _ distances: [KnownDistance], in reconstruction: Reconstruction
   ) -> (scale: MeasuredScale?, problems: [String]) {
@@ -30,7 +31,7 @@ struct MeasuredScale: Sendable {
           "The known distance of \(distance.meters) m can't be used: \(error.reason).")
       }
     }
-    // Errors of picks are the same in all distances: the scale that leaves least is Σlm / Σl².
+    // Pick errors are the same for all distances: the least-squares scale is Σlm / Σl².
     let squares = used.reduce(0) { $0 + $1.length * $1.length }
     guard squares > 0 else { return (nil, problems) }
     let scale = used.reduce(0) { $0 + $1.length * $1.meters } / squares
@@ -38,11 +39,12 @@ struct MeasuredScale: Sendable {
     if let worst = deviations.map({ abs($0) }).max(), worst > 0.02 {
       problems.append(
         "The known distances disagree by up to \(Int((100 * worst).rounded())) %; check them and "
-          + "what they were measured between.")
+          + "their end points.")
     }
     return (MeasuredScale(metersPerUnit: scale, deviations: deviations), problems)
   }
 
+  /// Why a distance is unusable; `reason` completes "The known distance can't be used: …".
   private struct Unusable: Error {
     var reason: String
   }
@@ -70,7 +72,7 @@ struct MeasuredScale: Sendable {
 
   private typealias View = (pick: KnownDistance.Pick, camera: Camera, pose: RigidTransform)
 
-  /// The point nearest to the rays of its picks.
+  /// Triangulates a point from the rays of its picks.
   private static func point(
     _ picks: [KnownDistance.Pick], _ reconstruction: Reconstruction, _ problems: inout [String]
   ) throws(Unusable) -> SIMD3<Double> {
@@ -91,14 +93,15 @@ struct MeasuredScale: Sendable {
       let error = (view.camera.project(inCamera) - [view.pick.x, view.pick.y]).length
       if error > largestPickError * Double(max(view.camera.width, view.camera.height)) {
         problems.append(
-          "A pick in \(view.pick.photo) is \(Int(error.rounded())) pixels off the point that the "
-            + "others show; check that all show the same point.")
+          "A pick in \(view.pick.photo) is \(Int(error.rounded())) pixels away from the point "
+            + "picked in the other photos; check that all picks show the same point.")
       }
     }
     return point
   }
 
-  /// The point with the least sum of squared distances from rays; nil where they are about parallel.
+  /// The point with the least sum of squared distances from the rays; nil if they are nearly
+  /// parallel.
   private static func intersection(_ views: [View]) -> SIMD3<Double>? {
     var matrix = Matrix3(rows: .zero, .zero, .zero)
     var right = SIMD3<Double>.zero

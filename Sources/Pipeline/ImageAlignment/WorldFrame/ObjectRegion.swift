@@ -1,14 +1,14 @@
 import SceneModel
 
-/// The part of the scene that most photos look at.
+/// The part of the scene that most photos show.
 struct ObjectRegion: Sendable {
-  /// The points that most photos look at.
+  /// The points that are in view of most photos.
   var core: [SIMD3<Double>] = []
-  /// The points within one and a half camera distances of the centre.
+  /// The points within 1.5 camera distances of the center.
   var surroundings: [SIMD3<Double>] = []
   /// The component-wise median of the core.
   var center = SIMD3<Double>.zero
-  /// The median distance of the cameras from the centre.
+  /// The median distance of the cameras from the center.
   var cameraDistance = 1.0
 
   init(_ reconstruction: Reconstruction) {

@@ -1,24 +1,25 @@
 import Foundation
 import SceneModel
 
-/// The plane under the object: a thin layer of points, wide, with next to nothing below it.
+/// The plane that supports the object: a thin, wide layer of points with next to nothing below it.
 ///
-/// On a plain table it holds few of the points; then it has to stand out from what is above it.
+/// A plain table top has few points on it; then the layer must be denser than what is directly
+/// above it.
 struct SupportPlane: Sendable {
-  /// Unit length, to the cameras' side.
+  /// Unit normal, pointing to the cameras' side.
   var normal: SIMD3<Double>
   var offset: Double
 
   func distance(_ point: SIMD3<Double>) -> Double { normal.dot(point) - offset }
 
-  /// Nil where no plane that fits the cameras' up direction holds enough points.
+  /// Nil if no plane compatible with the cameras' up direction has enough points.
   init?(
     _ object: ObjectRegion, centers: [SIMD3<Double>], up: SIMD3<Double>,
     _ options: WorldFraming.Options
   ) {
     guard object.surroundings.count >= 50 else { return nil }
     let thickness = options.planeThickness * object.cameraDistance
-    // Most cameras are held level: a plane near their up direction comes first.
+    // Most cameras are held level: planes close to their up direction are tried first.
     for degrees in [options.planeTiltDegrees / 3, options.planeTiltDegrees] {
       let found = SupportPlane(
         object.surroundings, up: up, tilt: degrees * .pi / 180, thickness, options)
@@ -30,13 +31,13 @@ struct SupportPlane: Sendable {
     return nil
   }
 
-  /// The plane with the most of the low points on it and the fewest points below it.
+  /// Finds the plane by RANSAC, rewarding low points on it and penalizing points below it.
   private init?(
     _ points: [SIMD3<Double>], up: SIMD3<Double>, tilt: Double, _ thickness: Double,
     _ options: WorldFraming.Options
   ) {
     let heights = points.map { $0.dot(up) }.sorted()
-    // With an up direction that is off, low points may lie a little above the middle.
+    // With an inaccurate up direction, low points may lie slightly above the median.
     let limit = heights[heights.count / 2] + 2 * thickness
     let low = points.filter { $0.dot(up) < limit }
     var random = SplitMix64(seed: options.seed)
@@ -76,12 +77,12 @@ struct SupportPlane: Sendable {
       share >= options.minimumPlaneShare && onPlane >= 40 && 5 * onPlane >= 6 * next
       && 8 * below <= onPlane
       && width(points.filter { abs(distance($0)) < thickness }) >= 0.7 * width(object.core)
-    // Nobody takes photos from below.
+    // Photos are not taken from below.
     return (isClear || isLayer) && 10 * seeing >= 9 * centers.count
       && distance(object.center) > -thickness
   }
 
-  /// The root mean square distance from the mean along the plane.
+  /// The root mean square distance from the mean, measured in the plane.
   private func width(_ points: [SIMD3<Double>]) -> Double {
     guard !points.isEmpty else { return 0 }
     let flat = points.map { $0 - distance($0) * normal }
@@ -89,7 +90,7 @@ struct SupportPlane: Sendable {
     return (flat.reduce(0) { $0 + ($1 - mean).squaredLength } / Double(flat.count)).squareRoot()
   }
 
-  /// Least squares over the points on the plane.
+  /// Least-squares fit to the points on the plane.
   private mutating func refit(
     _ points: [SIMD3<Double>], _ thickness: Double, _ up: SIMD3<Double>
   ) {

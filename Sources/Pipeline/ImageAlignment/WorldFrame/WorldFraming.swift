@@ -1,33 +1,37 @@
 import Foundation
 import SceneModel
 
-/// Gives a reconstruction its scale, its up direction and its origin.
+/// Determines the scale, the up direction and the origin of the world frame.
 ///
-/// +y is up and the object stands on y = 0, centred in x and z on the points that most photos look
-/// at. Scale: known distances, else depth maps, else GPS, else the median distance from the cameras to
-/// the object is one metre. Up: gravity, else GPS, else the plane under the object, else the cameras, which people
-/// hold upright.
+/// +y is up and the object stands on y = 0, centered in x and z on the points that most photos
+/// show. Scale, in order of preference: known distances, depth maps, GPS; otherwise the median
+/// distance from the cameras to the object is defined as one meter. Up direction, in order of
+/// preference: gravity, GPS, the plane that supports the object, the orientation of the cameras,
+/// which people hold upright.
 package struct WorldFraming: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Distances that were measured; they come before GPS.
+    /// Measured distances; they take precedence over depth maps and GPS.
     package var knownDistances: [KnownDistance] = []
-    /// Gravity and depth by sample id; they come before GPS, too.
+    /// Gravity and depth by sample ID; they also take precedence over GPS.
     package var readings: [Int: SensorReading] = [:]
-    /// Expected error of a GPS position in metres.
+    /// Expected error of a GPS position in meters.
     package var gpsNoise = 5.0
-    /// Positions must spread over this many times their error to say something.
+    /// Minimum spread of the positions, as a multiple of their error.
     package var gpsSpreadFactor = 3.0
-    /// Up comes from GPS where its error is expected to be below this many degrees.
+    /// GPS determines the up direction if its expected error is below this number of degrees.
     package var gpsTiltDegrees = 3.0
-    /// Distance from the support plane, relative to the cameras' distance from the object.
+    /// Maximum distance of a point from the support plane, relative to the cameras' distance from
+    /// the object.
     package var planeThickness = 0.01
-    /// Share of the points near the object that make a support plane clear.
+    /// Minimum fraction of the points near the object on an unambiguous support plane.
     package var planeShare = 0.12
-    /// Share that it holds at least where it stands out as a layer.
+    /// Minimum fraction if the plane stands out as a layer.
     package var minimumPlaneShare = 0.03
-    /// Largest angle in degrees between the support plane's normal and the cameras' mean up.
+    /// Maximum angle in degrees between the support plane's normal and the cameras' mean up
+    /// direction.
     package var planeTiltDegrees = 30.0
-    /// Whether there may be points of the support; where masks leave them out, a plane is of the object.
+    /// Whether to search for a support plane. If masks exclude the support, any plane would belong
+    /// to the object.
     package var findsSupport = true
     package var seed: UInt64 = 1
 
@@ -38,7 +42,7 @@ package struct WorldFraming: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The same reconstruction in the new world; unchanged without registered photos.
+  /// Returns the same reconstruction in the new world frame; unchanged without registered photos.
   package func run(_ reconstruction: Reconstruction, _ context: StageContext) -> Reconstruction {
     let centers = reconstruction.poses.compactMap { $0?.center }
     guard let first = reconstruction.registered.first, !reconstruction.points.isEmpty else {
@@ -70,7 +74,7 @@ package struct WorldFraming: Sendable {
     return reconstruction.moved(by: worldFromOld, frame)
   }
 
-  /// Metres per unit, and where they come from.
+  /// Meters per unit, and their source.
   private func scale(
     _ reconstruction: Reconstruction, _ object: ObjectRegion, _ gps: GPSFit?, _ notes: StageNotes
   ) -> (Double, WorldFrame.Scale) {
@@ -87,8 +91,8 @@ package struct WorldFraming: Sendable {
     }
     if let gps { return (gps.scale, .gps) }
     notes.warn(
-      "The photos don't say how large the object is: its scale is arbitrary, with the cameras' "
-        + "median distance from it taken as one metre.")
+      "The photos don't determine the size of the object: its scale is arbitrary, with the "
+        + "cameras' median distance from it defined as one meter.")
     return (1 / max(object.cameraDistance, .leastNormalMagnitude), .arbitrary)
   }
 
@@ -97,28 +101,28 @@ package struct WorldFraming: Sendable {
     notes.count("gpsPositionsUsed", Double(residual.used))
     notes.count("gpsHorizontalRMS", residual.horizontal)
     func meters(_ value: Double) -> String { String(format: "%.2f m", value) }
-    var sentence = "GPS: \(residual.used) of \(residual.count) positions agree with the cameras, "
-    sentence += "\(meters(residual.horizontal)) off horizontally"
+    var sentence = "GPS: \(residual.used) of \(residual.count) positions agree with the cameras; "
+    sentence += "root mean square error \(meters(residual.horizontal)) horizontally"
     if let vertical = residual.vertical {
       notes.count("gpsVerticalRMS", vertical)
       sentence += " and \(meters(vertical)) vertically"
     }
-    notes.tell(sentence + " (root mean square).")
+    notes.tell(sentence + ".")
   }
 
-  /// A point at the height that the object stands on.
+  /// A point on the ground plane of the object.
   private func ground(
     _ object: ObjectRegion, _ plane: SupportPlane?, _ up: SIMD3<Double>
   ) -> SIMD3<Double> {
     let heights = object.core.map { ($0 - object.center).dot(up) }.sorted()
     let lowest = object.center + up * (heights.isEmpty ? 0 : heights[heights.count / 50])
-    // A plane that was found for another up direction, or above the object, is not the ground.
+    // A plane that was found for a different up direction, or above the object, is not the ground.
     guard let plane, plane.normal.dot(up) > 0.96 else { return lowest }
     let onPlane = object.center - plane.normal * plane.distance(object.center)
     return onPlane
   }
 
-  /// The shortest rotation that turns `up` to +y.
+  /// The smallest rotation that maps `up` to +y.
   static func leveling(_ up: SIMD3<Double>) -> Quaternion {
     let axis = up.cross([0, 1, 0])
     guard axis.length > 1e-12 else {
@@ -129,7 +133,7 @@ package struct WorldFraming: Sendable {
 }
 
 extension Reconstruction {
-  /// The same scene in another world.
+  /// The same scene in another world frame.
   func moved(by newFromOld: SimilarityTransform, _ frame: WorldFrame) -> Reconstruction {
     var result = self
     result.poses = poses.map { $0.map(newFromOld.applied(toCameraFromA:)) }

@@ -4,7 +4,7 @@ import Foundation
 import ImageIO
 import RealityKit
 
-/// Samples that are loaded one by one, as they are asked for.
+/// Samples that are loaded one by one, on request.
 struct SampleLoader: Sequence, IteratorProtocol {
   var files: [URL]
   var count = 0
@@ -21,7 +21,7 @@ struct SampleLoader: Sequence, IteratorProtocol {
 }
 
 extension PhotogrammetrySample {
-  /// The same photo with a buffer of its own and a mask that leaves out a rim.
+  /// The same photo with a buffer of its own and a mask that excludes a two-pixel border.
   init?(copying sample: PhotogrammetrySample, id: Int) {
     let (width, height) = (
       CVPixelBufferGetWidth(sample.image), CVPixelBufferGetHeight(sample.image)

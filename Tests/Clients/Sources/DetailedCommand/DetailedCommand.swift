@@ -76,7 +76,7 @@ struct DetailedCommand: ParsableCommand {
           case .automaticDownsampling:
             logger.warning("Downsampling!")
           case .processingCancelled:
-            logger.warning("Processing was cancelled.")
+            logger.warning("Processing was canceled.")
           case .requestProgressInfo, .stitchingIncomplete:
             continue
           @unknown default:

@@ -1,6 +1,6 @@
 import Foundation
 
-/// Ends the program where something is not as it has to be.
+/// Ends the program if a condition does not hold.
 func check(_ condition: Bool, _ what: String, line: Int = #line) {
   guard !condition else { return }
   print("line \(line): \(what)")

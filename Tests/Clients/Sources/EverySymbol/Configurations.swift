@@ -4,7 +4,7 @@ import RealityKit
 typealias Session = PhotogrammetrySession
 typealias Custom = Session.Configuration.CustomDetailSpecification
 
-/// A configuration that sets everything.
+/// A configuration with every property set.
 func makeConfiguration(checkpoint: URL) -> Session.Configuration {
   var configuration = Session.Configuration(checkpointDirectory: checkpoint)
   configuration.checkpointDirectory = nil
@@ -14,7 +14,7 @@ func makeConfiguration(checkpoint: URL) -> Session.Configuration {
   configuration.meshPrimitive = .quad
   configuration.ignoreBoundingBox = true
   configuration.customDetailSpecification = makeSpecification()
-  check(configuration != Session.Configuration(), "configurations are told apart")
+  check(configuration != Session.Configuration(), "configurations differ")
   let orderings: Set<Session.Configuration.SampleOrdering> = [.unordered, .sequential]
   let sensitivities: Set<Session.Configuration.FeatureSensitivity> = [.normal, .high]
   let primitives: Set<Session.Configuration.MeshPrimitive> = [.triangle, .quad]
@@ -37,7 +37,7 @@ private func makeSpecification() -> Custom {
   return custom
 }
 
-/// Requests of all kinds, the first of them a model's.
+/// Requests of all kinds; the first is for a model.
 func makeRequests(file: URL) -> [Session.Request] {
   let details: [Session.Request.Detail] = [.preview, .reduced, .medium, .full, .raw, .custom]
   check(details.map(\.rawValue) == [0, 1, 2, 3, 4, 5], "levels are numbered")

@@ -1,12 +1,12 @@
 import Foundation
 import RealityKit
 
-/// How long something takes, in words.
+/// Formats durations.
 func useDurations() {
   let formatter = DateComponentsFormatter()
   formatter.allowedUnits = [.hour, .minute, .second]
   check(formatter.string(from: 3725) == "1:02:05", "digits")
-  check(formatter.string(from: 5) == "5", "no zeros in front")
+  check(formatter.string(from: 5) == "5", "no leading zeros")
   formatter.zeroFormattingBehavior = .pad
   check(formatter.string(from: 65) == "00:01:05", "padded")
   formatter.zeroFormattingBehavior = DateComponentsFormatter.ZeroFormattingBehavior.default
@@ -20,9 +20,9 @@ func useDurations() {
   }
   formatter.unitsStyle = .full
   formatter.zeroFormattingBehavior = [.dropLeading, .dropTrailing]
-  check(formatter.string(from: 3605) == "1 hour, 0 minutes, 5 seconds", "zeros in between")
+  check(formatter.string(from: 3605) == "1 hour, 0 minutes, 5 seconds", "zeros in the middle")
   formatter.zeroFormattingBehavior = .dropMiddle
-  check(formatter.string(from: 5) == "0 hours, 0 minutes, 5 seconds", "zeros in front")
+  check(formatter.string(from: 5) == "0 hours, 0 minutes, 5 seconds", "leading zeros")
   formatter.zeroFormattingBehavior = .dropAll
   formatter.maximumUnitCount = 1
   formatter.includesApproximationPhrase = true

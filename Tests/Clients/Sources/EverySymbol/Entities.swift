@@ -1,7 +1,7 @@
 import Foundation
 import RealityKit
 
-/// An entity with all that it carries.
+/// Uses an entity with its mesh, materials and transform.
 func useEntity(_ entity: ModelEntity) throws {
   guard let model: ModelComponent = entity.model else { return check(false, "no model") }
   let mesh: MeshResource = model.mesh
@@ -27,7 +27,7 @@ func useEntity(_ entity: ModelEntity) throws {
 private func use(_ part: MeshResource.Part, in mesh: MeshResource) throws {
   let positions: MeshBuffer<SIMD3<Float>> = part.positions
   check(positions.allSatisfy { mesh.bounds.contains($0) }, "positions are inside the bounds")
-  check(part.normals?.count == positions.count, "a normal each")
+  check(part.normals?.count == positions.count, "a normal per vertex")
   check(part.textureCoordinates?.elements.allSatisfy { $0.x >= 0 && $0.y <= 1 } == true, "uv")
   let indices = part.triangleIndices?.elements ?? []
   check(indices.count > 300 && indices.allSatisfy { $0 < positions.count }, "indices")
@@ -46,12 +46,12 @@ private func use(_ material: any Material) throws {
   check(material.ambientOcclusion.texture?.resource.semantic == .raw, "occlusion")
   check(try texture.pngRepresentation().count > 1000, "PNG")
   let same: MaterialParameters.Texture = PhysicallyBasedMaterial.Texture(texture)
-  check(material.baseColor == PhysicallyBasedMaterial.BaseColor(texture: same), "colour")
+  check(material.baseColor == PhysicallyBasedMaterial.BaseColor(texture: same), "color")
   material.normal = PhysicallyBasedMaterial.Normal(texture: nil)
   material.roughness = PhysicallyBasedMaterial.Roughness(scale: 1)
   material.metallic = PhysicallyBasedMaterial.Metallic(scale: 0)
   material.ambientOcclusion = PhysicallyBasedMaterial.AmbientOcclusion()
-  check(material.roughness.scale > material.metallic.scale, "rough and no metal")
+  check(material.roughness.scale > material.metallic.scale, "rough and not metallic")
   check(material.roughness.texture == nil && material.metallic.texture == nil, "no textures")
 }
 
@@ -62,7 +62,7 @@ private func place(_ entity: ModelEntity, _ mesh: MeshResource) throws {
   other.orientation = simd_quatf(ix: 0, iy: 0, iz: 0, r: 1)
   other.transform.translation.y = 2
   check(other.transformMatrix(relativeTo: entity).columns.3.y == 2, "relative")
-  check(other != entity && other.id != entity.id && ModelEntity().model == nil, "told apart")
+  check(other != entity && other.id != entity.id && ModelEntity().model == nil, "identity")
   let component: any Component = other.transform
   check(component is Transform, "a transform is a component")
   other.model = ModelComponent(mesh: mesh, materials: [])

@@ -1,7 +1,7 @@
 import Foundation
 import RealityKit
 
-/// Uses each symbol of the API once, and makes a model by the way.
+/// Uses each symbol of the API once, and makes a model at the same time.
 ///
 ///     EverySymbol <photos> <folder for the model>
 @main
@@ -26,7 +26,7 @@ struct EverySymbol {
     await usePublishers()
     let session = try Session(input: photos, configuration: makeConfiguration(checkpoint: folder))
     check(!session.isProcessing && session.activeRequests.isEmpty, "idle")
-    check(session.configuration.meshPrimitive == .quad && session.id == session.id, "as it is told")
+    check(session.configuration.meshPrimitive == .quad && session.id == session.id, "as configured")
     session.cancel()
     let requests = makeRequests(file: folder)
     try session.process(requests: requests)
@@ -37,7 +37,7 @@ struct EverySymbol {
     check(failure == nil, "no failure")
     var results = 0
     while let output: Session.Outputs.Element = try await iterator.next() {
-      check(!output.localizedDescription.isEmpty, "every output has a sentence")
+      check(!output.localizedDescription.isEmpty, "every output has a description")
       if try take(output) { results += 1 }
       if case .processingComplete = output { break }
     }
@@ -62,10 +62,10 @@ struct EverySymbol {
     } catch {
       check(false, "\(error)")
     }
-    check((try? Session(input: [PhotogrammetrySample]())) != nil, "an empty sequence is no error")
+    check((try? Session(input: [PhotogrammetrySample]())) != nil, "an empty sequence is accepted")
   }
 
-  /// Says whether the output is a result.
+  /// Checks an output; returns whether it is a result.
   private static func take(_ output: Session.Output) throws -> Bool {
     switch output {
     case .inputComplete, .processingComplete: return false
@@ -116,20 +116,20 @@ struct EverySymbol {
     case .bounds(let box): check(!box.isEmpty, "bounds")
     case .pointCloud(let cloud): use(cloud)
     case .poses(let poses): use(poses)
-    @unknown default: check(false, "a result that is not known")
+    @unknown default: check(false, "an unknown result")
     }
   }
 
   private static func use(_ cloud: Session.PointCloud) {
     let points: [Session.PointCloud.Point] = cloud.points
     check(points.count > 1000, "points")
-    check(points.allSatisfy { $0.color.w == 255 && $0.position.x.isFinite }, "colours")
+    check(points.allSatisfy { $0.color.w == 255 && $0.position.x.isFinite }, "colors")
   }
 
   private static func use(_ poses: Session.Poses) {
     check(poses.posesBySample.count > 10, "poses")
     for (id, pose): (Int, Session.Pose) in poses.posesBySample {
-      check(poses.urlsBySample[id] != nil, "a photo each")
+      check(poses.urlsBySample[id] != nil, "a photo per pose")
       check(pose.transform.translation == pose.translation, "translation")
       check(pose.transform.rotation == pose.rotation, "rotation")
       check((pose.intrinsics?.columns.0.x ?? 0) > 0, "focal length")

@@ -2,7 +2,7 @@ import CoreGraphics
 import Foundation
 import ImageIO
 
-/// Images in memory and in files, and what is drawn of them.
+/// Reads, writes and draws images in memory and in files.
 func useImages(_ photo: URL) throws {
   try useSource(photo)
   useProperties()
@@ -36,7 +36,7 @@ private func useSource(_ photo: URL) throws {
   check(same.width == image.width, "the same file")
   let other = CGImage(
     pngDataProviderSource: provider, decode: nil, shouldInterpolate: false, intent: .perceptual)
-  check(other == nil, "no PNG")
+  check(other == nil, "not a PNG")
   check(properties[kCGImagePropertyPixelHeight] as? Double == Double(image.height), "height")
   check((properties[kCGImagePropertyOrientation] as? NSNumber)?.intValue == 1, "upright")
   check(properties[kCGImagePropertyColorModel] as? String == kCGImagePropertyColorModelRGB, "RGB")
@@ -58,7 +58,7 @@ private func write(_ image: CGImage, _ source: CGImageSource) throws {
   guard let again = CGImageSourceCreateWithData(data as CFData, nil),
     let copy = CGImageSourceCreateImageAtIndex(again, 0, nil)
   else { return check(false, "what was written can be read") }
-  check(copy.dataProvider?.data == image.dataProvider?.data, "PNG keeps all")
+  check(copy.dataProvider?.data == image.dataProvider?.data, "PNG is lossless")
   let url = FileManager.default.temporaryDirectory
     .appendingPathComponent("\(ProcessInfo.processInfo.processIdentifier).jpg")
   defer { try? FileManager.default.removeItem(at: url) }
@@ -77,7 +77,7 @@ private func write(_ image: CGImage, _ source: CGImageSource) throws {
   check(CGImageDestinationCreateWithURL(url, "com.ilm.openexr-image", 1, nil) == nil, "no OpenEXR")
 }
 
-/// Names of what is known of an image are those that files of other programs have, too.
+/// The property keys equal those in files of other programs.
 private func useProperties() {
   let names: [CFString] = [
     kCGImagePropertyDepth, kCGImagePropertyColorModelGray, kCGImagePropertyHasAlpha,
@@ -110,7 +110,7 @@ private func useProperties() {
   check(names.allSatisfy { !$0.isEmpty } && names[3] == "{Exif}", "names")
   let numbers = [NSNumber(value: 1.5) as CFNumber] as CFArray
   check(
-    numbers[0] as? CGFloat == 1.5 && numbers[0] as? Double == 1.5, "numbers are read as asked for")
+    numbers[0] as? CGFloat == 1.5 && numbers[0] as? Double == 1.5, "numbers are cast to any type")
 }
 
 private func context(_ width: Int, _ height: Int, _ info: UInt32) -> CGContext {
@@ -137,7 +137,7 @@ private func useBitmaps() {
   let drawing = context(4, 4, blueFirst)
   check(drawing.width == 4 && drawing.height == 4 && drawing.bitsPerComponent == 8, "size")
   check(drawing.alphaInfo == .premultipliedFirst && drawing.colorSpace?.name == nil, "layout")
-  check(drawing.bitmapInfo.intersection(.alphaInfoMask).rawValue == 2, "opacity first")
+  check(drawing.bitmapInfo.intersection(.alphaInfoMask).rawValue == 2, "alpha first")
   drawing.interpolationQuality = CGInterpolationQuality.none
   drawing.setFillColor(red: 1, green: 0, blue: 0, alpha: 1)
   // One pixel at the top left: y points up, rows go down.
@@ -148,7 +148,7 @@ private func useBitmaps() {
   else { return check(false, "an image") }
   check(copy.alphaInfo == .last && copy.bitsPerComponent == 8 && copy.bitsPerPixel == 32, "pixels")
   check(copy.bytesPerRow == 16 && copy.bitmapInfo.rawValue == copy.alphaInfo.rawValue, "rows")
-  check(copy.colorSpace?.numberOfComponents == 3 && corner.width == 1, "colours")
+  check(copy.colorSpace?.numberOfComponents == 3 && corner.width == 1, "colors")
   check(corner.dataProvider?.data == Data([255, 0, 0, 255]) as CFData, "the corner is red")
   draw(image, blueFirst)
   let half = context(2, 1, CGImageAlphaInfo.noneSkipLast.rawValue)
@@ -171,7 +171,7 @@ private func useBitmaps() {
   check(mask?.bitsPerPixel == 8 && mask?.alphaInfo == CGImageAlphaInfo.none, "gray")
 }
 
-/// The red corner goes where transforms take it.
+/// The red corner follows the transforms.
 private func draw(_ image: CGImage, _ info: UInt32) {
   let turned = context(4, 4, info)
   turned.saveGState()
@@ -179,7 +179,7 @@ private func draw(_ image: CGImage, _ info: UInt32) {
   turned.rotate(by: .pi / 2)
   check(!turned.ctm.isIdentity, "a transform")
   turned.draw(image, in: CGRect(x: 0, y: 0, width: 4, height: 4))
-  check(pixel(turned, 0, 3) == [0, 0, 255, 255], "a quarter to the left")
+  check(pixel(turned, 0, 3) == [0, 0, 255, 255], "a quarter turn counterclockwise")
   turned.restoreGState()
   check(turned.ctm.isIdentity, "as before")
   turned.clear(CGRect(x: 0, y: 0, width: 4, height: 4))
@@ -201,11 +201,11 @@ private func useColours() {
   let grays = [
     CGColorSpace.genericGrayGamma2_2, CGColorSpace.linearGray, CGColorSpace.extendedGray,
   ]
-  check(names.allSatisfy { CGColorSpace(name: $0)?.model == CGColorSpaceModel.rgb }, "colours")
+  check(names.allSatisfy { CGColorSpace(name: $0)?.model == CGColorSpaceModel.rgb }, "colors")
   check(grays.allSatisfy { CGColorSpace(name: $0)?.model == .monochrome }, "grays")
-  check(CGColor.black != CGColor.white && CGColor.clear.alpha == 0, "colours are told apart")
+  check(CGColor.black != CGColor.white && CGColor.clear.alpha == 0, "colors are distinct")
   let red = CGColor(srgbRed: 1, green: 0, blue: 0, alpha: 0.5)
-  check(red == CGColor(red: 1, green: 0, blue: 0, alpha: 0.5), "the space of all colours")
+  check(red == CGColor(red: 1, green: 0, blue: 0, alpha: 0.5), "the space of all colors")
   check(red.components == [1, 0, 0, 0.5] && red.colorSpace?.model == .rgb, "components")
   let orders: CGBitmapInfo = [.byteOrder16Little, .byteOrder16Big, .byteOrder32Big]
   check(CGBitmapInfo.byteOrderMask.isSuperset(of: orders), "orders")
@@ -223,7 +223,7 @@ private func useTransforms() {
   let back = all.concatenating(all.inverted())
   check(abs(back.a - 1) + abs(back.b) + abs(back.c) + abs(back.d - 1) < 1e-9, "and back")
   check(abs(back.tx) + abs(back.ty) < 1e-9, "to the same place")
-  check(abs(CGSize(width: 1, height: 2).applying(turn).height - 1) < 1e-9, "an extent")
+  check(abs(CGSize(width: 1, height: 2).applying(turn).height - 1) < 1e-9, "a size")
   let box = CGRect(x: 0, y: 0, width: 2, height: 1).applying(turn)
   check(abs(box.height - 2) < 1e-9, "a box")
 }

@@ -1,7 +1,7 @@
 import Foundation
 import UniformTypeIdentifiers
 
-/// Kinds of files.
+/// Uses the uniform types.
 func useKinds() {
   let images: [UTType] = [
     .jpeg, .png, .tiff, .heic, .heif, .gif, .bmp, .webP, .exr, .rawImage, .dng,
@@ -16,16 +16,16 @@ func useKinds() {
   check(UTType.zip.conforms(to: .archive) && UTType.pdf.supertypes.contains(.item), "others")
   check(UTType.folder.conforms(to: .directory) && UTType.package != .folder, "folders")
   check(
-    UTType(filenameExtension: "JPG") == .jpeg && UTType(filenameExtension: "x") == nil, "suffix")
+    UTType(filenameExtension: "JPG") == .jpeg && UTType(filenameExtension: "x") == nil, "extension")
   check(UTType(filenameExtension: "usdz", conformingTo: .image) == nil, "no image")
   check(UTType(mimeType: "image/png") == .png && UTType("public.jpeg") == .jpeg, "names")
-  check(UTType.usdz.preferredFilenameExtension == "usdz", "the preferred suffix")
+  check(UTType.usdz.preferredFilenameExtension == "usdz", "the preferred extension")
   check(
     UTType.jpeg.preferredMIMEType == "image/jpeg" && "\(UTType.png)" == UTType.png.identifier, "")
   let folder = URL(fileURLWithPath: "/tmp", isDirectory: true)
   check(
     folder.appendingPathComponent("a", conformingTo: .usdz).lastPathComponent == "a.usdz", "URL")
-  check(folder.appendingPathExtension(for: .png).pathExtension == "png", "a suffix more")
-  check(folder.startAccessingSecurityScopedResource(), "there are no sandboxes")
+  check(folder.appendingPathExtension(for: .png).pathExtension == "png", "an appended extension")
+  check(folder.startAccessingSecurityScopedResource(), "there is no sandbox")
   folder.stopAccessingSecurityScopedResource()
 }

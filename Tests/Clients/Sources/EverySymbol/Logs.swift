@@ -1,14 +1,14 @@
 import Foundation
 import OSLog
 
-/// The log by its older functions, and signposts.
+/// Uses the older log functions and signposts.
 func useLogs() {
   let log = OSLog(subsystem: "com.example.clients", category: "EverySymbol")
   os_log("%{public}@ has %d photos, %.1f MB (%%)", log: log, type: .info, "a folder", 20, 1.5)
   os_log(.debug, log: log, "%{private}@", "a secret")
-  os_log("a message of its own")
+  os_log("an interpolated message")
   os_log(.error, log: .default, "\(5, format: .hex)")
-  check(!OSLog.disabled.isEnabled(type: .debug), "nothing is taken down")
+  check(!OSLog.disabled.isEnabled(type: .debug), "nothing is logged")
   Logger(log).notice("the same log")
   let points = OSLog(subsystem: "com.example.clients", category: OSLog.Category.pointsOfInterest)
   let id = OSSignpostID(log: points)
@@ -17,9 +17,9 @@ func useLogs() {
   let signposter = OSSignposter(subsystem: "com.example.clients", category: .pointsOfInterest)
   check(!OSSignposter.disabled.isEnabled, "off")
   let state = signposter.beginInterval("model", id: signposter.makeSignpostID())
-  check(![.null, .invalid, .exclusive].contains(state.signpostID), "an interval of its own")
+  check(![.null, .invalid, .exclusive].contains(state.signpostID), "a unique interval")
   signposter.emitEvent("face", "\(1)")
   signposter.endInterval("model", state)
   let sum = signposter.withIntervalSignpost("sum") { (1...3).reduce(0, +) }
-  check(sum == 6, "work is done")
+  check(sum == 6, "the closure ran")
 }

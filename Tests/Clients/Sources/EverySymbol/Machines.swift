@@ -3,7 +3,7 @@ import Metal
 import RealityKit
 import os
 
-/// The log, locks and devices.
+/// Uses the log, locks and devices.
 func useMachine() {
   let logger = Logger(subsystem: "com.example.clients", category: "EverySymbol")
   let (name, number, share) = ("log", 255, 0.5)
@@ -36,7 +36,7 @@ func useMachine() {
     check(device.supportsShaderBarycentricCoordinates && device.supportsFunctionPointers, "shaders")
     check(device.supports32BitFloatFiltering && device.supportsBCTextureCompression, "textures")
     check(device.supportsFamily(.metal3) && device.supportsFamily(MTLGPUFamily.common3), "families")
-    check(device.location == MTLDeviceLocation.builtIn && device.locationNumber == 0, "place")
+    check(device.location == MTLDeviceLocation.builtIn && device.locationNumber == 0, "location")
     let size: MTLSize = device.maxThreadsPerThreadgroup
     check(size.width * size.height * size.depth > MTLSizeMake(1, 1, 1).width, "threads")
     print(
@@ -49,7 +49,7 @@ func useMachine() {
   check(limits.maximumNumberOfInputImages >= 100 && Session.isSupported, "photos")
 }
 
-/// The parts that messages are made of.
+/// Uses the parts of log messages.
 private func useMessages(_ logger: Logger) {
   var interpolation = OSLogInterpolation(literalCapacity: 5, interpolationCount: 5)
   interpolation.appendLiteral("parts ")

@@ -7,7 +7,7 @@ private final class Progress: ObservableObject {
   var seen: [Int] = []
 }
 
-/// A subscriber that asks for one value at a time, and for no more than two.
+/// A subscriber that requests one value at a time and at most two.
 private final class Pair: Subscriber {
   typealias Input = Int
   typealias Failure = Never
@@ -22,7 +22,7 @@ private final class Pair: Subscriber {
   func receive(completion: Subscribers.Completion<Never>) { values.append(-1) }
 }
 
-/// Publishers and what listens to them.
+/// Uses publishers and subscribers.
 func usePublishers() async {
   let progress = Progress()
   var handles = Set<AnyCancellable>()
@@ -36,7 +36,7 @@ func usePublishers() async {
   check(changes == 3 && progress.seen == [50, 100] && progress.fraction == 1, "published")
   let names = PassthroughSubject<String?, Never>()
   let known: AnyPublisher<Bool, Never> = names.map { $0 != nil }.eraseToAnyPublisher()
-  known.sink { check($0 == (progress.stage != "nobody"), "in time") }.store(in: &handles)
+  known.sink { check($0 == (progress.stage != "nobody"), "in order") }.store(in: &handles)
   names.compactMap { $0 }.dropFirst().assign(to: \.stage, on: progress).store(in: &handles)
   for name in ["a", "x", "b"] { tell(name, by: names) }
   check(progress.stage == "b", "assigned")
@@ -48,7 +48,7 @@ func usePublishers() async {
   numbers.receive(subscriber: pair)
   for number in 2...4 { numbers.send(number) }
   numbers.send(completion: .finished)
-  check(pair.values == [1, 2, -1] && numbers.value == 4, "no more than asked for")
+  check(pair.values == [1, 2, -1] && numbers.value == 4, "at most the demand")
   check(Subscribers.Demand.unlimited > .max(3) && (Subscribers.Demand.none + .max(2)).max == 2, "")
 
   struct Failed: Error {}
@@ -63,13 +63,13 @@ func usePublishers() async {
   (handle as any Cancellable).cancel()
   var sum = 0
   for await value in Just(5).eraseToAnyPublisher().values { sum += value }
-  check(sum == 5, "waited for")
+  check(sum == 5, "awaited")
   _ = schedule(on: DispatchQueue.main)
 }
 
 private func tell(_ name: String?, by subject: some Subject<String?, Never>) { subject.send(name) }
 
-/// Publishers can be handed on, whatever they are.
+/// Publishers of any type can be passed on.
 private func schedule(on queue: some Scheduler) -> any Publisher<Int, Never> {
   Just(1).receive(on: queue)
 }

@@ -5,12 +5,12 @@ import Foundation
 import ImageIO
 import Metal
 
-/// Images that are turned, cut and rendered.
+/// Rotates, crops and renders images.
 func useRendering(_ photo: URL) throws {
   guard
     let image = CIImage(contentsOf: photo, options: [CIImageOption.applyOrientationProperty: true])
   else { return check(false, "a photo is an image") }
-  check(image.url == photo && image.cgImage != nil, "where it is from")
+  check(image.url == photo && image.cgImage != nil, "the source of the image")
   check(image.properties[kCGImagePropertyOrientation] as? Int == 1, "upright")
   let (width, height) = (Int(image.extent.width), Int(image.extent.height))
   let context = CIContext(options: [
@@ -25,9 +25,9 @@ func useRendering(_ photo: URL) throws {
   guard let pixels = context.createCGImage(same, from: same.extent),
     let original = context.createCGImage(image, from: image.extent)
   else { return check(false, "pixels") }
-  check(pixels.dataProvider?.data == original.dataProvider?.data, "rendered as it is")
+  check(pixels.dataProvider?.data == original.dataProvider?.data, "rendered unchanged")
   let turned = image.oriented(CGImagePropertyOrientation.right)
-  check(turned.extent.size == CGSize(width: height, height: width), "a quarter")
+  check(turned.extent.size == CGSize(width: height, height: width), "a quarter turn")
   let again = turned.oriented(forExifOrientation: 8)
   let back = context.createCGImage(again, from: again.extent)
   check(back?.dataProvider?.data == original.dataProvider?.data, "and back")
@@ -37,7 +37,7 @@ func useRendering(_ photo: URL) throws {
   check(context.createCGImage(part, from: part.extent)?.height == 4, "a part")
   if let device = MTLCreateSystemDefaultDevice() {
     let other = CIContext(mtlDevice: device, options: nil)
-    check(other.createCGImage(part, from: part.extent)?.width == 8, "by a device")
+    check(other.createCGImage(part, from: part.extent)?.width == 8, "with a device")
   }
   try write(part, with: context)
 }

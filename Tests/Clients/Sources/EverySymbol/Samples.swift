@@ -4,7 +4,7 @@ import Foundation
 import ImageIO
 import RealityKit
 
-/// Buffers and samples.
+/// Uses buffers and samples.
 func useSamples(_ photo: URL) async throws {
   let loaded: PhotogrammetrySample = try await PhotogrammetrySample(contentsOf: photo)
   let load: () throws -> PhotogrammetrySample = { try PhotogrammetrySample(contentsOf: photo) }
@@ -14,7 +14,7 @@ func useSamples(_ photo: URL) async throws {
     loaded.captureTime, loaded.boundingBox, loaded.depthConfidenceMap, loaded.sessionID,
     loaded.scanPassID,
   ]
-  check(known.allSatisfy { $0 == nil }, "a rendered photo tells nothing")
+  check(known.allSatisfy { $0 == nil }, "a rendered photo has no metadata")
   check(describe(loaded.camera) == 0, "no camera")
   var sample = PhotogrammetrySample(id: 7, image: try copy(of: loaded.image))
   sample.metadata = loaded.metadata
@@ -24,7 +24,7 @@ func useSamples(_ photo: URL) async throws {
   gravity.y = -1
   sample.gravity = gravity
   check(sample.gravity?.x == 0 && sample.gravity?.z == 0, "gravity points down")
-  check(sample.image != loaded.image && sample.image == sample.image, "buffers are told apart")
+  check(sample.image != loaded.image && sample.image == sample.image, "buffers have identity")
 }
 
 private func describe(_ camera: PhotogrammetrySample.Camera?) -> Int {
@@ -91,7 +91,7 @@ private func copy(of image: CVImageBuffer) throws -> CVPixelBuffer {
   check(name == kCVPixelBufferPixelFormatTypeKey && yes && same == result, "Core Foundation")
   let time: CFAbsoluteTime = CFAbsoluteTimeGetCurrent()
   let span: CFTimeInterval = autoreleasepool { CFAbsoluteTimeGetCurrent() - time }
-  check(span >= 0, "time goes on")
+  check(span >= 0, "time advances")
   check(Set(formats).count == 11 && Set(keys as [String]).count == 5, "codes")
   let orientations: [CGImagePropertyOrientation] = [
     .up, .upMirrored, .down, .downMirrored, .leftMirrored, .right, .rightMirrored, .left,
@@ -100,7 +100,7 @@ private func copy(of image: CVImageBuffer) throws -> CVPixelBuffer {
   return result
 }
 
-/// Buffers of a pool.
+/// Uses the buffers of a pool.
 func usePool() throws {
   let attributes: [String: Any] = [
     kCVPixelBufferPixelFormatTypeKey as String: kCVPixelFormatType_32BGRA,

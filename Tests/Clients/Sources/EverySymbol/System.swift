@@ -7,7 +7,7 @@ import os
 import os.lock
 import os.signpost
 
-/// What the system is told and asked of long work.
+/// Uses the system interfaces for long work.
 func useSystem(_ photo: URL) throws {
   let process = ProcessInfo.processInfo
   let options: [ProcessInfo.ActivityOptions] = [
@@ -26,7 +26,7 @@ func useSystem(_ photo: URL) throws {
   let heat: [ProcessInfo.ThermalState] = [.nominal, .fair, .serious, .critical]
   check(heat.contains(process.thermalState), "heat")
   check("\(ProcessInfo.thermalStateDidChangeNotification.rawValue)".count > 5, "a name")
-  check(CACurrentMediaTime() > 0, "the time goes on")
+  check(CACurrentMediaTime() > 0, "time advances")
   var size = winsize()
   _ = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size)
   var usage = rusage()
@@ -35,7 +35,7 @@ func useSystem(_ photo: URL) throws {
     .contentTypeKey, .volumeAvailableCapacityForImportantUsageKey,
     .volumeAvailableCapacityForOpportunisticUsageKey,
   ])
-  check(values.contentType == .jpeg, "a kind")
+  check(values.contentType == .jpeg, "a content type")
   check(values.volumeAvailableCapacityForImportantUsage ?? 0 > 0, "space")
   check(values.volumeAvailableCapacityForOpportunisticUsage ?? 0 > 0, "more space")
   useLocks()
@@ -58,7 +58,7 @@ private func useLocks() {
     sum.pointee += 1
     os_unfair_lock_unlock(word)
   }
-  check(sum.pointee == 1000, "one at a time")
+  check(sum.pointee == 1000, "mutual exclusion")
   sum.deallocate()
   shared.deallocate()
   let guarded = OSAllocatedUnfairLock(initialState: 0)
@@ -78,7 +78,7 @@ private func useDevice() {
   check(device.readWriteTextureSupport == MTLReadWriteTextureTier.tier2, "textures")
   check(device.peerGroupID == 0 && device.peerIndex == 0 && device.peerCount == 0, "alone")
   check(device.supportsTextureSampleCount(4) && device.supportsFamily(.macCatalyst2), "counts")
-  check(device.description.contains(device.name), "a sentence")
+  check(device.description.contains(device.name), "a description")
   let queue: (any MTLCommandQueue)? = device.makeCommandQueue()
   check(queue?.label == nil && queue?.device == nil, "no commands")
 }

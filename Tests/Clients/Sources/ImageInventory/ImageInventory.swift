@@ -4,9 +4,9 @@ import ImageIO
 import UniformTypeIdentifiers
 import os
 
-/// Looks at photos before anything is made of them, many at a time, and makes a contact sheet.
+/// Inspects photos in parallel before a reconstruction, and draws an overview image.
 ///
-///     ImageInventory <photos> <sheet.png>
+///     ImageInventory <photos> <overview.png>
 @main
 struct ImageInventory {
   struct Entry: Codable {
@@ -37,7 +37,7 @@ struct ImageInventory {
     let seconds: CFTimeInterval = CFAbsoluteTimeGetCurrent() - start
     DispatchQueue.main.async { CFRunLoopStop(CFRunLoopGetMain()) }
     CFRunLoopRun()
-    print("looked at \(found.count) of \(files.count)", seconds < 60)
+    print("inspected \(found.count) of \(files.count)", seconds < 60)
   }
 
   static func look(at file: URL) -> Entry? {

@@ -2,7 +2,7 @@ import Foundation
 import OSLog
 import RealityKit
 
-// Ends in good order when it is interrupted, which it does itself as soon as something goes on.
+// Ends in an orderly way when it is interrupted; it interrupts itself once processing has begun.
 //
 //     InterruptedCommand <photos> <model.usdz>
 
@@ -20,7 +20,7 @@ guard let session = try? PhotogrammetrySession(input: photos) else {
   exit(66)
 }
 
-// Signals come to the handlers instead of ending the program.
+// The handlers receive the signals instead of the default action, which ends the program.
 let handlers = [SIGINT, SIGTERM].map { number in
   signal(number, SIG_IGN)
   let source = DispatchSource.makeSignalSource(signal: number, queue: .main)
@@ -35,7 +35,7 @@ Task {
       switch output {
       case .inputComplete: kill(getpid(), SIGINT)
       case .processingCancelled:
-        print("cancelled by one of \(handlers.count) signals, processing \(session.isProcessing)")
+        print("canceled by one of \(handlers.count) signals, processing \(session.isProcessing)")
         exit(0)
       case .requestError(_, let error):
         os_log(.fault, log: log, "\(error.localizedDescription, privacy: .public)")

@@ -4,11 +4,11 @@ import Foundation
 import ImageIO
 import RealityKit
 
-// Photos and masks that are drawn into pixel buffers one by one, by way of type-erased iterators.
+// Photos and masks that are drawn into pixel buffers one by one, through type-erased iterators.
 //
 //     MaskedSamples <photos> <model.usdz>
 
-/// The pixels of a photo as a session wants them; nothing here belongs to the main actor.
+/// The pixels of a photo in the format of a session; nothing here is isolated to the main actor.
 enum Pixels {
   static func color(of url: URL, upTo side: Int) -> CVPixelBuffer? {
     guard let source = CGImageSourceCreateWithURL(url as CFURL, nil),

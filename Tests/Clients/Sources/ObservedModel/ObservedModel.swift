@@ -2,7 +2,7 @@ import Combine
 import Foundation
 import RealityKit
 
-/// What an app shows of a reconstruction, without the app.
+/// The state that an app shows of a reconstruction, without the app.
 @MainActor
 final class ReconstructionModel: ObservableObject {
   enum Phase: Equatable {
@@ -54,7 +54,7 @@ final class ReconstructionModel: ObservableObject {
   }
 }
 
-/// The same with observation instead of publishers.
+/// The same with Observation instead of publishers.
 @MainActor @Observable
 final class ObservedProgress {
   private(set) var percent = 0

@@ -2,7 +2,7 @@ import Foundation
 import RealityKit
 import os.log
 
-// Top-level code, a task, the main run loop, and exit() inside of the task.
+// Top-level code, a task, the main run loop, and exit() inside the task.
 
 let logger = os.Logger(subsystem: "com.example.clients", category: "RunLoopProgram")
 

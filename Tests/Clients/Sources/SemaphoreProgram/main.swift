@@ -3,7 +3,7 @@ import Foundation
 import RealityFoundation
 import simd
 
-// A semaphore instead of a run loop, a detached task, a timeout on a queue, and results of every kind.
+// A semaphore instead of a run loop, a detached task, a queue timeout, and every kind of result.
 
 final class Results: @unchecked Sendable {
   private let lock = NSLock()
@@ -22,7 +22,7 @@ final class Results: @unchecked Sendable {
     case .pointCloud(let cloud): points = cloud.points.count
     case .poses(let poses):
       cameras = poses.posesBySample.filter { $0.value.rotation.real != 2 }.count
-    @unknown default: fatalError("a result that is not known")
+    @unknown default: fatalError("an unknown result")
     }
   }
 

@@ -2,7 +2,8 @@ import Foundation
 import RealityKit
 import os
 
-/// An actor that owns a session, with results by continuation, by completion, and as a stream.
+/// An actor that owns a session and delivers results by continuation, by completion handler and as
+/// a stream.
 ///
 ///     SessionActor <photos>
 actor Scanner {
@@ -12,7 +13,7 @@ actor Scanner {
   }
 
   struct Cancelled: LocalizedError {
-    var errorDescription: String? { "The scan was cancelled." }
+    var errorDescription: String? { "The scan was canceled." }
   }
 
   private let session: PhotogrammetrySession
@@ -25,7 +26,7 @@ actor Scanner {
     session = try PhotogrammetrySession(input: photos, configuration: configuration)
   }
 
-  /// The steps of a run, until it completes.
+  /// The steps of a run until it completes.
   nonisolated func steps() -> AsyncThrowingStream<Step, any Error> {
     AsyncThrowingStream { continuation in
       let outputs = session.outputs

@@ -1,7 +1,7 @@
 import Foundation
 import RealityKit
 
-// Nothing but top-level code that awaits.
+// Only top-level code that awaits.
 
 let arguments = CommandLine.arguments
 let input = URL(fileURLWithPath: arguments[1], isDirectory: true)

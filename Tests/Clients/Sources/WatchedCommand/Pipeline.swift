@@ -4,7 +4,7 @@ import RealityKit
 import os
 import simd
 
-/// Runs sessions for a command: a class with callbacks, a time-out, and a result for each request.
+/// Runs sessions for a command: a class with callbacks, a timeout, and a result for each request.
 final class Pipeline: NSObject {
   enum Failure: Error, CustomStringConvertible {
     case timedOut(after: TimeInterval)
@@ -79,7 +79,7 @@ final class Pipeline: NSObject {
   }
 }
 
-/// Poses as other programs read them.
+/// A pose in a form that other programs read.
 struct Frame: Codable {
   var id: Int
   var matrix: [[Float]]

@@ -3,7 +3,7 @@ import Foundation
 import RealityKit
 
 extension PhotogrammetrySession.Request.Detail: @retroactive ExpressibleByArgument {
-  /// Reads the name of a case.
+  /// Parses the name of a case.
   public init?(argument: String) {
     switch argument.lowercased() {
     case "preview": self = .preview
@@ -19,7 +19,7 @@ extension PhotogrammetrySession.Request.Detail: @retroactive ExpressibleByArgume
 
 extension PhotogrammetrySession.Configuration.FeatureSensitivity: @retroactive ExpressibleByArgument
 {
-  /// Reads the name of a case.
+  /// Parses the name of a case.
   public init?(argument: String) {
     guard let match = ["normal": Self.normal, "high": .high][argument] else { return nil }
     self = match
@@ -33,13 +33,13 @@ struct WatchedCommand: AsyncParsableCommand {
     transform: { URL(fileURLWithPath: $0, isDirectory: true) })
   var input: URL
 
-  @Argument(help: "The models' folder.") var output: String
+  @Argument(help: "The folder for the models.") var output: String
 
   @Option(name: .shortAndLong) var details: [PhotogrammetrySession.Request.Detail] = [.preview]
 
   @Option var featureSensitivity: PhotogrammetrySession.Configuration.FeatureSensitivity = .normal
 
-  @Option(help: "Seconds until the session is cancelled.") var timeout: Double = 600
+  @Option(help: "Seconds until the session is canceled.") var timeout: Double = 600
 
   func run() async throws {
     let folder = URL(fileURLWithPath: (output as NSString).standardizingPath, isDirectory: true)

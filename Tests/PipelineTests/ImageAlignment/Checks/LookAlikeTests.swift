@@ -6,13 +6,13 @@ import Testing
 
 @testable import Pipeline
 
-/// Parts of a scene that look alike are never laid on each other without a word.
+/// Repeated structures of a scene are never superimposed without an error or a warning.
 @Suite(.serialized) struct LookAlikeTests {
   private func isTold(_ notes: StageNotes) -> Bool {
-    notes.warnings.contains { $0.contains("look alike") && $0.contains("view_") }
+    notes.warnings.contains { $0.contains("similar parts of the scene") && $0.contains("view_") }
   }
 
-  /// A failure that names photos, or a warning that does, or the right poses.
+  /// Expects a failure or a warning that names photos, or correct poses.
   private func expectNoSilentFold(_ scene: RenderedScene) throws {
     do {
       let aligned = try AlignedScene(scene)
@@ -21,7 +21,7 @@ import Testing
       #expect(isRight || isTold(aligned.notes))
     } catch let error as PipelineError {
       let reason = error.errorDescription ?? ""
-      #expect(reason.contains("look alike") && reason.contains("view_"))
+      #expect(reason.contains("similar parts of the scene") && reason.contains("view_"))
     }
   }
 
@@ -47,7 +47,7 @@ import Testing
     #expect(notes.counts["contradictedPairs"] == 0)
   }
 
-  // MARK: Pairs that contradict
+  // MARK: Contradicted pairs
 
   @Test(arguments: [0.0, 0.2]) func trueScenesContradictNoPair(outliers: Double) throws {
     var options = SyntheticScene.Options()
@@ -66,7 +66,7 @@ import Testing
     var map = try SparseMapping().run(
       scene.viewGraph, features: scene.features, photos: scene.photos, cameras: [scene.camera],
       StageContext())
-    // Its own points follow it nowhere.
+    // The points of the photo stay where they were.
     map.poses[3] = map.poses[9]
     let bad = scene.viewGraph.contradicted(by: map, features: scene.features)
     #expect(!bad.isEmpty)

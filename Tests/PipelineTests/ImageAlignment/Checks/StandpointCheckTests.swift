@@ -23,7 +23,7 @@ import Testing
     #expect(!isOfOnePlace(options, focalFactor: focalFactor))
   }
 
-  /// Points about a camera that turns by `angle` radians to the side and back.
+  /// Points around a camera that rotates sideways by `angle` radians.
   @Test(arguments: [1, 1.4]) func turningIsFound(focalFactor: Double) {
     var random = SeededGenerator(seed: 5)
     let camera = Camera(width: 1600, height: 1200, focalLength: [1400, 1400])

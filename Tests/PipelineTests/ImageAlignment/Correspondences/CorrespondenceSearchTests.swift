@@ -73,7 +73,7 @@ import Testing
     #expect(try Self.search(scene, camera: camera).cameras == [camera])
   }
 
-  /// Pairs with too few matches are kept aside, with what they have and what they lack.
+  /// Pairs with too few matches are recorded with their number of matches and the number required.
   @Test func rejectedPairsAreNamed() throws {
     let scene = Self.scene()
     let counts = try Self.search(scene, camera: Self.exif(scene)).viewGraph.pairs

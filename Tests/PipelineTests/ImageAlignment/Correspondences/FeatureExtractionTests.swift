@@ -23,7 +23,8 @@ import Testing
       StageContext(control: KernelControl(threadCount: threads)))
   }
 
-  /// Of a photo that is searched at half its size, positions and scales are those of the full one.
+  /// Positions and scales refer to the full-size photo even if the photo is searched at half its
+  /// size.
   @Test func reducedPhotoHasPositionsOfTheFullOne() throws {
     let image = TexturePattern.image(width: 640, height: 480, seed: 3)
     var options = FeatureExtraction.Options()
@@ -48,7 +49,7 @@ import Testing
     let doubled = try Self.features([image], options)[0]
     options.doubledPixels = 400 * 300 - 1
     let plain = try Self.features([image], options)[0]
-    // The first octave begins at a blur of 1.6 pixels, of the doubled photo's or of the photo's.
+    // The first octave begins at a blur of 1.6 pixels: of the upsampled photo or of the original.
     #expect(try #require(doubled.scales.last) < 1.3)
     #expect(try #require(plain.scales.last) > 1.6)
     #expect(doubled.count > plain.count)
@@ -62,8 +63,8 @@ import Testing
     #expect(one.map(\.positions) == two.map(\.positions))
   }
 
-  /// Of a statue of hardly any texture high sensitivity has more photos, or more points, and poses
-  /// that are right.
+  /// For a statue with hardly any texture, high sensitivity yields more photos or more points, with
+  /// correct poses.
   @Test func highSensitivityRegistersMoreOfAFaintObject() throws {
     var scene = RenderedScene.faintStatue()
     let noise = scene.noise

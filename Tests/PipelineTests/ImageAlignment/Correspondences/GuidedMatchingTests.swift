@@ -13,7 +13,8 @@ import Testing
   }()
   private static let known = 40
 
-  /// The scene's pairs with a few of their matches, matched again with the features given.
+  /// The scene's pairs with only a few of their matches, and after guided matching of the given
+  /// features.
   private func guided(_ features: [FeatureSet]) throws -> (before: ViewGraph, after: ViewGraph) {
     var graph = Self.scene.viewGraph
     for index in graph.pairs.indices {

@@ -86,7 +86,7 @@ import Testing
     #expect(unlooked.pairs == all)
     #expect(looked.pairs < all)
     #expect(Double(looked.verified) > 0.95 * Double(unlooked.verified))
-    // A look that rejects everything is found out, and all pairs are matched.
+    // If preemptive matching rejects everything, the sample reveals it, and all pairs are matched.
     options.selection.lookedPairs = 0
     options.selection.firstLook.minimumMatches = .max
     #expect(try search(options) == unlooked)
@@ -105,7 +105,7 @@ import Testing
   @Test func sequenceBridgesGapsAndClosesLoops() throws {
     let scene = try Self.scene(.orbits, isShuffled: false)
     var features = scene.features
-    // Two photos in a row have come to nothing.
+    // Two consecutive photos have no features.
     (features[20], features[21]) = (FeatureSet(), FeatureSet())
     var options = PairSelection.Options()
     options.firstLook.features = 400
@@ -117,7 +117,7 @@ import Testing
     let overlaps = scene.overlaps(minimum: 100)
     #expect(overlaps[PhotoPair(ID(19), ID(22))] != nil)
     #expect(pairs.contains(PhotoPair(ID(19), ID(22))))
-    // Of each photo, the one from another time that shares the most.
+    // For each photo, the one from another time that shares the most points.
     let distant = overlaps.filter { $0.key.second.index - $0.key.first.index > 4 }
     let best = (0..<60).filter { $0 != 20 && $0 != 21 }.compactMap { photo in
       distant.filter {

@@ -31,7 +31,7 @@ import Testing
   }
 
   @Test func matchWithoutSupportDoesNotJoinTwoFeaturesOfAPhoto() throws {
-    // 0 and 1 are seen in three photos each; the last match would join them.
+    // 0 and 1 are seen in three photos each; the last match would merge them.
     let tracks = try tracks(
       [(0, 1, [(0, 0), (1, 1)]), (0, 2, [(0, 0), (1, 1), (0, 1)]), (1, 2, [(0, 0), (1, 1)])],
       photos: 3)

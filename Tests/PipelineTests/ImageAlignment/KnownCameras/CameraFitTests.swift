@@ -26,7 +26,8 @@ import Testing
     #expect(!fit.isScaled && fit.quarterTurns == 0)
   }
 
-  /// A point is seen at the same place of the picture, whichever way the photo is held.
+  /// A point projects to the same position in the picture regardless of the orientation of the
+  /// photo.
   @Test(arguments: [(6, 300, 400), (8, 300, 400), (6, 150, 200), (1, 200, 150), (1, 1200, 900)])
   func aPointStaysWhereItIsInThePicture(_ orientation: Int, _ width: Int, _ height: Int) throws {
     let fit = try #require(
@@ -41,7 +42,7 @@ import Testing
     #expect((fit.pose(pose).center - pose.center).length < 1e-12)
   }
 
-  /// Pixels turn as those of photos do.
+  /// Pixels rotate like photos.
   @Test(arguments: [6, 8]) func pixelsTurnAsPhotosDo(_ orientation: Int) throws {
     var image = RasterImage(width: 400, height: 300, channels: 1)
     image.pixels[70 * 400 + 310] = 255

@@ -19,7 +19,7 @@ import Testing
     #expect(result.points.count > 300)
     #expect(result.points.allSatisfy { $0.track.count >= 2 && $0.error < 1.5 })
     let distances = result.points.map { set.scene.distance(to: $0.position) }.sorted()
-    // A pixel is 0.01 wide on the ball, and a point's depth several times less certain.
+    // A pixel is 0.01 wide on the ball; the depth of a point is several times less certain.
     #expect(distances[distances.count / 2] < 0.01)
     #expect(distances[distances.count * 95 / 100] < 0.06)
     #expect((notes.counts["matchesThatAgree"] ?? 0) > 0.8 * (notes.counts["matches"] ?? .infinity))
@@ -37,7 +37,7 @@ import Testing
     #expect(results[0].points == results[1].points)
   }
 
-  /// Poses of the wrong direction, from the camera to the world, are the commonest mistake.
+  /// Inverted poses (world-from-camera instead of camera-from-world) are the most common mistake.
   @Test(arguments: [true, false]) func posesThatAreNotThoseOfThePhotosAreRefused(
     inverted: Bool
   ) throws {
@@ -132,10 +132,13 @@ import Testing
         "photo1.jpg is not used: its camera is for 800 × 316 pixels, but the photo has 420 × 316 "
           + "pixels, upright."
       ])
-    #expect(pipeline.report.details.contains { $0.contains("were scaled: photo0.jpg, photo2.jpg") })
+    #expect(
+      pipeline.report.details.contains {
+        $0.contains("scaled to the size of these photos: photo0.jpg, photo2.jpg")
+      })
   }
 
-  /// COLMAP's cameras are for photos as they are stored.
+  /// COLMAP's cameras refer to photos in stored orientation.
   @Test(arguments: [6, 8]) func camerasOfStoredPhotosAreTurned(orientation: Int) throws {
     let set = try KnownPhotoSet(orientation: orientation)
     var cameras = set.cameras(hasPoints: true)
@@ -160,6 +163,6 @@ import Testing
     let cloud = try pipeline.densify(for: KnownPhotoSet.specification)
     let distances = set.distances(cloud)
     #expect(distances.count > 10_000 && distances[distances.count / 2] < 0.01)
-    #expect(pipeline.report.details.contains { $0.contains("turned upright") })
+    #expect(pipeline.report.details.contains { $0.contains("rotated upright") })
   }
 }

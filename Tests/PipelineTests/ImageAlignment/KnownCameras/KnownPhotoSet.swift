@@ -5,13 +5,13 @@ import Pipeline
 import SceneModel
 import TestSupport
 
-/// Photos of a ball above a floor in a folder, and their exact cameras.
+/// A folder of photos of a ball above a floor, and their exact cameras.
 struct KnownPhotoSet {
   let scene: RaycastScene
   let folder: TemporaryFolder
 
   /// `photos` are written; there are cameras for all views. Photos are reduced by `reduction` and
-  /// stored turned, with an orientation that turns them back.
+  /// stored rotated, with the orientation that rotates them upright.
   init(photos: [Int]? = nil, reduction: Double = 1, orientation: Int = 1) throws {
     var options = RaycastScene.Options()
     (options.width, options.height) = (420, 316)
@@ -21,7 +21,7 @@ struct KnownPhotoSet {
       let image = scene.views[index].image
       let reduced = try image.resized(
         width: Int(Double(image.width) / reduction), height: Int(Double(image.height) / reduction))
-      // Turning by the opposite orientation gives what turns upright.
+      // Rotating by the inverse orientation yields the stored photo.
       let stored = try reduced.turned(byOrientation: [6: 8, 8: 6][orientation] ?? orientation)
       var fields = ExifFields()
       fields.orientation = orientation
@@ -33,7 +33,7 @@ struct KnownPhotoSet {
 
   var photoFolder: URL { folder.url.appendingPathComponent("photos") }
 
-  /// The exact cameras, without points unless asked for.
+  /// The exact cameras, with points only if `hasPoints`.
   func cameras(hasPoints: Bool = false) -> Reconstruction {
     var cameras = scene.reconstruction
     if !hasPoints { cameras.points = [] }
@@ -50,12 +50,12 @@ struct KnownPhotoSet {
       folder: photoFolder, configuration: configuration, knownCameras: cameras)
   }
 
-  /// The dense cloud's distances from the surface, ascending.
+  /// Distances of the dense cloud from the surface, in ascending order.
   func distances(_ cloud: PointCloud) -> [Double] {
     cloud.positions.map { scene.distance(to: SIMD3<Double>($0)) }.sorted()
   }
 
-  /// Bounds the work of the dense stage.
+  /// Limits the cost of the dense stage.
   static var specification: DetailSpecification {
     var specification = DetailSpecification(.preview)
     specification.viewPixels = 40_000

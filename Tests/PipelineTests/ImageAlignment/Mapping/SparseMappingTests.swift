@@ -25,7 +25,7 @@ import Testing
     let incremental = try scene.mapped(.incremental)
     let errors = [global, incremental].map(scene.comparison)
     #expect(errors[0].maximumCenterError < 1.2 * errors[1].maximumCenterError + 0.002)
-    // Rotations and the principal point make up for each other, so that they are known less well.
+    // Rotations and the principal point are correlated, so that they are less well determined.
     #expect(errors.allSatisfy { $0.maximumRotationError < 0.015 })
     #expect(global.meanReprojectionError < 1.01 * incremental.meanReprojectionError)
     #expect(
@@ -74,7 +74,7 @@ import Testing
     options.pixelNoise = 0.3
     let scene = SyntheticScene(options)
     let notes = StageNotes()
-    // Each photo hangs on its neighbours by one pair.
+    // Each photo is connected to its neighbors by single pairs.
     let result = try scene.mapped(.automatic, graph: graph(scene, reach: 1), notes: notes)
     #expect(notes.counts["globalPhotos"] == 0)
     #expect(result.registered.count == 12)

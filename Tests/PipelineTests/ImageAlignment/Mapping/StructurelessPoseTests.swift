@@ -14,8 +14,8 @@ import Testing
   }()
   private static let stray = 5
 
-  /// The view graph of the scene in which the stray photo shares each point with one other photo only,
-  /// and with none of the tracks that these have among themselves.
+  /// The view graph of the scene in which the stray photo shares each point with only one other
+  /// photo, and none with the tracks between the other photos.
   private static let graph: ViewGraph = {
     var graph = scene.viewGraph
     for index in graph.pairs.indices {
@@ -24,7 +24,7 @@ import Testing
       )
       graph.pairs[index].matches.removeAll { match in
         let point = Int(scene.pointOfFeature[first][Int(match.first)])
-        // Every other point is the stray photo's, each with the partner that its number gives.
+        // Odd points belong to the stray photo; the number of the point selects the other photo.
         guard point % 2 == 0 else { return first == stray || second == stray }
         guard first == stray || second == stray else { return true }
         let partner = [4, 6, 3, 7][point / 2 % 4]

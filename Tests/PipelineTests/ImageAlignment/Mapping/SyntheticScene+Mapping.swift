@@ -4,8 +4,7 @@ import SceneModel
 import TestSupport
 
 extension SyntheticScene {
-  /// A map of the scene that begins with cameras without distortion; of all its pairs unless others
-  /// are given.
+  /// Maps the scene from all its pairs or the given ones, starting with cameras without distortion.
   func mapped(
     _ method: MappingMethod, graph: ViewGraph? = nil, focalFactor: Double = 1,
     notes: StageNotes = StageNotes(), control: KernelControl = KernelControl()
@@ -20,19 +19,19 @@ extension SyntheticScene {
       StageContext(control: control, notes: notes))
   }
 
-  /// The pairs without one photo.
+  /// The pairs that don't contain the given photo.
   func pairs(without photo: Int) -> [VerifiedPair] {
     viewGraph.pairs.filter { $0.pair.first.index != photo && $0.pair.second.index != photo }
   }
 
-  /// How far the poses of a map are from the true ones.
+  /// Errors of the poses of a map.
   func comparison(_ map: Reconstruction) -> PoseComparison {
     PoseComparison(estimated: map.poses, true: poses)
   }
 }
 
 extension SyntheticScene.Options {
-  /// A scene of noise and wrong matches, of a size that fits the layout.
+  /// A scene with noise and wrong matches, of a size suitable for the layout.
   static func noisy(_ layout: SyntheticScene.Layout, outliers: Double) -> Self {
     var options = Self()
     options.layout = layout

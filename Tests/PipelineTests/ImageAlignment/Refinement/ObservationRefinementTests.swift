@@ -13,7 +13,7 @@ import Testing
     return RaycastScene(options)
   }()
 
-  /// The exact reconstruction with observations that are off by `noise` pixels, adjusted to them.
+  /// The exact reconstruction with noise of `noise` pixels added to the observations, re-adjusted.
   private static func disturbed(
     by noise: Double, dropping isDropped: (Int, Int) -> Bool = { _, _ in false }
   ) throws -> Reconstruction {
@@ -56,7 +56,7 @@ import Testing
     let before = PoseComparison(estimated: rough.poses, true: truth)
     let after = PoseComparison(estimated: fine.poses, true: truth)
     #expect(after.maximumCenterError < before.maximumCenterError / 2)
-    // The principal point takes part of what the rotations gain.
+    // Errors of the principal point compensate for part of the improvement of the rotations.
     #expect(after.maximumRotationError < before.maximumRotationError)
     #expect(fine.meanReprojectionError < 0.15)
     #expect(fine.points.count > rough.points.count * 3 / 4)
@@ -93,7 +93,7 @@ import Testing
 
   @Test func aPhotoThatContradictsIsNamed() throws {
     var rough = try Self.disturbed(by: 0.2)
-    // All that this photo shows is somewhere else, each point in a direction of its own.
+    // All observations of this photo are displaced, each in a different direction.
     let stray = 3
     var random = SeededGenerator(seed: 5)
     for point in rough.points.indices {

@@ -5,7 +5,7 @@ import TestSupport
 import Testing
 
 @Suite struct WorldFramingTests {
-  /// A scene with a table under the ball, moved to a random frame as alignment would leave it.
+  /// A scene with a table under the ball, in a random frame such as alignment produces.
   private func scene(
     table: Bool, layout: SyntheticScene.Layout = .ring, seed: UInt64 = 1
   ) -> Reconstruction {
@@ -47,14 +47,14 @@ import Testing
     #expect(framed.poses.allSatisfy { ($0?.center.y ?? 0) > 0.1 })
     let median = distances(framed)[6]
     #expect(median > 0.9 && median < 1.3)
-    // The ball is on top of the table and over the origin.
+    // The ball is on the table, above the origin.
     let ball = framed.points.prefix(700).map(\.position)
     let mean = ball.reduce(.zero, +) / 700
     #expect(abs(mean.x) < 0.05 && abs(mean.z) < 0.05 && mean.y > 0.1)
     #expect(framed.meanReprojectionError < 1e-2 || table.count == 400)
   }
 
-  /// Gravity in the frames of the cameras, when the scene's y is up.
+  /// Gravity in the camera frames, with +y of the scene up.
   private func gravity(noise: Double) -> [Int: SensorReading] {
     var random = SeededGenerator(seed: 5)
     var result: [Int: SensorReading] = [:]
@@ -65,7 +65,7 @@ import Testing
     return result
   }
 
-  /// Degrees between the framed scene's up and the true one.
+  /// Angle in degrees between the up direction of the aligned scene and the true one.
   private func tilt(_ framed: Reconstruction) throws -> Double {
     let pose = try #require(framed.poses[0])
     let truth = SyntheticScene().poses[0].rotation
@@ -95,7 +95,7 @@ import Testing
 
   @Test func gravityInAnotherFrameIsNotUsed() throws {
     var framing = WorldFraming()
-    // As if the photos had been taken with the camera on its side.
+    // As if the camera had been rotated by a quarter turn.
     framing.options.readings = gravity(noise: 0).mapValues {
       SensorReading(gravity: $0.gravity.map { SIMD3(-$0.y, $0.x, $0.z) })
     }
@@ -105,8 +105,8 @@ import Testing
     #expect(notes.warnings.contains { $0.contains("gravity") && $0.contains("phone") })
   }
 
-  /// Depth maps as a sensor of 64 by 48 pixels sees the scene: of a ball as large as that of the
-  /// points is in the mean, on a far wall, `metersPerUnit` in size.
+  /// Depth maps of 64 × 48 pixels: of a ball with the mean radius of the points in front of a
+  /// distant wall, at `metersPerUnit` meters per unit.
   private func depthMaps(
     metersPerUnit: Double, noise: Double = 0
   ) throws -> [Int: SensorReading] {
@@ -133,7 +133,7 @@ import Testing
     return result
   }
 
-  /// Metres of the framed scene per unit of the true one, by the distance of two cameras.
+  /// Meters of the aligned scene per unit of the true one, from the distance between two cameras.
   private func metersPerUnit(_ framed: Reconstruction) throws -> Double {
     let truth = SyntheticScene().poses
     let (a, b) = (try #require(framed.poses[0]), try #require(framed.poses[5]))
@@ -182,7 +182,7 @@ import Testing
     var random = SeededGenerator(seed: 2)
     var framing = WorldFraming()
     for index in SyntheticScene().poses.indices {
-      // Flat, and each of another distance.
+      // Constant depth, different for each photo.
       let depth = Float(1 + 9 * random.uniform())
       framing.options.readings[index] = SensorReading(
         depth: DepthMap(width: 4, height: 3, depths: [Float](repeating: depth, count: 12)))
@@ -190,7 +190,7 @@ import Testing
     let notes = StageNotes()
     let framed = framing.run(scene(table: false), StageContext(notes: notes))
     #expect(framed.worldFrame.scale == .arbitrary)
-    #expect(notes.warnings.contains { $0.contains("depth maps") && $0.contains("metres") })
+    #expect(notes.warnings.contains { $0.contains("depth maps") && $0.contains("meters") })
   }
 
   @Test func depthAtEdgesIsUnknown() throws {
@@ -221,7 +221,7 @@ import Testing
     #expect(center.z > 0.5 && abs(center.x) < 0.1)
   }
 
-  /// GPS positions of the true centres, `metersPerUnit` metres to a unit of the scene.
+  /// GPS positions of the true camera centers, at `metersPerUnit` meters per unit of the scene.
   private func located(_ metersPerUnit: Double, noise: Double) -> Reconstruction {
     var random = SeededGenerator(seed: 8)
     var result = scene(table: true)
@@ -240,7 +240,7 @@ import Testing
     let framed = WorldFraming().run(located(20, noise: 1), StageContext())
     #expect(framed.worldFrame == WorldFrame(scale: .gps, up: .gps))
     let truth = SyntheticScene().poses.map { 20 * $0.center }
-    // The ground is the table, 22 m below the ball's centre.
+    // The ground is the table, 22 m below the center of the ball.
     for (pose, center) in zip(framed.poses, truth) {
       #expect(((pose ?? .identity).center - center - [0, 22, 0]).length < 5)
     }
@@ -314,8 +314,8 @@ import Testing
     let notes = StageNotes()
     let framed = WorldFraming(options).run(scene(table: true), StageContext(notes: notes))
     #expect(framed.worldFrame.scale == .knownDistance)
-    for part in ["absent.jpg", "same place", "pixels off", "disagree"] {
-      #expect(notes.warnings.contains { $0.contains(part) }, "nothing tells of \(part)")
+    for part in ["absent.jpg", "same place", "pixels away", "disagree"] {
+      #expect(notes.warnings.contains { $0.contains(part) }, "no warning contains '\(part)'")
     }
   }
 
@@ -324,7 +324,7 @@ import Testing
     _ = WorldFraming().run(located(20, noise: 1.5), StageContext(notes: notes))
     let horizontal = try #require(notes.counts["gpsHorizontalRMS"])
     let vertical = try #require(notes.counts["gpsVerticalRMS"])
-    // Two axes together; seven of 36 degrees of freedom go into the fit.
+    // Two axes combined; seven of 36 degrees of freedom are absorbed by the fit.
     #expect(horizontal > 1.2 && horizontal < 2.8)
     #expect(vertical > 0.6 && vertical < 2.2)
     #expect(notes.counts["gpsPositionsUsed"] == 12)
@@ -344,7 +344,7 @@ import Testing
     }
   }
 
-  /// A plain table shows few points; they still lie in one thin layer with nothing below.
+  /// A plain table shows few points, but they form one thin layer with nothing below it.
   @Test(arguments: [1, 2] as [UInt64]) func fewPointsOfATableAreEnough(seed: UInt64) {
     var input = scene(table: true, seed: seed)
     input.points.removeLast(330)
