@@ -36,8 +36,8 @@ package enum ColorProfile: Hashable, Sendable {
       try withKernel(KernelControl()) { _ in
         switch self {
         case .icc(let profile):
-          ck_image_convert_to_srgb(base, count, ck_colors_icc, profile, profile.count)
-        case .adobeRGB: ck_image_convert_to_srgb(base, count, ck_colors_adobe_rgb, nil, 0)
+          ck_image_convert_to_srgb(base, count, ck_color_space_icc, profile, profile.count)
+        case .adobeRGB: ck_image_convert_to_srgb(base, count, ck_color_space_adobe_rgb, nil, 0)
         }
       }
     }

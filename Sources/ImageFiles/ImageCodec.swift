@@ -95,7 +95,7 @@ package enum ImageCodec {
   package static func decodeAlpha(
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> RasterImage? {
-    guard ImageHeader.promisesAlpha(bytes) else { return nil }
+    guard ImageHeader.declaresAlpha(bytes) else { return nil }
     let alpha = try decode(bytes, channels: 1, limits) {
       ck_image_decode_alpha(bytes, bytes.count, $0, $1, $2)
     }
@@ -107,7 +107,7 @@ package enum ImageCodec {
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
     let decoded = try decode(bytes, channels: 4, limits) {
-      ck_image_decode_numbers(bytes, bytes.count, $1, $2)
+      ck_image_decode_float(bytes, bytes.count, $1, $2)
     }
     guard !decoded.pixels.isEmpty else {
       throw .unsupportedFormat("a color image, where one with a number per pixel is expected")

@@ -59,9 +59,9 @@ package struct PhotoMetadata: Hashable, Sendable {
 
   /// Resolution units 2 and none: inch; 3: centimeter; 4: millimeter; 5: micrometer.
   private static func focalPlaneResolution(_ exif: Fields) -> Double? {
-    let millimetres = [2: 25.4, 3: 10, 4: 1, 5: 0.001][exif.integer(41488) ?? 2]
-    guard let millimetres, let value = exif.number(41486, in: 1e-3...1e9) else { return nil }
-    return value / millimetres
+    let millimeters = [2: 25.4, 3: 10, 4: 1, 5: 0.001][exif.integer(41488) ?? 2]
+    guard let millimeters, let value = exif.number(41486, in: 1e-3...1e9) else { return nil }
+    return value / millimeters
   }
 
   private static func position(_ gps: Fields) -> GeographicPosition? {

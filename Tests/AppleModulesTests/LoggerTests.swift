@@ -6,7 +6,7 @@ import Testing
 import SceneModel
 
 /// Collects the log lines.
-private final class Record: Sendable {
+private final class LogRecord: Sendable {
   private let state = Locked<[String]>([])
 
   var lines: [String] { state.withLock { $0 } }
@@ -15,7 +15,7 @@ private final class Record: Sendable {
 }
 
 private struct RecordingHandler: LogHandler {
-  let record: Record
+  let record: LogRecord
   var metadata: Logging.Logger.Metadata = [:]
   var logLevel = Logging.Logger.Level.trace
 
@@ -33,8 +33,8 @@ private struct RecordingHandler: LogHandler {
 @Suite struct LoggerTests {
   private func text(_ message: OSLogMessage) -> String { message.interpolation.text }
 
-  @Test func levelsBecomeThoseOfSwiftLog() {
-    let record = Record()
+  @Test func levelsMapToSwiftLog() {
+    let record = LogRecord()
     let logger = os.Logger(
       Logging.Logger(label: "test") { _ in RecordingHandler(record: record) })
     logger.trace("1")
@@ -64,7 +64,7 @@ private struct RecordingHandler: LogHandler {
     #expect(text("nothing but text") == "nothing but text")
   }
 
-  @Test func onlyWhatIsMarkedAsPrivateIsHidden() {
+  @Test func onlyValuesMarkedPrivateAreRedacted() {
     let secret = "secret"
     #expect(text("\(secret, privacy: .public) \(secret, privacy: .auto)") == "secret secret")
     #expect(text("\(secret, privacy: .private)") == "<private>")
@@ -75,7 +75,7 @@ private struct RecordingHandler: LogHandler {
     #expect(masked != text("\("other", privacy: .private(mask: .hash))"))
   }
 
-  @Test func formatsAndAlignmentShapeValues() {
+  @Test func formatsAndAlignmentAreApplied() {
     #expect(text("\(255, format: .hex) \(8, format: .octal)") == "ff 10")
     #expect(text("\(255, format: .hex(includePrefix: true, uppercase: true))") == "0xFF")
     #expect(text("\(7, format: .decimal(explicitPositiveSign: true, minDigits: 3))") == "+007")
@@ -88,7 +88,7 @@ private struct RecordingHandler: LogHandler {
     #expect(text("|\(5, align: .left(columns: 3))|") == "|5  |")
   }
 
-  @Test func locksGuardTheirValue() async {
+  @Test func locksProtectTheirValue() async {
     let lock = OSAllocatedUnfairLock(initialState: 0)
     await withTaskGroup(of: Void.self) { group in
       for _ in 0..<8 {

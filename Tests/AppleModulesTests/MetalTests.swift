@@ -3,7 +3,7 @@ import Metal
 import Testing
 
 @Suite struct MetalTests {
-  @Test func oneDeviceCanDoWhatObjectCaptureAsksFor() throws {
+  @Test func theDevicePassesEveryCapabilityCheck() throws {
     let device = try #require(MTLCreateSystemDefaultDevice())
     let devices = MTLCopyAllDevices()
     #expect(devices.count == 1 && devices.first === device)
@@ -13,7 +13,7 @@ import Testing
     #expect(device.maxBufferLength > 0 && !device.name.isEmpty && device.registryID != 0)
   }
 
-  @Test func memoryIsTheMachines() throws {
+  @Test func workingSetIsTheMachinesMemory() throws {
     let device = try #require(MTLCreateSystemDefaultDevice())
     let memory = ProcessInfo.processInfo.physicalMemory
     #expect(device.recommendedMaxWorkingSetSize == max(memory, 4 << 30))

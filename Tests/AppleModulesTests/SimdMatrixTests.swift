@@ -44,14 +44,14 @@ import simd
     #expect(simd_mul(simd_mul(b, b), b[0]) == (b * b) * b[0])
   }
 
-  @Test func printsAsOnAMac() {
+  @Test func printsLikeMacOS() {
     #expect(
       matrix_identity_float3x3.debugDescription
         == "simd_float3x3([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])")
     #expect(float4x4(2).debugDescription.hasPrefix("simd_float4x4([[2.0, 0.0, 0.0, 0.0], "))
   }
 
-  @Test func vectorFunctionsHaveTheirMeaning() {
+  @Test func vectorFunctionsMatchTheirDefinitions() {
     let (x, y) = (SIMD3<Float>(1, 2, 3), SIMD3<Float>(-4, 5, 0.5))
     #expect(dot(x, y) == 7.5 && simd_dot(x, y) == 7.5)
     #expect(cross(SIMD3<Float>(1, 0, 0), [0, 1, 0]) == [0, 0, 1])

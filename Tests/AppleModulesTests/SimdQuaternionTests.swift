@@ -15,7 +15,7 @@ import simd
     }
   }
 
-  @Test func actsAsItsMatrixDoes() {
+  @Test func actsLikeItsMatrix() {
     let v = SIMD3<Float>(0.3, -4, 2.5)
     #expect(length(q.act(v) - float3x3(q) * v) < 1e-5)
     #expect(length(simd_act(q.inverse, q.act(v)) - v) < 1e-5)

@@ -43,8 +43,10 @@ struct CancelBenchmark: AsyncParsableCommand {
     var trial = CancelTrial(
       photos: URL(fileURLWithPath: photos, isDirectory: true), detail: detail.value, folder: folder,
       generator: SplitMix64(state: seed))
-    try await trial.makeUndisturbed()
-    while trial.count < cancels { try await trial.makeDisturbed(atMost: cancels - trial.count) }
+    try await trial.makeReference()
+    while trial.count < cancels {
+      try await trial.makeWithCancellations(atMost: cancels - trial.count)
+    }
     trial.printSummary()
   }
 }

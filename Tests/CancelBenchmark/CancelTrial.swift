@@ -12,8 +12,8 @@ struct CancelTrial {
   private let detail: PhotogrammetrySession.Request.Detail
   private let folder: URL
   private var generator: SplitMix64
-  private var undisturbed = Data()
-  private var undisturbedSeconds = 0.0
+  private var reference = Data()
+  private var referenceSeconds = 0.0
   private var cancels: [Cancel] = []
   private var models = 0
 
@@ -30,34 +30,34 @@ struct CancelTrial {
   private var checkpoint: URL { folder.appendingPathComponent("checkpoint") }
 
   /// Makes the reference model without a cancellation.
-  mutating func makeUndisturbed() async throws {
+  mutating func makeReference() async throws {
     let start = ContinuousClock.now
-    guard try await run(session(), cancellingAfter: nil) == .complete else {
+    guard try await run(session(), cancelingAfter: nil) == .complete else {
       throw TrialError.failed
     }
-    undisturbedSeconds = seconds(since: start)
-    undisturbed = try Data(contentsOf: model)
+    referenceSeconds = seconds(since: start)
+    reference = try Data(contentsOf: model)
     try clear()
-    print("An uninterrupted session takes \(format(undisturbedSeconds)) s.")
+    print("An uninterrupted session takes \(format(referenceSeconds)) s.")
   }
 
   /// Makes a model with at most `limit` cancellations on the way; every second attempt reuses the
   /// session.
-  mutating func makeDisturbed(atMost limit: Int) async throws {
+  mutating func makeWithCancellations(atMost limit: Int) async throws {
     var session = try session()
     for attempt in 0...limit {
       if attempt.isMultiple(of: 2) { session = try self.session() }
       // A resumed run is shorter, so most times are early.
-      let pause = Double.random(in: 0..<0.6 * undisturbedSeconds, using: &generator)
-      switch try await run(session, cancellingAfter: attempt < limit ? pause : nil) {
-      case .cancelled: continue
+      let pause = Double.random(in: 0..<0.6 * referenceSeconds, using: &generator)
+      switch try await run(session, cancelingAfter: attempt < limit ? pause : nil) {
+      case .canceled: continue
       case .failed: throw TrialError.failed
       case .complete: break
       }
       break
     }
     models += 1
-    guard try Data(contentsOf: model) == undisturbed else { throw TrialError.differs }
+    guard try Data(contentsOf: model) == reference else { throw TrialError.differs }
     try clear()
   }
 
@@ -79,18 +79,18 @@ struct CancelTrial {
 
   /// Processes until the session ends by itself or is canceled.
   private mutating func run(
-    _ session: PhotogrammetrySession, cancellingAfter pause: Double?
-  ) async throws -> SessionWatch.Ending {
-    let watch = SessionWatch()
+    _ session: PhotogrammetrySession, cancelingAfter pause: Double?
+  ) async throws -> SessionObserver.Ending {
+    let observer = SessionObserver()
     let outputs = session.outputs
     try session.process(requests: [.modelFile(url: model, detail: detail)])
-    let ending = Task { try await watch.ending(of: outputs) }
+    let ending = Task { try await observer.ending(of: outputs) }
     guard let pause else { return try await ending.value }
     try await Task.sleep(for: .seconds(pause))
-    let (stage, start) = (watch.stage, ContinuousClock.now)
+    let (stage, start) = (observer.stage, ContinuousClock.now)
     session.cancel()
     let value = try await ending.value
-    if value == .cancelled {
+    if value == .canceled {
       cancels.append(Cancel(stage: stage, seconds: seconds(since: start)))
       print(
         "\(count): after \(format(pause)) s, in \(stage), ended \(format(seconds(since: start))) s later"

@@ -25,7 +25,7 @@ import Testing
     #expect((found.translation - Self.truth.translation).length < 1e-8)
   }
 
-  @Test func wrongPairsDoNotSpoilTheRobustOne() throws {
+  @Test func robustAlignmentIgnoresOutliers() throws {
     let points = Self.points(40)
     var target = points.map { Self.truth * $0 }
     for index in stride(from: 0, to: 40, by: 4) { target[index] += [3, Double(index), -5] }
@@ -71,7 +71,7 @@ import Testing
     #expect(abs(alignment.scale - 1 / 2.5) < 1e-9)
   }
 
-  @Test func photosTurnedUprightAreNoError() throws {
+  @Test func photosRotatedUprightHaveNoError() throws {
     let reference = Self.ring(9)
     let turn = RigidTransform(
       rotation: Quaternion(angle: .pi / 2, axis: [0, 0, 1]), translation: .zero)
@@ -84,7 +84,7 @@ import Testing
     #expect(errors.rotationMaximumDegrees < 1e-4)
   }
 
-  @Test func rotationAndCentreErrorsAreMeasured() throws {
+  @Test func rotationAndCenterErrorsAreMeasured() throws {
     let reference = Self.ring(20)
     var result = reference
     let tilt = RigidTransform(

@@ -42,7 +42,7 @@ import Testing
       result, alignment, reference: comparison.reference(reference, cameras: cameras))
   }
 
-  @Test func treeAgreesWithTryingAll() {
+  @Test func treeAgreesWithBruteForce() {
     var random = SplitMix64(seed: 3)
     func point(_ range: ClosedRange<Float>) -> SIMD3<Float> {
       .init(
@@ -113,7 +113,7 @@ import Testing
     #expect(abs(scores.completeness - 0.125) < 0.01)
   }
 
-  @Test func whatIsFarOutsideIsIgnored() throws {
+  @Test func distantPartsAreIgnored() throws {
     var options = Self.options
     options.margin = 0.01
     let table = Self.square(side: 10, cells: 100)
@@ -122,7 +122,7 @@ import Testing
     #expect(scores.resultSamples < 100)
   }
 
-  @Test func unseenPartsOfTheReferenceDoNotCount() throws {
+  @Test func invisiblePartsOfTheReferenceAreIgnored() throws {
     var reference = Self.square(side: 1)
     let below = Self.square(side: 1, z: -0.4)
     let offset = UInt32(reference.positions.count)
@@ -155,7 +155,7 @@ import Testing
     #expect(try Self.compare(result, with: reference, options: options) == one)
   }
 
-  @Test func cloudsAreTakenAsTheyAre() throws {
+  @Test func cloudsAreScoredDirectly() throws {
     let cloud = PointCloud(positions: [[0.5, 0.5, 0.05], [0.25, 0.25, 0.2]])
     let comparison = SurfaceComparison(Self.options)
     let scores = try comparison.run(
@@ -167,7 +167,7 @@ import Testing
 
   /// A thousand points on the square and one above it: without downsampling, one in a thousand is
   /// wrong.
-  @Test func averagingCountsPlacesInsteadOfPoints() throws {
+  @Test func downsamplingCountsVoxelsInsteadOfPoints() throws {
     let square = Self.square(side: 1)
     var cloud = PointCloud(positions: SurfaceSampling().run(square, count: 1000))
     cloud.positions = cloud.positions.map { [$0.x / 10, $0.y / 10, 0] } + [[0.5, 0.5, 0.4]]
@@ -180,7 +180,7 @@ import Testing
     #expect(averaged.thresholds[0].precision == 0.5)
   }
 
-  @Test func averagesAreMeans() {
+  @Test func downsampledPointsAreMeans() {
     let points: [SIMD3<Float>] = [[0, 0, 0], [5, 5, 5], [0.5, 0.25, 0.75], [5.5, 5, 5]]
     let means = VoxelAveraging(side: 1).run(points)
     #expect(means == [[0.25, 0.125, 0.375], [5.25, 5, 5]])
@@ -189,7 +189,7 @@ import Testing
   }
 
   /// A wall of height 1 on the plane z = 0; the lower half is excluded on both sides.
-  @Test func whatIsBelowTheFloorDoesNotCount() throws {
+  @Test func partsBelowTheFloorAreIgnored() throws {
     func wall(_ heights: ClosedRange<Float>, y: Float) -> Mesh {
       var mesh = Self.square(side: 1)
       let (low, span) = (heights.lowerBound, heights.upperBound - heights.lowerBound)

@@ -14,7 +14,7 @@ import Testing
     }
   }
 
-  @Test func remainsOfKilledWritersAreRemoved() throws {
+  @Test func staleTemporaryFilesAreRemoved() throws {
     try Sample.withFolder { folder in
       let model = AtomicFile.temporaryURL(for: folder.appendingPathComponent("a.usdz"))
       let other = AtomicFile.temporaryURL(for: folder.appendingPathComponent("b.usdz"))
@@ -37,7 +37,7 @@ import Testing
 
   /// The temporary name must not exceed the file system's limit if the name itself doesn't.
   @Test(arguments: ["n", "é", "模"])
-  func theLongestNamesAreWritten(_ letter: String) throws {
+  func longestFileNamesAreWritten(_ letter: String) throws {
     try Sample.withFolder { folder in
       let name = String(repeating: letter, count: 255 / letter.utf8.count)
       try AtomicFile.write([1], to: folder.appendingPathComponent(name))
@@ -45,7 +45,7 @@ import Testing
     }
   }
 
-  @Test func missingParentIsNamedWithARemedy() throws {
+  @Test func missingParentFolderIsReportedWithRemedy() throws {
     try Sample.withFolder { folder in
       let missing = folder.appendingPathComponent("no/such", isDirectory: true)
       let error = #expect(throws: OutputError.self) {
@@ -57,7 +57,7 @@ import Testing
     }
   }
 
-  @Test func folderInTheWay() throws {
+  @Test func existingFolderIsAnError() throws {
     try Sample.withFolder { (folder: URL) -> Void in
       #expect(throws: OutputError.isAFolder(path: folder.path)) {
         try AtomicFile.write([1], to: folder)
@@ -65,7 +65,7 @@ import Testing
     }
   }
 
-  @Test func fileInTheWayOfAFolder() throws {
+  @Test func existingFileIsAnErrorForFolders() throws {
     try Sample.withFolder { folder in
       let file = folder.appendingPathComponent("f")
       try AtomicFile.write([1], to: file)
@@ -78,7 +78,7 @@ import Testing
     }
   }
 
-  @Test func fullDiskIsSaid() throws {
+  @Test func fullDiskIsReported() throws {
     let error = AtomicFile.outputError(POSIXError(.ENOSPC), path: "/x/y")
     #expect(error as? OutputError == .diskFull(path: "/x/y"))
     let cocoa = AtomicFile.outputError(CocoaError(.fileWriteOutOfSpace), path: "/x/y")
@@ -87,7 +87,7 @@ import Testing
     #expect(denied as? OutputError == .notWritable(path: "/x/y"))
   }
 
-  @Test func folderAppearsWholeOrNotAtAll() throws {
+  @Test func folderWriteIsAtomic() throws {
     struct Stop: Error {}
     try Sample.withFolder { folder in
       let output = folder.appendingPathComponent("model")
@@ -102,7 +102,7 @@ import Testing
     }
   }
 
-  @Test func otherFilesOfAFolderStay() throws {
+  @Test func otherFilesOfAFolderAreKept() throws {
     try Sample.withFolder { folder in
       let other = folder.appendingPathComponent("mine.txt")
       try AtomicFile.write([9], to: other)

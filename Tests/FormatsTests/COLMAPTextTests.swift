@@ -34,7 +34,7 @@ import Testing
       ])
   }()
 
-  @Test func everythingComesBackExactly() throws {
+  @Test func roundTripIsExact() throws {
     try Sample.withFolder { folder in
       let sparse = folder.appendingPathComponent("sparse")
       try COLMAPText.write(Self.reconstruction, to: sparse)
@@ -105,7 +105,7 @@ import Testing
     ("FULL_OPENCV", "100 101 50 40 1 2 3 4 0.1 0 0 0"), ("OPENCV_FISHEYE", "9 9 5 5 1 2 3 4"),
     ("FOV", "100 101 50 40 0.9"),
   ])
-  func modelsBeyondOursAreNamed(_ model: String, _ parameters: String) throws {
+  func unsupportedCameraModelsAreReported(_ model: String, _ parameters: String) throws {
     try Sample.withFolder { folder in
       try write(folder, cameras: "7 \(model) 100 80 \(parameters)\n", images: "", points: "")
       let path = folder.appendingPathComponent("cameras.txt").path
@@ -115,7 +115,7 @@ import Testing
     }
   }
 
-  @Test func camerasAloneMayHaveNoEmptyLinesAndNoPoints() throws {
+  @Test func emptyLinesAndPointsAreOptional() throws {
     try Sample.withFolder { folder in
       try write(
         folder, cameras: "1 PINHOLE 10 10 5 5 5 5\n",
@@ -129,7 +129,7 @@ import Testing
     }
   }
 
-  @Test func whatRefersToNothingIsLeftOut() throws {
+  @Test func danglingReferencesAreDropped() throws {
     try Sample.withFolder { folder in
       try write(
         folder, cameras: "1 SIMPLE_PINHOLE 10 10 5 5 5\n",

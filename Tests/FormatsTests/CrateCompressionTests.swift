@@ -17,7 +17,7 @@ import Testing
     #expect(try Self.decompress(LZ4Block.compress(input)) == input)
   }
 
-  @Test func repetitionIsCompressed() {
+  @Test func repetitiveInputIsCompressed() {
     #expect(LZ4Block.compress([UInt8](repeating: 0, count: 100_000)).count < 500)
   }
 
@@ -26,7 +26,7 @@ import Testing
       [], [5], [1, 2, 3, 4], [3, 3, 3, 3, 3], [0, 127, -1, -129, 40_000, -70_000, .max, .min, 0],
       (0..<1000).map { Int32($0 * $0) },
     ] as [[Int32]])
-  func integersComeBack(_ integers: [Int32]) throws {
+  func integersRoundTrip(_ integers: [Int32]) throws {
     let packed = CrateCompression.compress(integers)
     #expect(packed.first == 0)
     let bytes = try Self.decompress(Array(packed.dropFirst()))

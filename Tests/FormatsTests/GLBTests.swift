@@ -52,7 +52,7 @@ import Testing
   }
 
   @Test(arguments: [1, 3])
-  func geometryComesBackAsItWas(_ atlasCount: Int) throws {
+  func geometryRoundTrips(_ atlasCount: Int) throws {
     let sphere = Sample.sphere(rings: 7, atlasCount: atlasCount)
     let file = try GLBReader(try GLBFile.encode(sphere, materials: [], creator: "tests"))
     #expect(file.primitives.count == atlasCount)
@@ -73,7 +73,7 @@ import Testing
     #expect((file.root["asset"] as? GLBReader.Object)?["generator"] as? String == "tests")
   }
 
-  @Test func materialsLeadToTheirImages() throws {
+  @Test func materialsReferenceTheirImages() throws {
     let sphere = Sample.sphere(rings: 3, atlasCount: 2)
     let materials = [
       GLTFMaterial(
@@ -101,7 +101,7 @@ import Testing
     #expect(factors.map { $0?["roughnessFactor"] as? Double } == [0.9, 1])
   }
 
-  @Test func roughnessAloneIsNoOcclusion() throws {
+  @Test func roughnessAloneAddsNoOcclusion() throws {
     let material = GLTFMaterial(surface: .roughness(image("rough")))
     let file = try GLBReader(
       try GLBFile.encode(square, materials: [material], creator: "tests"))
@@ -109,7 +109,7 @@ import Testing
     #expect(try file.image(0, "pbrMetallicRoughness", "metallicRoughnessTexture") != nil)
   }
 
-  @Test func whatTheMeshLacksIsLeftOut() throws {
+  @Test func missingAttributesAreOmitted() throws {
     var mesh = square
     mesh.mesh.normals = []
     (mesh.textureCoordinates, mesh.textureTriangles) = ([], [])
@@ -123,7 +123,7 @@ import Testing
     #expect(file.root["images"] == nil && file.root["textures"] == nil)
   }
 
-  @Test func normalsAreOfUnitLength() throws {
+  @Test func normalsHaveUnitLength() throws {
     var mesh = square
     mesh.mesh.normals[1] = .zero
     let file = try GLBReader(try GLBFile.encode(mesh, materials: [], creator: "tests"))
@@ -149,7 +149,7 @@ import Testing
     #expect(bytes[0] == bytes[1])
   }
 
-  @Test func theNameTellsTheFormat() {
+  @Test func fileExtensionSelectsTheFormat() {
     let names = [
       "model.usdz": ModelFormat.usdz, "MODEL.GLB": .glb, "a.b.ply": .ply, "model": .folder,
       "model.obj": .folder, ".glb": .folder, "model.glb.bak": .folder,

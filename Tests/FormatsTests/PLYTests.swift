@@ -12,7 +12,7 @@ import Testing
     consistency: [0.5, -1, 1], footprints: [0.001, 0.002, 0.003],
     photoOffsets: [0, 2, 2, 5], photoIndices: [0, 999, 1, 2, 65535])
 
-  @Test func cloudComesBackAsItWas() throws {
+  @Test func cloudRoundTrips() throws {
     try Sample.withFolder { folder in
       let url = folder.appendingPathComponent("points.ply")
       try PLY.write(Self.cloud, to: url)
@@ -27,7 +27,7 @@ import Testing
     }
   }
 
-  @Test func meshComesBackAsItWas() throws {
+  @Test func meshRoundTrips() throws {
     try Sample.withFolder { folder in
       let url = folder.appendingPathComponent("surface.ply")
       var mesh = Sample.sphere(rings: 5).mesh
@@ -41,7 +41,7 @@ import Testing
     }
   }
 
-  @Test func foursidedFacesComeBackAsTheirHalves() throws {
+  @Test func quadsRoundTripAsTrianglePairs() throws {
     let mesh = Sample.sphere(rings: 3).mesh
     let bytes = PLY.encode(mesh, halves: [2..<6, 8..<10])
     let header = String(decoding: bytes.prefix(400), as: UTF8.self)
@@ -50,7 +50,7 @@ import Testing
     #expect(back.triangles == mesh.triangles && back.positions == mesh.positions)
   }
 
-  @Test func emptyValuesComeBackEmpty() throws {
+  @Test func emptyValuesRoundTrip() throws {
     try Sample.withFolder { folder in
       let url = folder.appendingPathComponent("empty.ply")
       try PLY.write(PointCloud(), to: url)
@@ -131,7 +131,7 @@ import Testing
     }
   }
 
-  @Test func missingFileIsNamed() throws {
+  @Test func missingFileIsReported() throws {
     #expect {
       try PLY.readMesh(URL(fileURLWithPath: "/nowhere/at/all.ply"))
     } throws: {

@@ -57,7 +57,7 @@ import Testing
         """#)
   }
 
-  @Test func modelHasThePromisedStructure() throws {
+  @Test func modelHasTheDocumentedStructure() throws {
     let layer = USDModelLayer().layer(Sample.model(rings: 4))
     #expect(layer.defaultPrim == "baked_mesh")
     #expect(layer.metadata.contains(USDField("metersPerUnit", .double(1))))
@@ -83,7 +83,7 @@ import Testing
         .attribute("asset", "inputs:file", .asset("0/baked_mesh_tex0.png"))))
   }
 
-  @Test func foursidedFacesComeFirst() throws {
+  @Test func quadsComeFirst() throws {
     var model = Sample.model(rings: 4, atlasCount: 2)
     model.mesh.atlases[0].quadCount = 3
     let layer = USDModelLayer().layer(model)
@@ -107,7 +107,7 @@ import Testing
     #expect(Set(try values("faceVertexCounts", of: "g1")) == [3])
   }
 
-  @Test func atlasesBecomeMeshesThatTogetherAreTheWhole() {
+  @Test func atlasMeshesPartitionTheModel() {
     let model = Sample.model(rings: 6, atlasCount: 3)
     let parts = model.parts
     #expect(parts.count == 3)

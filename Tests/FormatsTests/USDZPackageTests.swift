@@ -5,7 +5,7 @@ import Testing
 @testable import Formats
 
 @Suite struct USDZPackageTests {
-  @Test func checksumOfTheStandardExample() {
+  @Test func checksumMatchesTheReferenceValue() {
     #expect(CRC32.checksum(Array("123456789".utf8)) == 0xCBF4_3926)
     #expect(CRC32.checksum([]) == 0)
   }
@@ -31,7 +31,7 @@ import Testing
   }
 
   /// Names whose header ends 1 to 64 bytes before the next boundary.
-  @Test func everyPaddingIsPossible() throws {
+  @Test func everyPaddingLengthIsValid() throws {
     for length in 1...64 {
       var zip = StoredZip()
       zip.append(String(repeating: "n", count: length), [1, 2, 3])

@@ -46,7 +46,7 @@ struct GrowthBenchmark: ParsableCommand {
     result.matching = Cost(from: start, to: matched)
     if let mapped = try map(graph, cameras, scene, context) {
       result.mapping = Cost(from: matched, to: .now)
-      try result.judge(mapped, scene)
+      try result.compare(mapped, scene)
     }
     result.peakMemoryBytes = ResourceUsage.now.peakMemoryBytes
     let encoder = JSONEncoder()

@@ -47,7 +47,7 @@ struct Result: Codable {
   }
 
   /// Compares the poses with the true ones.
-  mutating func judge(_ reconstruction: Reconstruction, _ scene: GrowthScene) throws {
+  mutating func compare(_ reconstruction: Reconstruction, _ scene: GrowthScene) throws {
     let truth = scene.photos.map {
       NamedCamera(name: $0.name, camera: scene.camera, cameraFromWorld: scene.poses[$0.id.index])
     }

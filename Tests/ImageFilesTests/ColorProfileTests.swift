@@ -65,13 +65,13 @@ import Testing
 
   private let displayP3 = ICCWriter.profile(.displayP3)
 
-  @Test func profilesOfPNGFilesCount() throws {
+  @Test func pngProfilesAreApplied() throws {
     let bytes = png(try ImageCodec.encodePNG(Self.patches), with: displayP3)
     #expect(ColorProfile(bytes) == .icc(displayP3))
     expectConverted(try ImageCodec.decode(bytes), within: 1.01, fromDisplayP3)
   }
 
-  @Test func profilesOfJPEGFilesCountInParts() throws {
+  @Test func multipartJPEGProfilesAreApplied() throws {
     let plain = try ImageCodec.encodeJPEG(Self.patches, quality: 1)
     for parts in [1, 3] {
       let bytes = jpeg(plain, with: displayP3, parts: parts)
@@ -80,7 +80,7 @@ import Testing
     }
   }
 
-  @Test func profilesOfHEICFilesCount() throws {
+  @Test func heicProfilesAreApplied() throws {
     var content = ImageCodec.HEICContent()
     content.quality = 1
     content.colorProfile = displayP3
@@ -89,7 +89,7 @@ import Testing
     expectConverted(try ImageCodec.decode(bytes), within: 6, fromDisplayP3)
   }
 
-  @Test func adobeRGBIsToldByCameras() throws {
+  @Test func adobeRGBIsDetectedFromEXIF() throws {
     let bytes = jpeg(try ImageCodec.encodeJPEG(Self.patches, quality: 1), withKind: "R03")
     #expect(ColorProfile(bytes) == .adobeRGB)
     var image = Self.patches
@@ -103,7 +103,7 @@ import Testing
     #expect(ColorProfile(converted) == nil)
   }
 
-  @Test func colorsOfSRGBStay() throws {
+  @Test func sRGBColorsAreUnchanged() throws {
     let plain = try ImageCodec.encodePNG(Self.patches)
     #expect(try ImageCodec.decode(png(plain, with: ICCWriter.profile(.sRGB))) == Self.patches)
     #expect(ColorProfile(plain) == nil)

@@ -25,7 +25,7 @@ import Testing
     return Double(differences.reduce(0, +)) / Double(max(differences.count, 1))
   }
 
-  @Test func pixelsComeBack() throws {
+  @Test func pixelsRoundTrip() throws {
     let bytes = try ImageCodec.encodeHEIC(slopes())
     #expect(try ImageHeader(bytes) == ImageHeader(format: .heic, width: 96, height: 64))
     let decoded = try ImageCodec.decode(bytes)
@@ -35,7 +35,7 @@ import Testing
     #expect(try ImageCodec.encodeHEIC(slopes()) == bytes)
   }
 
-  @Test(arguments: 1...8) func imagesComeUpright(orientation: Int) throws {
+  @Test(arguments: 1...8) func imagesAreRotatedUpright(orientation: Int) throws {
     var content = ImageCodec.HEICContent()
     content.orientation = orientation
     let bytes = try ImageCodec.encodeHEIC(slopes(), content)
@@ -47,9 +47,9 @@ import Testing
     #expect(meanDifference(decoded, upright) < 3)
   }
 
-  @Test func alphaIsReadAlone() throws {
+  @Test func alphaIsDecodedSeparately() throws {
     let bytes = try ImageCodec.encodeHEIC(slopes(channels: 4))
-    #expect(ImageHeader.promisesAlpha(bytes))
+    #expect(ImageHeader.declaresAlpha(bytes))
     let alpha = try #require(try ImageCodec.decodeAlpha(bytes))
     #expect(alpha.channels == 1 && (alpha.width, alpha.height) == (96, 64))
     for x in [4, 40, 56, 90] {
@@ -69,7 +69,7 @@ import Testing
     #expect(model.flatMap { tiff.text($0) } == "Box")
   }
 
-  @Test(arguments: [0.01, 0.1, 0.3, 0.6, 0.95]) func cutOffFilesAreDamaged(
+  @Test(arguments: [0.01, 0.1, 0.3, 0.6, 0.95]) func truncatedFilesAreDamaged(
     fraction: Double
   ) throws {
     let bytes = try ImageCodec.encodeHEIC(slopes(width: 256, height: 256))
@@ -81,7 +81,7 @@ import Testing
     }
   }
 
-  @Test func noDamageCrashes() throws {
+  @Test func corruptionNeverCrashes() throws {
     var random = SplitMix64(seed: 11)
     let whole = try ImageCodec.encodeHEIC(slopes())
     for round in 0..<300 {
@@ -99,7 +99,7 @@ import Testing
     }
   }
 
-  @Test func sequencesAndVideosAreNamed() {
+  @Test func sequencesAndVideosAreIdentified() {
     func file(_ brands: String...) -> [UInt8] {
       let content =
         Array("ftyp".utf8) + Array(brands[0].utf8) + [0, 0, 0, 0]

@@ -92,7 +92,7 @@ import Testing
       + directory + little(0)
   }
 
-  @Test func alphaIsReadAlone() throws {
+  @Test func alphaIsDecodedSeparately() throws {
     var image = RasterImage(width: 6, height: 4, channels: 4, filledWith: 90)
     var alpha = RasterImage(width: 6, height: 4, channels: 1)
     for index in alpha.pixels.indices {
@@ -114,7 +114,7 @@ import Testing
     #expect(throws: ImageError.self) { try ImageCodec.decodeAlpha(Array(png.dropLast(30))) }
   }
 
-  @Test func dilationReachesASquare() throws {
+  @Test func dilationUsesASquareWindow() throws {
     var image = RasterImage(width: 9, height: 7, channels: 1)
     image.pixels[3 * 9 + 4] = 200
     let wide = try image.dilated(by: 2)
@@ -127,7 +127,7 @@ import Testing
     #expect(throws: KernelError.self) { try pattern().dilated(by: 1) }
   }
 
-  @Test(arguments: [0.2, 0.5, 0.9]) func cutOffFilesAreDamaged(fraction: Double) throws {
+  @Test(arguments: [0.2, 0.5, 0.9]) func truncatedFilesAreDamaged(fraction: Double) throws {
     for bytes in [
       try ImageCodec.encodeJPEG(pattern(width: 200, height: 200), quality: 0.9),
       try ImageCodec.encodePNG(pattern(width: 200, height: 200)),
@@ -141,7 +141,7 @@ import Testing
     }
   }
 
-  @Test func headersThatPromiseTooMuchAreRefusedBeforeDecoding() throws {
+  @Test func oversizedHeadersAreRejectedBeforeDecoding() throws {
     var bytes = try ImageCodec.encodePNG(pattern())
     bytes.replaceSubrange(16..<24, with: [0, 1, 0, 0, 0, 1, 0, 0])
     #expect(throws: ImageError.tooLarge(width: 65536, height: 65536)) {
@@ -149,7 +149,7 @@ import Testing
     }
   }
 
-  @Test func otherContentIsNamed() {
+  @Test func otherContentIsIdentified() {
     #expect(throws: ImageError.unsupportedFormat("a GIF image")) {
       try ImageHeader(Array("GIF89a".utf8))
     }
@@ -159,7 +159,7 @@ import Testing
     #expect(throws: ImageError.self) { try ImageHeader([]) }
   }
 
-  @Test func noPrefixOfAnyHeaderCrashes() throws {
+  @Test func truncatedHeadersNeverCrash() throws {
     let bytes = try ImageCodec.encodeJPEG(pattern(), quality: 0.5)
     for count in 0..<min(700, bytes.count) { _ = try? ImageHeader(Array(bytes.prefix(count))) }
     let tiff: [UInt8] = [0x49, 0x49, 42, 0, 8, 0, 0, 0, 0xFF, 0xFF, 0, 1, 4, 0]
@@ -171,7 +171,7 @@ import Testing
     arguments: zip(
       1...8,
       [(0, 0), (2, 0), (2, 1), (0, 1), (0, 0), (1, 0), (1, 2), (0, 2)]))
-  func orientationsTurnUpright(orientation: Int, corner: (x: Int, y: Int)) throws {
+  func orientationsAreAppliedUpright(orientation: Int, corner: (x: Int, y: Int)) throws {
     // 3 × 2: the top-left pixel is 1, its right neighbor 2, the one below 4.
     let stored = RasterImage(width: 3, height: 2, channels: 1, pixels: [1, 2, 3, 4, 5, 6])
     let upright = try stored.turned(byOrientation: orientation)
@@ -191,7 +191,7 @@ import Testing
     #expect(half.pixels == [25, 45])
   }
 
-  @Test func undistortingMovesPixelsAsTheCameraSays() throws {
+  @Test func undistortionFollowsTheCameraModel() throws {
     let camera = Camera(
       width: 320, height: 240, focalLength: [280, 282], principalPoint: [158, 121],
       distortion: [-0.2, 0.05, 0.001, -0.002])

@@ -38,7 +38,7 @@ import Testing
     #expect(position.altitude == -12.5)
   }
 
-  @Test func nonsenseIsNil() throws {
+  @Test func implausibleValuesAreNil() throws {
     var fields = ExifFields()
     fields.orientation = 9
     fields.focalLength = (50, 0)
@@ -49,7 +49,7 @@ import Testing
     #expect(read == PhotoMetadata())
   }
 
-  @Test func noPrefixAndNoFlippedByteCrashes() throws {
+  @Test func truncatedAndCorruptedDataDoesNotCrash() throws {
     var fields = ExifFields()
     fields.make = "Maker"
     fields.focalLength = (50, 1)
@@ -78,7 +78,7 @@ import Testing
     #expect(read.focalLengthIn35mmFilm == 28)
   }
 
-  @Test func decodersOfHEICTurnTheImageThemselves() throws {
+  @Test func heicDecodersApplyTheOrientation() throws {
     var fields = ExifFields()
     fields.orientation = 6
     fields.focalLengthIn35mmFilm = 26

@@ -6,7 +6,7 @@ import Testing
   static let memory = "MemTotal:       16000000 kB\nMemFree: 1 kB\nMemAvailable:   8000000 kB\n"
   static let processor = "processor : 0\nflags\t\t: fpu sse4_1 sse4_2 popcnt avx2\nbugs : none\n"
 
-  @Test func readsWhatTheKernelSays() {
+  @Test func parsesTheKernelsFiles() {
     let machine = Machine(
       memory: Self.memory, processor: Self.processor, containerLimit: nil, containerUse: nil)
     #expect(machine.totalMemoryBytes == 16_000_000 * 1024)
@@ -15,7 +15,7 @@ import Testing
     #expect(machine.shortfalls.isEmpty)
   }
 
-  @Test func containerLimitsCount() throws {
+  @Test func containerLimitsApply() throws {
     let machine = Machine(
       memory: Self.memory, processor: Self.processor, containerLimit: 3 << 30,
       containerUse: 2 << 30)
@@ -24,13 +24,13 @@ import Testing
     #expect(sentence.contains("1024 MB") && sentence.contains("2048 MB"))
   }
 
-  @Test func oldProcessorsAreNamed() throws {
+  @Test func missingProcessorFeaturesAreReported() throws {
     let machine = Machine(
       memory: Self.memory, processor: "flags : fpu sse2", containerLimit: nil, containerUse: nil)
     #expect(try #require(machine.shortfalls.first).contains("sse4_2"))
   }
 
-  @Test func unknownTextsAreNoShortfall() {
+  @Test func unparsableFilesAreNoShortfall() {
     let machine = Machine(memory: "", processor: "", containerLimit: nil, containerUse: nil)
     #expect(machine.processorFeatures == nil && machine.totalMemoryBytes > 0)
   }

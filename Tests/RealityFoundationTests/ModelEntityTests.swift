@@ -76,7 +76,7 @@ import Testing
     #expect(entity.visualBounds(relativeTo: nil, excludeInactive: true).isEmpty)
   }
 
-  @Test func entitiesAreToldApart() throws {
+  @Test func entitiesHaveIdentity() throws {
     let (a, b) = (ModelEntity(textured), ModelEntity(textured))
     #expect(a != b && a.id != b.id && Set([a, b, a]).count == 2)
     #expect(a.name == b.name && !a.name.isEmpty)

@@ -9,7 +9,7 @@ import Testing
     if case .skippedSample(let id) = output { id } else { nil }
   }
 
-  @Test func keepsWhatComesBeforeTheFirstReader() async {
+  @Test func outputsAreBufferedForTheFirstReader() async {
     let buffer = OutputBuffer()
     for id in 0..<1000 { buffer.append(.skippedSample(id: id)) }
     buffer.finish()
@@ -19,7 +19,7 @@ import Testing
     #expect(await cursor.next() == nil)
   }
 
-  @Test func laterReaderGoesOnWhereTheFarthestWas() async {
+  @Test func laterReaderStartsAtTheMostAdvancedPosition() async {
     let buffer = OutputBuffer()
     for id in 0..<200 { buffer.append(.skippedSample(id: id)) }
     do {
@@ -30,7 +30,7 @@ import Testing
     #expect(id(await second.next()) == 150)
   }
 
-  @Test func readersAtTheSameTimeSeeTheSame() async {
+  @Test func concurrentReadersReceiveTheSameOutputs() async {
     let buffer = OutputBuffer()
     let cursors = (0..<3).map { _ in OutputBuffer.Cursor(buffer) }
     let readers = cursors.map { cursor in
@@ -48,7 +48,7 @@ import Testing
     for reader in readers { #expect(await reader.value == Array(0..<300)) }
   }
 
-  @Test func cancelledTaskStopsWaiting() async {
+  @Test func canceledTaskStopsWaiting() async {
     let buffer = OutputBuffer()
     let task = Task { await OutputBuffer.Cursor(buffer).next() == nil }
     await Task.yield()

@@ -11,7 +11,7 @@ import Testing
   let cameraFromWorld = RigidTransform(
     rotation: Quaternion(angle: 0.8, axis: [0.2, 1, -0.4]), translation: [0.3, -0.1, 4])
 
-  @Test func lookAlongMinusZ() {
+  @Test func camerasLookAlongMinusZ() {
     let pose = PhotogrammetrySession.Pose(cameraFromWorld: cameraFromWorld, camera: camera)
     // A point to the right of, below and in front of the camera. In RealityKit's camera frame x
     // points right, y up and z toward the viewer.
@@ -24,7 +24,7 @@ import Testing
     #expect(length(pose.translation - SIMD3<Float>(cameraFromWorld.center)) < 1e-6)
   }
 
-  @Test func intrinsicsProjectAsTheCameraDoes() throws {
+  @Test func intrinsicsProjectLikeTheCamera() throws {
     let pose = PhotogrammetrySession.Pose(cameraFromWorld: cameraFromWorld, camera: camera)
     let pixel = try #require(pose.intrinsics) * SIMD3<Float>(0.1, -0.2, 1)
     #expect(length(SIMD2(pixel.x, pixel.y) - [240, 58]) < 1e-4 && pixel.z == 1)

@@ -30,7 +30,7 @@ import Testing
   }
 
   @Test(arguments: [0.1, 0.5, 1, 3, 12])
-  func slowAndFastMachinesAreFoundOut(factor: Double) throws {
+  func machineSpeedIsEstimated(factor: Double) throws {
     for sample in simulate({ (Self.usual[$0] ?? 0) * factor }) where sample.time > sample.total / 3
     {
       let estimate = try #require(sample.estimate)
@@ -38,7 +38,7 @@ import Testing
     }
   }
 
-  @Test func unevenStagesStayWithinReasonAfterTheFirstThird() throws {
+  @Test func unevenStagesAreEstimatedWithinHalfAfterTheFirstThird() throws {
     let factors: [PipelineStage: Double] = [
       .preProcessing: 2, .imageAlignment: 1.6, .pointCloudGeneration: 0.8, .meshGeneration: 1.5,
       .textureMapping: 0.7, .optimization: 2,
@@ -51,14 +51,14 @@ import Testing
     #expect(try #require(samples.last?.estimate) < 1e-9)
   }
 
-  @Test func nothingIsToldBeforeThereIsEvidence() {
+  @Test func noEstimateBeforeThereIsEvidence() {
     var estimator = ProgressEstimator(units: Self.units, at: 0) { Self.usual[$0.stage] ?? 0 }
     #expect(estimator.remainingSeconds(of: Self.units) == nil)
     estimator.advance(WorkUnit(stage: .preProcessing), to: 0.1, at: 0.4)
     #expect(estimator.remainingSeconds(of: Self.units) == nil)
   }
 
-  @Test func workTakenOverSaysNothingAboutTheSpeed() throws {
+  @Test func reusedWorkDoesNotAffectTheSpeed() throws {
     var estimator = ProgressEstimator(units: Self.units, at: 0) { Self.usual[$0.stage] ?? 0 }
     estimator.advance(WorkUnit(stage: .preProcessing), to: 1, at: 5)
     estimator.advance(WorkUnit(stage: .imageAlignment), to: 1, at: 5.01)
@@ -67,7 +67,7 @@ import Testing
     #expect(abs(estimate - 115) < 5)
   }
 
-  @Test func fractionsAreWeightedAndNeverGoBack() {
+  @Test func fractionsAreWeightedAndMonotone() {
     var estimator = ProgressEstimator(units: Self.units, at: 0) { Self.usual[$0.stage] ?? 0 }
     let alignment = [WorkUnit(stage: .preProcessing), WorkUnit(stage: .imageAlignment)]
     estimator.advance(alignment[0], to: 1, at: 5)
@@ -81,7 +81,7 @@ import Testing
     #expect(estimator.fraction(of: alignment) == 1)
   }
 
-  @Test func workInBetweenCounts() throws {
+  @Test func precedingWorkIsIncluded() throws {
     var estimator = ProgressEstimator(units: Self.units, at: 0) { Self.usual[$0.stage] ?? 0 }
     estimator.advance(WorkUnit(stage: .preProcessing), to: 1, at: 5)
     let all = try #require(estimator.remainingSeconds(of: Self.units))

@@ -118,7 +118,7 @@ private func summary(of result: PhotogrammetrySession.Result) -> String {
     }
   }
 
-  @Test func samplesCarryWhatTheyAreGiven() throws {
+  @Test func samplesKeepTheirProperties() throws {
     var buffer: CVPixelBuffer?
     #expect(
       CVPixelBufferCreate(kCFAllocatorDefault, 30, 20, kCVPixelFormatType_32BGRA, nil, &buffer)
@@ -142,7 +142,7 @@ private func summary(of result: PhotogrammetrySession.Result) -> String {
     #expect(buffer == nil)
   }
 
-  @Test func pixelBuffersTakeOverBytes() throws {
+  @Test func pixelBuffersCopyBytes() throws {
     // Two rows of two BGRA pixels, with four bytes of padding between them.
     var bytes: [UInt8] = [1, 2, 3, 255, 4, 5, 6, 255, 0, 0, 0, 0, 7, 8, 9, 255, 1, 1, 1, 255, 0, 0]
     bytes += [0, 0]

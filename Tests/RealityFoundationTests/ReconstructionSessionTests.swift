@@ -30,7 +30,7 @@ import Testing
     outputs.compactMap { if case .requestError(_, let error) = $0 { error } else { nil } }
   }
 
-  @Test func everythingComesInOneFrame() async throws {
+  @Test func allResultsShareOneFrame() async throws {
     let session = try Session(input: Fixtures.images(of: "orbit"))
     session.engineOptions.threadCount = 2
     let outputs = try await run(session, [.poses, .pointCloud])
@@ -50,12 +50,12 @@ import Testing
       let view = pose.rotation.act([0, 0, -1])
       #expect(dot(view, normalize(box.center - pose.translation)) > 0.8)
     }
-    try await modelFollows(session, box)
-    try await entitiesAreCroppedAndMoved(session)
+    try await expectModelFromEarlierResults(session, box)
+    try await expectCroppedAndTransformedEntities(session)
   }
 
   /// Requests the upper half of the model, scaled by two, and the whole model.
-  private func entitiesAreCroppedAndMoved(_ session: Session) async throws {
+  private func expectCroppedAndTransformedEntities(_ session: Session) async throws {
     let whole = Session.Request.modelEntity(detail: .preview)
     guard case .modelEntity(let entity) = results(in: try await run(session, [whole]))[whole] else {
       Issue.record("the entity is missing")
@@ -87,7 +87,7 @@ import Testing
   }
 
   /// A second call makes a model from the results of the first.
-  private func modelFollows(_ session: Session, _ box: BoundingBox) async throws {
+  private func expectModelFromEarlierResults(_ session: Session, _ box: BoundingBox) async throws {
     try await withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("model.usdz")
       let model = Session.Request.modelFile(url: url, detail: .preview)
@@ -119,7 +119,7 @@ import Testing
     #expect(!session.isProcessing)
   }
 
-  @Test func badPhotosAreNamed() async throws {
+  @Test func badPhotosAreReported() async throws {
     let session = try Session(input: Fixtures.folder("bad"))
     let outputs = try await run(session, [.poses])
     let reasons = outputs.compactMap { output -> String? in

@@ -22,7 +22,7 @@ import Testing
     if case Session.Error.invalidOutput = error { true } else { false }
   }
 
-  @Test func theURLDecidesAboutTheKindOfOutput() throws {
+  @Test func theURLSelectsTheKindOfOutput() throws {
     try withTemporaryFolder { folder in
       let file = folder.appendingPathComponent("model.usdz")
       #expect((try? OutputLocation(file)) == .file(file))
@@ -38,7 +38,7 @@ import Testing
     }
   }
 
-  @Test func geometriesThatMakeNoSenseAreRefused() throws {
+  @Test func invalidGeometriesAreRejected() throws {
     typealias Geometry = Session.Request.Geometry
     var flat = Transform.identity
     flat.scale.y = 0
@@ -69,7 +69,7 @@ import Testing
     }
   }
 
-  @Test func outputsThatCannotBeWrittenAreRefused() throws {
+  @Test func unwritableOutputsAreRejected() throws {
     try withTemporaryFolder { folder in
       try Data().write(to: folder.appendingPathComponent("file"))
       let wrong = [

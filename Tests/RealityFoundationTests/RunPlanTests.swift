@@ -11,7 +11,7 @@ import Testing
     .modelFile(url: URL(fileURLWithPath: "/tmp/\(name).usdz"), detail: detail)
   }
 
-  @Test func whatNeedsLeastComesFirst() {
+  @Test func cheapestRequestsComeFirst() {
     let requests = [
       model("m", .medium), .bounds, model("p", .preview), .pointCloud, .poses, .poses,
     ]
@@ -51,14 +51,14 @@ import Testing
     #expect(largest.finest.viewPixels == DetailSpecification(.raw).viewPixels)
   }
 
-  @Test func thePipelineIsToldOfTheFaces() {
+  @Test func meshPrimitiveIsPassedToThePipeline() {
     var configuration = Session.Configuration()
     #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .triangle)
     configuration.meshPrimitive = .quad
     #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .quad)
   }
 
-  @Test func entitiesNeedNoFileAndComeByTheirDetail() {
+  @Test func entitiesAreOrderedByDetail() {
     let coarse = Session.Request.modelEntity(detail: .preview)
     let plan = RunPlan(
       [model("m", .reduced), .modelEntity(detail: .medium), coarse, .bounds],

@@ -17,7 +17,7 @@ import Testing
     PhotogrammetrySample(id: id, image: try #require(CVPixelBuffer(Self.image)))
   }
 
-  @Test func gravityIsTurnedIntoTheUprightPhoto() throws {
+  @Test func gravityIsRotatedIntoTheUprightPhoto() throws {
     var sample = try sample(0)
     #expect(sample.gravityInCamera == nil)
     // Held upright; the right side of the photo is stored as its first row.
@@ -40,7 +40,7 @@ import Testing
     #expect(sample.gravityInCamera == nil)
   }
 
-  @Test(arguments: 1...8) func depthIsTurnedAsThePhotoIs(orientation: Int) throws {
+  @Test(arguments: 1...8) func depthIsRotatedLikeThePhoto(orientation: Int) throws {
     var sample = try sample(0)
     sample.metadata["Orientation"] = orientation
     let buffer = CVPixelBuffer(
@@ -66,7 +66,7 @@ import Testing
         })
   }
 
-  @Test func depthOfOtherFormatsIsNone() throws {
+  @Test func otherFormatsHaveNoDepth() throws {
     var sample = try sample(0)
     #expect(sample.uprightDepth == nil)
     sample.depthDataMap = sample.image
@@ -76,7 +76,7 @@ import Testing
     #expect(sample.uprightDepth == DepthMap(width: 2, height: 1, depths: [0, 0]))
   }
 
-  @Test func pixelBuffersKeepTheirColours() throws {
+  @Test func pixelBuffersKeepTheirColors() throws {
     let buffer = try #require(CVPixelBuffer(Self.image))
     #expect(buffer.bytesPerRow == 192 && buffer.pixelFormat == kCVPixelFormatType_32BGRA)
     #expect(buffer.image == Self.image)
@@ -141,18 +141,18 @@ import Testing
     }
   }
 
-  @Test func sequencesAreGoneThroughOnceAndLazily() throws {
-    let made = Locked(0)
+  @Test func sequencesAreIteratedOnceAndLazily() throws {
+    let madeCount = Locked(0)
     let image = try #require(CVPixelBuffer(Self.image))
     let depth = try #require(
       CVPixelBuffer(width: 9, height: 9, pixelFormat: kCVPixelFormatType_DepthFloat32))
     let ids = [5, 3, 5, -1, 9, 7]
     let samples = ids.lazy.map { id in
-      made.withLock { $0 += 1 }
+      madeCount.withLock { $0 += 1 }
       return PhotogrammetrySample(id: id, image: id == 9 ? depth : image)
     }
     let folder = SampleFolder(samples)
-    #expect(made.withLock { $0 } == 0)
+    #expect(madeCount.withLock { $0 } == 0)
     var refused: [Int] = []
     func note(_ event: PipelineEvent) {
       if case .refused(let photo) = event { refused.append(photo.sampleID) }
@@ -160,7 +160,7 @@ import Testing
     let url = try folder.write(flag: CancellationFlag(), onEvent: note)
     #expect(folder.ids == [5, 3, 7] && refused == [5, -1, 9])
     #expect(try folder.write(flag: CancellationFlag(), onEvent: { _ in }) == url)
-    #expect(made.withLock { $0 } == ids.count)
+    #expect(madeCount.withLock { $0 } == ids.count)
     let files = try FileManager.default.contentsOfDirectory(atPath: url.path).sorted()
     #expect(files == ["sample0.png", "sample1.png", "sample2.png"])
     let photo = folder.translated(
@@ -178,7 +178,7 @@ import Testing
     return buffer
   }
 
-  @Test func masksLieBesideTheirPhotos() throws {
+  @Test func masksAreWrittenNextToTheirPhotos() throws {
     let masks = [
       try mask(37, 20, value: 1), nil, try mask(36, 20, value: 9), CVPixelBuffer(Self.image),
       try mask(37, 20, value: 0),
@@ -208,7 +208,7 @@ import Testing
     #expect(PhotoMetadata(bytes).orientation == 3)
   }
 
-  @Test func readingsGoWithTheirPhotos() throws {
+  @Test func readingsBelongToTheirPhotos() throws {
     let depth = try #require(
       CVPixelBuffer(width: 2, height: 1, pixelFormat: kCVPixelFormatType_DepthFloat32))
     depth.storage.write([0, 0, 0, 64, 0, 0, 128, 63], at: 0)  // 2 and 1
@@ -228,7 +228,7 @@ import Testing
     #expect(warnings.count == 1 && warnings[0].hasPrefix("The depth map of sample 9 is not used"))
   }
 
-  @Test func cancelledSequencesGoOn() throws {
+  @Test func canceledSequencesResume() throws {
     let image = try #require(CVPixelBuffer(Self.image))
     let flag = CancellationFlag()
     let samples = (0..<4).lazy.map { id in

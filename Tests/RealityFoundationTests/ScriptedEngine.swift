@@ -19,7 +19,7 @@ final class ScriptedEngine: SessionEngine {
     var isDownsampled = false
     var registered: Int?
     /// Repeats the alignment until it is canceled.
-    var worksForever = false
+    var repeatsUntilCanceled = false
   }
 
   /// A thread-safe record of the engines made and the calls they received.
@@ -58,7 +58,7 @@ final class ScriptedEngine: SessionEngine {
 
   private func align() throws {
     journal.add("align")
-    while script.worksForever {
+    while script.repeatsUntilCanceled {
       try work(.imageAlignment)
       Thread.sleep(forTimeInterval: 0.001)
     }

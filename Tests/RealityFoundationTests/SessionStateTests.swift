@@ -23,7 +23,7 @@ import Testing
 
   private func names(_ outputs: [Session.Output]) -> [String] { outputs.map(name(of:)) }
 
-  @Test func goesThroughARun() throws {
+  @Test func passesThroughARun() throws {
     var (state, plan) = try begun()
     #expect(state.isProcessing && state.phase == .ingesting)
     #expect(state.activeRequests == [.poses, Self.model])
@@ -42,7 +42,7 @@ import Testing
     #expect(state.finished().isEmpty)
   }
 
-  @Test func refusesToBeginTwice() throws {
+  @Test func rejectsASecondBegin() throws {
     var (state, plan) = try begun()
     #expect(throws: ProcessingError.alreadyProcessing) {
       try state.begin(plan, photoCount: 10, threadCount: 2, at: 1)
@@ -54,7 +54,7 @@ import Testing
     }
   }
 
-  @Test func tellsOfTheInputOnce() throws {
+  @Test func reportsTheInputOnce() throws {
     var (state, plan) = try begun()
     let photo = RefusedPhoto(sampleID: 3, name: "a.jpg", fault: .blurred, reason: "It is blurred.")
     #expect(names(state.refused(photo)) == ["invalidSample"])
@@ -75,7 +75,7 @@ import Testing
     #expect(names(outputs) == [fault == .notRegistered ? "skippedSample" : "invalidSample"])
   }
 
-  @Test func cancellingSilencesEverythingButTheEnd() throws {
+  @Test func cancelingSuppressesAllButTheLastOutput() throws {
     var (state, plan) = try begun()
     _ = state.ingested(.init(count: 9))
     let isStopping = state.cancel()
@@ -86,13 +86,13 @@ import Testing
     #expect(state.progressed(.imageAlignment, fraction: 0.5, at: 3).isEmpty)
     #expect(state.completed(plan.entries[0], .bounds(.empty), at: 4).isEmpty)
     #expect(state.failed(plan.entries[1], ProcessingError.alreadyProcessing).isEmpty)
-    let silenced = state.downsampled() + state.stitchingIncomplete()
-    #expect(silenced.isEmpty)
+    let suppressed = state.downsampled() + state.stitchingIncomplete()
+    #expect(suppressed.isEmpty)
     #expect(names(state.finished()) == ["processingCancelled"])
     #expect(!state.isProcessing && state.activeRequests.isEmpty)
   }
 
-  @Test func cancellingWhenIdleHasNoEffect() {
+  @Test func cancelingWhenIdleHasNoEffect() {
     var state = SessionState()
     let isStopping = state.cancel()
     #expect(!isStopping)
@@ -100,7 +100,7 @@ import Testing
     #expect(outputs.isEmpty && state.phase == .idle)
   }
 
-  @Test func progressIsMonotoneAndGoesToAllWhoWait() throws {
+  @Test func progressIsMonotoneForAllActiveRequests() throws {
     var (state, plan) = try begun()
     _ = state.ingested(.init(count: 9))
     state.began(plan.entries[0])
@@ -115,8 +115,9 @@ import Testing
       }
     }
     for request in [Session.Request.poses, Self.model] {
-      let told = try #require(fractions[request])
-      #expect(told == told.sorted() && told.count >= 3 && told.allSatisfy { 0...1 ~= $0 })
+      let reported = try #require(fractions[request])
+      #expect(
+        reported == reported.sorted() && reported.count >= 3 && reported.allSatisfy { 0...1 ~= $0 })
     }
     // The model has far to go when the poses are almost complete.
     #expect(try #require(fractions[.poses]?.last) > 0.9)
@@ -127,7 +128,7 @@ import Testing
     #expect(later.allSatisfy { request(of: $0) == Self.model } && !later.isEmpty)
   }
 
-  @Test func smallStepsAreNotTold() throws {
+  @Test func smallStepsAreNotReported() throws {
     var (state, plan) = try begun()
     _ = state.ingested(.init(count: 9))
     state.began(plan.entries[0])
@@ -137,7 +138,7 @@ import Testing
     #expect(outputs.count < 2 * 2 * 1001 && outputs.count > 100)
   }
 
-  @Test func stagesAndRemainingTimeAreTold() throws {
+  @Test func stagesAndRemainingTimeAreReported() throws {
     var (state, plan) = try begun()
     _ = state.ingested(.init(count: 9))
     state.began(plan.entries[0])
@@ -150,7 +151,7 @@ import Testing
     #expect(abs(try #require(info.estimatedRemainingTime) - 10) < 3)
   }
 
-  @Test func downsamplingAndStitchingAreToldOnce() throws {
+  @Test func downsamplingAndStitchingAreReportedOnce() throws {
     var (state, _) = try begun()
     #expect(names(state.downsampled()) == ["automaticDownsampling"])
     #expect(state.downsampled().isEmpty)

@@ -13,10 +13,10 @@ import Testing
   /// Reads outputs up to and including the end of processing.
   private func run(_ session: Session, _ requests: [Session.Request]) async throws -> [Output] {
     try session.process(requests: requests)
-    return try await untilTheEnd(session.outputs)
+    return try await outputsUntilEnd(session.outputs)
   }
 
-  private func untilTheEnd(_ sequence: Session.Outputs) async throws -> [Output] {
+  private func outputsUntilEnd(_ sequence: Session.Outputs) async throws -> [Output] {
     var outputs: [Output] = []
     for try await output in sequence {
       outputs.append(output)
@@ -49,16 +49,16 @@ import Testing
       let completed = outputs.filter { name(of: $0) == "requestComplete" }
       #expect(completed.compactMap(request(of:)) == [.poses, model])
       #expect(!session.isProcessing && session.activeRequests.isEmpty && session.report != nil)
-      for wanted in [model, .poses] {
+      for expectedRequest in [model, .poses] {
         let fractions = outputs.compactMap { output -> Double? in
-          if case .requestProgress(wanted, let fraction) = output { fraction } else { nil }
+          if case .requestProgress(expectedRequest, let fraction) = output { fraction } else { nil }
         }
         #expect(fractions == fractions.sorted() && fractions.last == 1)
       }
     }
   }
 
-  @Test func usesTheEngineAgain() async throws {
+  @Test func reusesTheEngine() async throws {
     try await withPhotos { folder in
       let journal = ScriptedEngine.Journal()
       let session = Session(folder: folder, journal: journal)
@@ -70,7 +70,7 @@ import Testing
     }
   }
 
-  @Test func aFailedRequestStopsNoOther() async throws {
+  @Test func aFailedRequestDoesNotStopOthers() async throws {
     try await withPhotos { folder in
       let session = Session(folder: folder, .init(entityError: .emptyCrop))
       let outputs = try await run(session, [.modelEntity(), .poses])
@@ -82,7 +82,7 @@ import Testing
     }
   }
 
-  @Test func outOfMemoryIsTriedOnceMoreAtHalfTheResolution() async throws {
+  @Test func outOfMemoryIsRetriedAtHalfTheResolution() async throws {
     try await withPhotos { folder in
       let journal = ScriptedEngine.Journal()
       let session = Session(folder: folder, .init(pixelsInMemory: 250_001), journal: journal)
@@ -93,7 +93,7 @@ import Testing
     }
   }
 
-  @Test func outOfMemoryTwiceIsAnErrorAndStopsNoOther() async throws {
+  @Test func outOfMemoryTwiceFailsOnlyThatRequest() async throws {
     try await withPhotos { folder in
       let session = Session(folder: folder, .init(pixelsInMemory: 1000))
       let outputs = try await run(session, [.modelEntity(detail: .medium), .poses])
@@ -104,7 +104,7 @@ import Testing
     }
   }
 
-  @Test func everyRequestHearsOfBadInput() async throws {
+  @Test func badInputFailsEveryRequest() async throws {
     try await withPhotos { folder in
       let session = Session(
         folder: folder, .init(ingestError: .tooFewPhotos(found: 2, needed: 3)))
@@ -130,7 +130,7 @@ import Testing
   @Test func cancels() async throws {
     try await withPhotos { folder in
       let journal = ScriptedEngine.Journal()
-      let session = Session(folder: folder, .init(worksForever: true), journal: journal)
+      let session = Session(folder: folder, .init(repeatsUntilCanceled: true), journal: journal)
       session.cancel()
       try session.process(requests: [.poses])
       #expect(session.isProcessing && session.activeRequests == [.poses])
@@ -139,26 +139,26 @@ import Testing
       }
       for try await output in session.outputs where name(of: output) == "requestProgress" { break }
       session.cancel()
-      let names = try await untilTheEnd(session.outputs).map(name(of:))
+      let names = try await outputsUntilEnd(session.outputs).map(name(of:))
       #expect(names.last == "processingCancelled" && !names.contains("requestComplete"))
       #expect(!session.isProcessing)
       // The session can continue with a new engine whose cancellation flag is not set.
       try session.process(requests: [.poses])
       for try await output in session.outputs where name(of: output) == "requestProgress" { break }
       session.cancel()
-      let last = try await untilTheEnd(session.outputs).last
+      let last = try await outputsUntilEnd(session.outputs).last
       #expect(last.map(name(of:)) == "processingCancelled")
       #expect(journal.count(of: "made") == 2)
     }
   }
 
-  @Test func cancellingAtOnceIsNotLost() async throws {
+  @Test func immediateCancelIsNotLost() async throws {
     try await withPhotos { folder in
-      let session = Session(folder: folder, .init(worksForever: true))
+      let session = Session(folder: folder, .init(repeatsUntilCanceled: true))
       for _ in 0..<20 {
         try session.process(requests: [.poses])
         session.cancel()
-        let last = try await untilTheEnd(session.outputs).last
+        let last = try await outputsUntilEnd(session.outputs).last
         #expect(last.map(name(of:)) == "processingCancelled")
       }
     }
@@ -181,7 +181,7 @@ import Testing
     }
   }
 
-  @Test func idleSessionGoesAway() async throws {
+  @Test func idleSessionIsDeallocated() async throws {
     try await withPhotos { folder in
       weak var reference: Session?
       do {
@@ -203,7 +203,7 @@ import Testing
 }
 
 @Suite struct SessionInputTests {
-  private func expectInvalid(_ url: URL, says text: String) {
+  private func expectInvalid(_ url: URL, containing text: String) {
     do {
       _ = try PhotogrammetrySession(input: url)
       Issue.record("\(url.path) was accepted")
@@ -213,14 +213,15 @@ import Testing
     }
   }
 
-  @Test func foldersThatCannotBeUsedAreRefused() throws {
+  @Test func unusableFoldersAreRejected() throws {
     try withTemporaryFolder { folder in
-      expectInvalid(folder, says: "is empty")
-      expectInvalid(folder.appendingPathComponent("missing"), says: "does not exist")
+      expectInvalid(folder, containing: "is empty")
+      expectInvalid(folder.appendingPathComponent("missing"), containing: "does not exist")
       let file = folder.appendingPathComponent("file.jpg")
       try Data().write(to: file)
-      expectInvalid(file, says: "is a file")
-      expectInvalid(try #require(URL(string: "https://example.com/photos")), says: "not on a disk")
+      expectInvalid(file, containing: "is a file")
+      expectInvalid(
+        try #require(URL(string: "https://example.com/photos")), containing: "not on a disk")
       #expect(try !PhotogrammetrySession(input: folder).isProcessing)
     }
   }

@@ -13,23 +13,23 @@ struct Bitmap {
   ) {
     let rowSize = width * layout.size
     // 0 leaves the row stride to the context.
-    let distance = bytesPerRow == 0 ? (rowSize + 63) / 64 * 64 : bytesPerRow
-    guard distance >= rowSize else { return nil }
+    let rowStride = bytesPerRow == 0 ? (rowSize + 63) / 64 * 64 : bytesPerRow
+    guard rowStride >= rowSize else { return nil }
     // The last row of a buffer may be shorter than the stride.
     storage =
-      data.map { PixelStorage(borrowing: $0, byteCount: distance * (height - 1) + rowSize) }
-      ?? PixelStorage(byteCount: distance * height)
+      data.map { PixelStorage(borrowing: $0, byteCount: rowStride * (height - 1) + rowSize) }
+      ?? PixelStorage(byteCount: rowStride * height)
     self.width = width
     self.height = height
-    self.bytesPerRow = distance
+    self.bytesPerRow = rowStride
     self.layout = layout
   }
 
   /// The bytes of a row without its padding.
-  func row(_ y: Int) -> ArraySlice<UInt8> { storage.copy(place(0..<width, y))[...] }
+  func row(_ y: Int) -> ArraySlice<UInt8> { storage.copy(byteRange(0..<width, y))[...] }
 
   /// The byte range of some pixels of a row.
-  private func place(_ columns: Range<Int>, _ y: Int) -> Range<Int> {
+  private func byteRange(_ columns: Range<Int>, _ y: Int) -> Range<Int> {
     let start = y * bytesPerRow + columns.lowerBound * layout.size
     return start..<start + columns.count * layout.size
   }
@@ -39,7 +39,7 @@ struct Bitmap {
     let columns = columns.clamped(to: 0..<width)
     let zeros = [UInt8](repeating: 0, count: columns.count * layout.size)
     for y in rows.clamped(to: 0..<height) {
-      storage.write(zeros, at: place(columns, y).lowerBound)
+      storage.write(zeros, at: byteRange(columns, y).lowerBound)
     }
   }
 
@@ -49,41 +49,41 @@ struct Bitmap {
     let columns = columns.clamped(to: 0..<width)
     guard !columns.isEmpty else { return }
     for y in rows.clamped(to: 0..<height) {
-      let place = place(columns, y)
-      var bytes = storage.copy(place)
+      let byteRange = byteRange(columns, y)
+      var bytes = storage.copy(byteRange)
       var at = 0
       for x in columns {
         if let value = pixel(x, y), value.alpha > 0 { store(value, in: &bytes, at) }
         at += layout.size
       }
-      storage.write(bytes, at: place.lowerBound)
+      storage.write(bytes, at: byteRange.lowerBound)
     }
   }
 
   private func store(_ value: PixelValue, in bytes: inout [UInt8], _ at: Int) {
-    let sum = value.alpha < 255 ? value.over(old(bytes, at)) : value
+    let sum = value.alpha < 255 ? value.over(existingValue(bytes, at)) : value
     let stored = layout.isPremultiplied ? sum.premultiplied : sum
-    if layout.colours.count == 3 {
-      bytes[at + layout.colours[0]] = stored.red
-      bytes[at + layout.colours[1]] = stored.green
-      bytes[at + layout.colours[2]] = stored.blue
-    } else if layout.colours.count == 1 {
+    if layout.colorOffsets.count == 3 {
+      bytes[at + layout.colorOffsets[0]] = stored.red
+      bytes[at + layout.colorOffsets[1]] = stored.green
+      bytes[at + layout.colorOffsets[2]] = stored.blue
+    } else if layout.colorOffsets.count == 1 {
       bytes[at] = stored.gray
     }
     if let alpha = layout.alpha { bytes[at + alpha] = stored.alpha }
     if let unused = layout.unused { bytes[at + unused] = 255 }
   }
 
-  private func old(_ bytes: [UInt8], _ at: Int) -> PixelValue {
+  private func existingValue(_ bytes: [UInt8], _ at: Int) -> PixelValue {
     let alpha = layout.alpha.map { bytes[at + $0] } ?? 255
     let value: PixelValue
-    switch layout.colours.count {
+    switch layout.colorOffsets.count {
     case 0: return PixelValue(0, 0, 0, alpha)
     case 1: value = PixelValue(bytes[at], bytes[at], bytes[at], alpha)
     default:
       value = PixelValue(
-        bytes[at + layout.colours[0]], bytes[at + layout.colours[1]],
-        bytes[at + layout.colours[2]], alpha)
+        bytes[at + layout.colorOffsets[0]], bytes[at + layout.colorOffsets[1]],
+        bytes[at + layout.colorOffsets[2]], alpha)
     }
     return layout.isPremultiplied ? value.unpremultiplied : value
   }

@@ -50,7 +50,7 @@ struct PixelLayout: Hashable, Sendable {
   /// The number of bytes per pixel.
   var size: Int
   /// The offsets of red, green and blue, or of gray; empty for alpha-only pixels.
-  var colours: [Int]
+  var colorOffsets: [Int]
   /// The offset of alpha; nil if there is none.
   var alpha: Int?
   /// The offset of the unused byte; nil if there is none.
@@ -68,12 +68,12 @@ struct PixelLayout: Hashable, Sendable {
     self.alphaInfo = alphaInfo
     let order = info.intersection(.byteOrderMask)
     if alphaInfo == .alphaOnly {
-      (size, colours, alpha) = (1, [], 0)
+      (size, colorOffsets, alpha) = (1, [], 0)
       return
     }
     if space == .monochrome {
       guard alphaInfo == .none else { return nil }
-      (size, colours) = (1, [0])
+      (size, colorOffsets) = (1, [0])
       return
     }
     guard order == [] || order == .byteOrder32Big || order == .byteOrder32Little else { return nil }
@@ -86,7 +86,7 @@ struct PixelLayout: Hashable, Sendable {
     // As a big-endian word: alpha is the first or the last of four bytes.
     let places = isFirst ? [1, 2, 3, 0] : [0, 1, 2, 3]
     let stored = order == .byteOrder32Little ? places.map { 3 - $0 } : places
-    (size, colours) = (4, Array(stored[..<3]))
+    (size, colorOffsets) = (4, Array(stored[..<3]))
     if alphaInfo == .noneSkipFirst || alphaInfo == .noneSkipLast {
       unused = stored[3]
     } else {

@@ -12,11 +12,11 @@ public final class CGColorSpace: Hashable, Sendable {
   /// Creates a space from one of the names below; fails for any other name.
   public convenience init?(name: CFString) {
     let grays = [Self.genericGrayGamma2_2, Self.linearGray, Self.extendedGray]
-    let colours = [
+    let colors = [
       Self.sRGB, Self.linearSRGB, Self.extendedSRGB, Self.displayP3, Self.genericRGBLinear,
       Self.adobeRGB1998,
     ]
-    guard grays.contains(name) || colours.contains(name) else { return nil }
+    guard grays.contains(name) || colors.contains(name) else { return nil }
     self.init(name: name, grays.contains(name) ? .monochrome : .rgb)
   }
 

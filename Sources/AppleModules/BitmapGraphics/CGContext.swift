@@ -179,7 +179,7 @@ public final class CGContext {
   private func paint(_ rect: CGRect, rounded: Bool, _ color: PixelValue) {
     let toBitmap = state.transform.concatenating(flip)
     let box = rect.applying(toBitmap)
-    let back = toBitmap.inverted()
+    let userFromBitmap = toBitmap.inverted()
     let center = CGPoint(x: rect.midX, y: rect.midY)
     let half = CGSize(width: rect.width / 2, height: rect.height / 2)
     var color = color
@@ -188,7 +188,7 @@ public final class CGContext {
       pixels(box.minX, box.maxX, width).clamped(to: clippedColumns),
       pixels(box.minY, box.maxY, height).clamped(to: clippedRows)
     ) { x, y in
-      let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(back)
+      let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(userFromBitmap)
       guard rounded else { return rect.contains(point) ? color : nil }
       let (u, v) = ((point.x - center.x) / half.width, (point.y - center.y) / half.height)
       return u * u + v * v <= 1 ? color : nil

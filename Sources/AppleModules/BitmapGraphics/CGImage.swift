@@ -121,16 +121,16 @@ public enum CGColorRenderingIntent: Int32, Hashable, Sendable {
 extension PixelLayout {
   /// The rows of a bitmap with this layout as an image.
   func raster(width: Int, height: Int, row: (Int) -> ArraySlice<UInt8>) -> RasterImage {
-    let channels = colours.count < 3 ? 1 : alpha == nil ? 3 : 4
+    let channels = colorOffsets.count < 3 ? 1 : alpha == nil ? 3 : 4
     var pixels: [UInt8] = []
     pixels.reserveCapacity(width * height * channels)
     for y in 0..<height {
       let bytes = row(y)
       for start in stride(from: bytes.startIndex, to: bytes.endIndex, by: size) {
         let opacity = alpha.map { bytes[start + $0] } ?? 255
-        if colours.isEmpty { pixels.append(opacity) }
-        for place in colours {
-          let value = bytes[start + place]
+        if colorOffsets.isEmpty { pixels.append(opacity) }
+        for offset in colorOffsets {
+          let value = bytes[start + offset]
           pixels.append(isPremultiplied ? restored(value, opacity) : value)
         }
         if channels == 4 { pixels.append(opacity) }

@@ -9,7 +9,7 @@ struct PlacedImage {
   let rows: Range<Int>
   private let raster: RasterImage
   /// Maps bitmap coordinates to the unit square of the image, both with y down from the top left.
-  private let back: CGAffineTransform
+  private let imageFromBitmap: CGAffineTransform
   /// Whether to interpolate between pixels.
   private let isSmooth: Bool
 
@@ -22,7 +22,7 @@ struct PlacedImage {
     else { return nil }
     columns = pixels(box.minX, box.maxX, 65536)
     rows = pixels(box.minY, box.maxY, 65536)
-    back = transform.inverted()
+    imageFromBitmap = transform.inverted()
     guard quality != .none else {
       (self.raster, isSmooth) = (raster, false)
       return
@@ -42,7 +42,7 @@ struct PlacedImage {
 
   /// The color of the image at a bitmap pixel; nil outside the image.
   func pixel(_ x: Int, _ y: Int) -> PixelValue? {
-    let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(back)
+    let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(imageFromBitmap)
     // A bitmap pixel belongs to the image if its center is inside.
     guard point.x >= 0, point.x < 1, point.y >= 0, point.y < 1 else { return nil }
     let (u, v) = (point.x * CGFloat(raster.width), point.y * CGFloat(raster.height))

@@ -22,7 +22,7 @@ public struct Published<Value> {
   /// The publisher of the values, starting with the current one.
   public var projectedValue: Publisher {
     get { Publisher(storage: storage) }
-    set { newValue.hand(over: storage) }
+    set { newValue.copyValue(to: storage) }
   }
 
   /// The value.
@@ -53,13 +53,13 @@ public struct Published<Value> {
     }
 
     /// Assigns the values of a publisher to the property.
-    func follow(_ publisher: some Combine.Publisher<Value, Never>) {
+    func assignValues(_ publisher: some Combine.Publisher<Value, Never>) {
       let storage = storage
       storage.source = publisher.sink { [weak storage] in storage?.set($0) }
     }
 
     /// Assigns the value of this property to another one.
-    func hand(over other: Storage) { if storage !== other { other.set(storage.value) } }
+    func copyValue(to other: Storage) { if storage !== other { other.set(storage.value) } }
   }
 
   /// Reference storage of the value and its subject.

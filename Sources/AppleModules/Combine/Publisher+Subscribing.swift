@@ -8,7 +8,7 @@ extension Publisher {
   ) -> AnyCancellable {
     let holder = SubscriptionHolder()
     receive(
-      subscriber: Relay(
+      subscriber: ClosureSubscriber(
         begin: { subscription in
           holder.set(subscription)
           subscription.request(.unlimited)
@@ -39,7 +39,7 @@ extension Publisher where Failure == Never {
 
   /// Republishes each value through a published property for as long as the property exists.
   public func assign(to published: inout Published<Output>.Publisher) {
-    published.follow(self)
+    published.assignValues(self)
   }
 
   /// The values as an asynchronous sequence.

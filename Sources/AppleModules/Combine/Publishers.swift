@@ -2,7 +2,7 @@ import Foundation
 
 /// A type-erased publisher.
 public struct AnyPublisher<Output, Failure: Error>: Publisher {
-  private let subscribe: (Relay<Output, Failure>) -> Void
+  private let subscribe: (ClosureSubscriber<Output, Failure>) -> Void
 
   /// Erases the type of a publisher.
   public init(_ publisher: some Publisher<Output, Failure>) {
@@ -11,7 +11,7 @@ public struct AnyPublisher<Output, Failure: Error>: Publisher {
 
   /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
-    subscribe(Relay(subscriber))
+    subscribe(ClosureSubscriber(subscriber))
   }
 }
 
@@ -60,7 +60,7 @@ public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendabl
 }
 
 /// A subscriber made of closures.
-struct Relay<Input, Failure: Error>: Subscriber {
+struct ClosureSubscriber<Input, Failure: Error>: Subscriber {
   let begin: (any Subscription) -> Void
   let take: (Input) -> Subscribers.Demand
   let end: (Subscribers.Completion<Failure>) -> Void
@@ -81,7 +81,7 @@ struct Relay<Input, Failure: Error>: Subscriber {
 }
 
 /// Publishes a transformed value for each upstream value, or none.
-struct Transform<Upstream: Publisher, Output>: Publisher {
+struct TransformPublisher<Upstream: Publisher, Output>: Publisher {
   typealias Failure = Upstream.Failure
 
   let upstream: Upstream
@@ -91,7 +91,7 @@ struct Transform<Upstream: Publisher, Output>: Publisher {
   func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
     let step = step()
     upstream.receive(
-      subscriber: Relay(
+      subscriber: ClosureSubscriber(
         begin: subscriber.receive(subscription:),
         take: { step($0).map { subscriber.receive($0) } ?? .max(1) },
         end: subscriber.receive(completion:)))
@@ -104,29 +104,29 @@ extension Publisher {
 
   /// Transforms each value.
   public func map<T>(_ transform: @escaping (Output) -> T) -> some Publisher<T, Failure> {
-    Transform(upstream: self) { { transform($0) } }
+    TransformPublisher(upstream: self) { { transform($0) } }
   }
 
   /// Publishes a property of each value.
   public func map<T>(_ keyPath: KeyPath<Output, T>) -> some Publisher<T, Failure> {
-    Transform(upstream: self) { { $0[keyPath: keyPath] } }
+    TransformPublisher(upstream: self) { { $0[keyPath: keyPath] } }
   }
 
   /// Transforms each value and drops nil results.
   public func compactMap<T>(
     _ transform: @escaping (Output) -> T?
-  ) -> some Publisher<T, Failure> { Transform(upstream: self) { transform } }
+  ) -> some Publisher<T, Failure> { TransformPublisher(upstream: self) { transform } }
 
   /// Publishes the values that satisfy a predicate.
   public func filter(
     _ isIncluded: @escaping (Output) -> Bool
   ) -> some Publisher<Output, Failure> {
-    Transform(upstream: self) { { isIncluded($0) ? $0 : nil } }
+    TransformPublisher(upstream: self) { { isIncluded($0) ? $0 : nil } }
   }
 
   /// Drops the first `count` values.
   public func dropFirst(_ count: Int = 1) -> some Publisher<Output, Failure> {
-    Transform(upstream: self) {
+    TransformPublisher(upstream: self) {
       var left = count
       return { value in
         guard left > 0 else { return value }
@@ -140,7 +140,7 @@ extension Publisher {
   public func scan<T>(
     _ initialResult: T, _ nextPartialResult: @escaping (T, Output) -> T
   ) -> some Publisher<T, Failure> {
-    Transform(upstream: self) {
+    TransformPublisher(upstream: self) {
       var result = initialResult
       return { value in
         result = nextPartialResult(result, value)
@@ -151,14 +151,14 @@ extension Publisher {
 
   /// Delivers values on a queue or run loop.
   public func receive(on scheduler: some Scheduler) -> some Publisher<Output, Failure> {
-    Rescheduled(upstream: self, scheduler: scheduler)
+    ReceiveOnPublisher(upstream: self, scheduler: scheduler)
   }
 }
 
 extension Publisher where Output: Equatable {
   /// Drops values that equal their predecessor.
   public func removeDuplicates() -> some Publisher<Output, Failure> {
-    Transform(upstream: self) {
+    TransformPublisher(upstream: self) {
       var last: Output?
       return { value in
         defer { last = value }
@@ -169,7 +169,7 @@ extension Publisher where Output: Equatable {
 }
 
 /// Delivers a publisher's values on a scheduler, in order.
-private struct Rescheduled<Upstream: Publisher, Context: Scheduler>: Publisher {
+private struct ReceiveOnPublisher<Upstream: Publisher, Context: Scheduler>: Publisher {
   typealias Output = Upstream.Output
   typealias Failure = Upstream.Failure
 
@@ -178,7 +178,7 @@ private struct Rescheduled<Upstream: Publisher, Context: Scheduler>: Publisher {
 
   func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
     upstream.receive(
-      subscriber: Relay(
+      subscriber: ClosureSubscriber(
         begin: subscriber.receive(subscription:),
         take: { value in
           scheduler.schedule { _ = subscriber.receive(value) }

@@ -15,7 +15,7 @@ extension Subject where Output == Void {
 
 /// Sends values to its current subscribers and keeps none of them.
 public final class PassthroughSubject<Output, Failure: Error>: Subject, @unchecked Sendable {
-  private let core = SubjectCore<Output, Failure>()
+  private let core = SubscriptionList<Output, Failure>()
 
   /// Creates a subject.
   public init() {}
@@ -34,7 +34,7 @@ public final class PassthroughSubject<Output, Failure: Error>: Subject, @uncheck
 
 /// A subject that keeps its latest value and sends it to new subscribers first.
 public final class CurrentValueSubject<Output, Failure: Error>: Subject, @unchecked Sendable {
-  private let core = SubjectCore<Output, Failure>()
+  private let core = SubscriptionList<Output, Failure>()
   private let lock = NSLock()
   private var current: Output
 
@@ -63,15 +63,15 @@ public final class CurrentValueSubject<Output, Failure: Error>: Subject, @unchec
 }
 
 /// The subscriptions of a subject, thread-safe.
-private final class SubjectCore<Output, Failure: Error>: @unchecked Sendable {
+private final class SubscriptionList<Output, Failure: Error>: @unchecked Sendable {
   private let lock = NSLock()
-  private var members: [ObjectIdentifier: Member<Output, Failure>] = [:]
+  private var members: [ObjectIdentifier: SubjectSubscription<Output, Failure>] = [:]
   private var order: [ObjectIdentifier] = []
   private var end: Subscribers.Completion<Failure>?
 
   func add<S: Subscriber>(_ subscriber: S, first: Output?)
   where S.Input == Output, S.Failure == Failure {
-    let member = Member<Output, Failure>(
+    let member = SubjectSubscription<Output, Failure>(
       subscriber.receive, subscriber.receive(completion:), first: first)
     let id = ObjectIdentifier(member)
     member.onCancel = { [weak self] in self?.remove(id) }
@@ -98,7 +98,7 @@ private final class SubjectCore<Output, Failure: Error>: @unchecked Sendable {
     for member in members { member.finish(completion) }
   }
 
-  private func current() -> [Member<Output, Failure>] {
+  private func current() -> [SubjectSubscription<Output, Failure>] {
     lock.withLock { order.compactMap { members[$0] } }
   }
 
@@ -111,7 +111,7 @@ private final class SubjectCore<Output, Failure: Error>: @unchecked Sendable {
 }
 
 /// One subscriber of a subject with its remaining demand. Values beyond the demand are dropped.
-private final class Member<Output, Failure: Error>: Subscription, @unchecked Sendable {
+private final class SubjectSubscription<Output, Failure: Error>: Subscription, @unchecked Sendable {
   private let lock = NSRecursiveLock()
   private var demand = Subscribers.Demand.none
   private var first: Output?

@@ -72,7 +72,7 @@ open class DateComponentsFormatter: Formatter, @unchecked Sendable {
   /// Formats an interval in seconds; nil if it is not finite.
   open func string(from ti: TimeInterval) -> String? {
     guard ti.isFinite, abs(ti) < 1e15 else { return nil }
-    return DurationText(self, seconds: ti, unitsUnlessChosen: DurationUnit.all).text
+    return DurationText(self, seconds: ti, defaultUnits: DurationUnit.all).text
   }
 
   /// Formats the interval between two dates.
@@ -84,7 +84,7 @@ open class DateComponentsFormatter: Formatter, @unchecked Sendable {
   open func string(from components: DateComponents) -> String? {
     let units = DurationUnit.all.filter { $0.value(components) != nil }
     let seconds = units.reduce(0) { $0 + Double($1.value(components) ?? 0) * $1.seconds }
-    return DurationText(self, seconds: seconds, unitsUnlessChosen: units).text
+    return DurationText(self, seconds: seconds, defaultUnits: units).text
   }
 
   /// Formats a `DateComponents` value; nil for any other object.

@@ -9,7 +9,7 @@ struct DurationText {
   private let isNegative: Bool
 
   init(
-    _ formatter: DateComponentsFormatter, seconds: Double, unitsUnlessChosen others: [DurationUnit]
+    _ formatter: DateComponentsFormatter, seconds: Double, defaultUnits others: [DurationUnit]
   ) {
     self.formatter = formatter
     isNegative = seconds < 0
@@ -21,7 +21,7 @@ struct DurationText {
       parts[1].count += (parts[0].unit.seconds / parts[1].unit.seconds).rounded()
       parts.removeFirst()
     }
-    self.parts = Self.bounded(parts, to: formatter.maximumUnitCount, abs(seconds), formatter)
+    self.parts = Self.limited(parts, to: formatter.maximumUnitCount, abs(seconds), formatter)
   }
 
   private static func split(
@@ -38,7 +38,7 @@ struct DurationText {
   }
 
   /// Limits the number of units; the duration is rounded to the last unit that remains.
-  private static func bounded(
+  private static func limited(
     _ parts: [Part], to limit: Int, _ seconds: Double, _ formatter: DateComponentsFormatter
   ) -> [Part] {
     guard limit > 0, let first = parts.firstIndex(where: { $0.count > 0 }),

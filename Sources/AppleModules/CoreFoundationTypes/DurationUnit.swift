@@ -4,7 +4,7 @@ import Foundation
 struct DurationUnit {
   let unit: NSCalendar.Unit
   let seconds: Double
-  let letters: String
+  let abbreviation: String
   let short: String
   let full: String
   /// Whether the short name takes a plural s.
@@ -26,10 +26,10 @@ struct DurationUnit {
   }
 
   private init(
-    _ unit: NSCalendar.Unit, _ seconds: Double, _ letters: String, _ short: String,
+    _ unit: NSCalendar.Unit, _ seconds: Double, _ abbreviation: String, _ short: String,
     _ full: String, _ hasShortPlural: Bool, value: @escaping (DateComponents) -> Int?
   ) {
-    (self.unit, self.seconds, self.letters, self.short) = (unit, seconds, letters, short)
+    (self.unit, self.seconds, self.abbreviation, self.short) = (unit, seconds, abbreviation, short)
     (self.full, self.hasShortPlural, self.value) = (full, hasShortPlural, value)
   }
 
@@ -38,7 +38,7 @@ struct DurationUnit {
     let plural = count == 1 ? "" : "s"
     return switch style {
     case .positional: digits
-    case .abbreviated: digits + letters
+    case .abbreviated: digits + abbreviation
     case .short: "\(digits) \(short)\(hasShortPlural ? plural : "")"
     case .brief: "\(digits)\(short)\(hasShortPlural ? plural : "")"
     case .full: "\(digits) \(full)\(plural)"

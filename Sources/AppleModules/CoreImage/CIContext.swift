@@ -115,12 +115,12 @@ public final class CIContext: Sendable {
 
   /// The color space and bitmap info of a pixel format; nil for formats that can't be drawn into.
   private func layout(_ format: OSType) -> (CGColorSpace, UInt32)? {
-    let colours = CGColorSpaceCreateDeviceRGB()
+    let rgb = CGColorSpaceCreateDeviceRGB()
     let first = CGImageAlphaInfo.premultipliedFirst.rawValue
     return switch format {
-    case kCVPixelFormatType_32BGRA: (colours, first | CGBitmapInfo.byteOrder32Little.rawValue)
-    case kCVPixelFormatType_32ARGB: (colours, first | CGBitmapInfo.byteOrder32Big.rawValue)
-    case kCVPixelFormatType_32RGBA: (colours, CGImageAlphaInfo.premultipliedLast.rawValue)
+    case kCVPixelFormatType_32BGRA: (rgb, first | CGBitmapInfo.byteOrder32Little.rawValue)
+    case kCVPixelFormatType_32ARGB: (rgb, first | CGBitmapInfo.byteOrder32Big.rawValue)
+    case kCVPixelFormatType_32RGBA: (rgb, CGImageAlphaInfo.premultipliedLast.rawValue)
     case kCVPixelFormatType_OneComponent8:
       (CGColorSpaceCreateDeviceGray(), CGImageAlphaInfo.none.rawValue)
     default: nil

@@ -43,8 +43,8 @@ public final class CIImage: Sendable {
     }
     let properties = CGImageSourceCopyPropertiesAtIndex(source, 0, nil) ?? [:]
     let number = (properties[kCGImagePropertyOrientation] as? NSNumber)?.uint32Value ?? 1
-    let isTurned = options?[.applyOrientationProperty] as? Bool ?? false
-    let orientation = isTurned ? CGImagePropertyOrientation(rawValue: number) ?? .up : .up
+    let appliesOrientation = options?[.applyOrientationProperty] as? Bool ?? false
+    let orientation = appliesOrientation ? CGImagePropertyOrientation(rawValue: number) ?? .up : .up
     let transform = orientation.transform(of: pixels.frame.size)
     self.init(
       pixels, transform, pixels.frame.applying(transform), url, Properties(properties))

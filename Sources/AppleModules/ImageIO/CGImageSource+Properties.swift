@@ -14,21 +14,21 @@ extension CGImageSource {
   var properties: [CFString: Any]? {
     guard let header else { return nil }
     var properties = PhotoMetadata(bytes).imageProperties
-    add(further, to: &properties)
+    add(additionalFields, to: &properties)
     properties[kCGImagePropertyPixelWidth] = NSNumber(value: header.width)
     properties[kCGImagePropertyPixelHeight] = NSNumber(value: header.height)
     properties[kCGImagePropertyDepth] = NSNumber(value: 8)
     properties[kCGImagePropertyColorModel] =
       isGray ? kCGImagePropertyColorModelGray : kCGImagePropertyColorModelRGB
     properties[kCGImagePropertyHasAlpha] =
-      ImageHeader.promisesAlpha(bytes) ? NSNumber(value: true) : nil
+      ImageHeader.declaresAlpha(bytes) ? NSNumber(value: true) : nil
     return properties
   }
 }
 
 extension CGImageSource {
   /// EXIF and TIFF fields that the reconstruction doesn't use but programs display.
-  private var further: [(directory: CFString, key: CFString, value: Any?)] {
+  private var additionalFields: [(directory: CFString, key: CFString, value: Any?)] {
     guard let tiff = TIFFStructure(exifOf: ByteReader(bytes)) else { return [] }
     let image = tiff.entries(ofDirectoryAt: tiff.firstDirectory)
     let link = image.first { $0.tag == 34665 }.flatMap { tiff.integer($0) }

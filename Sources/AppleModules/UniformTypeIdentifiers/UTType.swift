@@ -17,7 +17,9 @@ public struct UTType: Hashable, Codable, Sendable {
   /// Creates a type from a file extension; nil if it isn't known or doesn't conform to `supertype`.
   public init?(filenameExtension: String, conformingTo supertype: UTType = .data) {
     let suffix = filenameExtension.lowercased()
-    guard let entry = Self.known.first(where: { $0.suffixes.contains(suffix) }) else { return nil }
+    guard let entry = Self.known.first(where: { $0.filenameExtensions.contains(suffix) }) else {
+      return nil
+    }
     identifier = entry.identifier
     guard conforms(to: supertype) else { return nil }
   }
@@ -35,7 +37,7 @@ public struct UTType: Hashable, Codable, Sendable {
   private var entry: UniformType? { Self.known.first { $0.identifier == identifier } }
 
   /// The preferred file extension.
-  public var preferredFilenameExtension: String? { entry?.suffixes.first }
+  public var preferredFilenameExtension: String? { entry?.filenameExtensions.first }
 
   /// The preferred MIME type.
   public var preferredMIMEType: String? { entry?.mimeType }

@@ -3,7 +3,7 @@ struct UniformType: Sendable {
   var identifier: String
   var parents: [String]
   /// File extensions without the dot, the preferred one first.
-  var suffixes: [String] = []
+  var filenameExtensions: [String] = []
   var mimeType: String?
 }
 
@@ -18,85 +18,92 @@ extension UTType {
     UniformType(identifier: "com.apple.package", parents: ["public.directory"]),
     UniformType(identifier: "public.image", parents: ["public.data", "public.content"]),
     UniformType(
-      identifier: "public.jpeg", parents: ["public.image"], suffixes: ["jpg", "jpeg", "jpe"],
+      identifier: "public.jpeg", parents: ["public.image"],
+      filenameExtensions: ["jpg", "jpeg", "jpe"],
       mimeType: "image/jpeg"),
     UniformType(
-      identifier: "public.png", parents: ["public.image"], suffixes: ["png"], mimeType: "image/png"),
+      identifier: "public.png", parents: ["public.image"], filenameExtensions: ["png"],
+      mimeType: "image/png"),
     UniformType(
-      identifier: "public.tiff", parents: ["public.image"], suffixes: ["tiff", "tif"],
+      identifier: "public.tiff", parents: ["public.image"], filenameExtensions: ["tiff", "tif"],
       mimeType: "image/tiff"),
     UniformType(
-      identifier: "public.heic", parents: ["public.heif"], suffixes: ["heic"],
+      identifier: "public.heic", parents: ["public.heif"], filenameExtensions: ["heic"],
       mimeType: "image/heic"),
     UniformType(
-      identifier: "public.heif", parents: ["public.image"], suffixes: ["heif", "hif"],
+      identifier: "public.heif", parents: ["public.image"], filenameExtensions: ["heif", "hif"],
       mimeType: "image/heif"),
     UniformType(
-      identifier: "com.compuserve.gif", parents: ["public.image"], suffixes: ["gif"],
+      identifier: "com.compuserve.gif", parents: ["public.image"], filenameExtensions: ["gif"],
       mimeType: "image/gif"),
     UniformType(
-      identifier: "com.microsoft.bmp", parents: ["public.image"], suffixes: ["bmp"],
+      identifier: "com.microsoft.bmp", parents: ["public.image"], filenameExtensions: ["bmp"],
       mimeType: "image/bmp"),
     UniformType(
-      identifier: "org.webmproject.webp", parents: ["public.image"], suffixes: ["webp"],
+      identifier: "org.webmproject.webp", parents: ["public.image"], filenameExtensions: ["webp"],
       mimeType: "image/webp"),
     UniformType(
-      identifier: "com.ilm.openexr-image", parents: ["public.image"], suffixes: ["exr"],
+      identifier: "com.ilm.openexr-image", parents: ["public.image"], filenameExtensions: ["exr"],
       mimeType: "image/x-exr"),
     UniformType(identifier: "public.camera-raw-image", parents: ["public.image"]),
     UniformType(
-      identifier: "com.adobe.raw-image", parents: ["public.camera-raw-image"], suffixes: ["dng"],
+      identifier: "com.adobe.raw-image", parents: ["public.camera-raw-image"],
+      filenameExtensions: ["dng"],
       mimeType: "image/x-adobe-dng"),
     UniformType(identifier: "public.3d-content", parents: ["public.content"]),
     UniformType(
       identifier: "com.pixar.universal-scene-description",
-      parents: ["public.3d-content", "public.data"], suffixes: ["usd", "usda", "usdc"],
+      parents: ["public.3d-content", "public.data"], filenameExtensions: ["usd", "usda", "usdc"],
       mimeType: "model/vnd.usd"),
     UniformType(
       identifier: "com.pixar.universal-scene-description-mobile",
-      parents: ["public.3d-content", "public.data"], suffixes: ["usdz"],
+      parents: ["public.3d-content", "public.data"], filenameExtensions: ["usdz"],
       mimeType: "model/vnd.usdz+zip"),
     UniformType(
       identifier: "com.apple.reality", parents: ["public.3d-content", "public.data"],
-      suffixes: ["reality"], mimeType: "model/vnd.reality"),
+      filenameExtensions: ["reality"], mimeType: "model/vnd.reality"),
     UniformType(
       identifier: "public.audiovisual-content", parents: ["public.data", "public.content"]),
     UniformType(identifier: "public.movie", parents: ["public.audiovisual-content"]),
     UniformType(identifier: "public.video", parents: ["public.movie"]),
     UniformType(
-      identifier: "public.mpeg-4", parents: ["public.movie"], suffixes: ["mp4"],
+      identifier: "public.mpeg-4", parents: ["public.movie"], filenameExtensions: ["mp4"],
       mimeType: "video/mp4"),
     UniformType(
-      identifier: "com.apple.quicktime-movie", parents: ["public.movie"], suffixes: ["mov", "qt"],
+      identifier: "com.apple.quicktime-movie", parents: ["public.movie"],
+      filenameExtensions: ["mov", "qt"],
       mimeType: "video/quicktime"),
     UniformType(identifier: "public.text", parents: ["public.data", "public.content"]),
     UniformType(
-      identifier: "public.plain-text", parents: ["public.text"], suffixes: ["txt", "text"],
+      identifier: "public.plain-text", parents: ["public.text"],
+      filenameExtensions: ["txt", "text"],
       mimeType: "text/plain"),
     UniformType(
-      identifier: "public.json", parents: ["public.text"], suffixes: ["json"],
+      identifier: "public.json", parents: ["public.text"], filenameExtensions: ["json"],
       mimeType: "application/json"),
     UniformType(
-      identifier: "public.comma-separated-values-text", parents: ["public.text"], suffixes: ["csv"],
+      identifier: "public.comma-separated-values-text", parents: ["public.text"],
+      filenameExtensions: ["csv"],
       mimeType: "text/csv"),
     UniformType(
-      identifier: "public.xml", parents: ["public.text"], suffixes: ["xml"],
+      identifier: "public.xml", parents: ["public.text"], filenameExtensions: ["xml"],
       mimeType: "application/xml"),
     UniformType(
-      identifier: "com.adobe.pdf", parents: ["public.data", "public.content"], suffixes: ["pdf"],
+      identifier: "com.adobe.pdf", parents: ["public.data", "public.content"],
+      filenameExtensions: ["pdf"],
       mimeType: "application/pdf"),
     UniformType(identifier: "public.archive", parents: ["public.data"]),
     UniformType(
-      identifier: "public.zip-archive", parents: ["public.archive"], suffixes: ["zip"],
+      identifier: "public.zip-archive", parents: ["public.archive"], filenameExtensions: ["zip"],
       mimeType: "application/zip"),
     UniformType(
       identifier: "public.polygon-file-format", parents: ["public.3d-content", "public.data"],
-      suffixes: ["ply"]),
+      filenameExtensions: ["ply"]),
     UniformType(
       identifier: "public.geometry-definition-format",
-      parents: ["public.3d-content", "public.data"], suffixes: ["obj"]),
+      parents: ["public.3d-content", "public.data"], filenameExtensions: ["obj"]),
     UniformType(
       identifier: "public.standard-tesselated-geometry-format",
-      parents: ["public.3d-content", "public.data"], suffixes: ["stl"]),
+      parents: ["public.3d-content", "public.data"], filenameExtensions: ["stl"]),
   ]
 }

@@ -8,7 +8,7 @@ public struct Logger: Sendable {
   private let logger: Logging.Logger
 
   /// Creates a logger without a subsystem.
-  public init() { self.init(Logging.Logger(quietLabel: "default")) }
+  public init() { self.init(Logging.Logger(standardErrorLabel: "default")) }
 
   /// Creates a logger for a part of a program.
   ///
@@ -16,7 +16,7 @@ public struct Logger: Sendable {
   ///   - subsystem: The program, usually in reverse-DNS notation.
   ///   - category: The part of the program.
   public init(subsystem: String, category: String) {
-    self.init(Logging.Logger(quietLabel: "\(subsystem):\(category)"))
+    self.init(Logging.Logger(standardErrorLabel: "\(subsystem):\(category)"))
   }
 
   init(_ logger: Logging.Logger) { self.logger = logger }

@@ -11,18 +11,18 @@ public struct OSAllocatedUnfairLock<State>: @unchecked Sendable {
 
     init(_ state: State) { self.state = state }
 
-    func enter() {
+    func acquire() {
       lock.lock()
       holder.store(pthread_self(), ordering: .relaxed)
     }
 
-    func enterIfFree() -> Bool {
+    func tryAcquire() -> Bool {
       guard lock.try() else { return false }
       holder.store(pthread_self(), ordering: .relaxed)
       return true
     }
 
-    func leave() {
+    func release() {
       holder.store(0, ordering: .relaxed)
       lock.unlock()
     }
@@ -35,8 +35,8 @@ public struct OSAllocatedUnfairLock<State>: @unchecked Sendable {
 
   /// Calls a closure with the value while holding the lock.
   public func withLockUnchecked<R>(_ body: (inout State) throws -> R) rethrows -> R {
-    storage.enter()
-    defer { storage.leave() }
+    storage.acquire()
+    defer { storage.release() }
     return try body(&storage.state)
   }
 
@@ -49,8 +49,8 @@ public struct OSAllocatedUnfairLock<State>: @unchecked Sendable {
   public func withLockIfAvailable<R: Sendable>(
     _ body: @Sendable (inout State) throws -> R
   ) rethrows -> R? {
-    guard storage.enterIfFree() else { return nil }
-    defer { storage.leave() }
+    guard storage.tryAcquire() else { return nil }
+    defer { storage.release() }
     return try body(&storage.state)
   }
 }
@@ -81,13 +81,13 @@ extension OSAllocatedUnfairLock where State == Void {
   public init() { self.init(uncheckedState: ()) }
 
   /// Acquires the lock; the same thread must release it.
-  public func lock() { storage.enter() }
+  public func lock() { storage.acquire() }
 
   /// Acquires the lock if it is free; returns whether it did.
-  public func lockIfAvailable() -> Bool { storage.enterIfFree() }
+  public func lockIfAvailable() -> Bool { storage.tryAcquire() }
 
   /// Releases the lock.
-  public func unlock() { storage.leave() }
+  public func unlock() { storage.release() }
 
   /// Calls a closure while holding the lock.
   public func withLock<R: Sendable>(_ body: @Sendable () throws -> R) rethrows -> R {

@@ -20,7 +20,8 @@ public final class OSLog: Sendable {
   /// The log without a subsystem.
   public static let `default` = OSLog(Logger())
   /// The log that discards all messages.
-  public static let disabled = OSLog(Logger(Logging.Logger(label: "", factory: { _ in Silence() })))
+  public static let disabled = OSLog(
+    Logger(Logging.Logger(label: "", factory: { _ in NullLogHandler() })))
 
   /// Whether messages at a level are logged.
   public func isEnabled(type: OSLogType) -> Bool { logger.isEnabled(type) }
@@ -42,7 +43,7 @@ public final class OSLog: Sendable {
 }
 
 /// A log handler that discards all messages.
-private struct Silence: LogHandler {
+private struct NullLogHandler: LogHandler {
   var logLevel = Logging.Logger.Level.critical
   var metadata: Logging.Logger.Metadata = [:]
 

@@ -14,24 +14,24 @@ namespace {
 /// Reports the progress of Ceres and passes cancellation to it.
 class ControlCallback final : public ceres::IterationCallback {
  public:
-  ControlCallback(const ck_control* control, int max_iterations)
-      : control_(control), max_iterations_(max_iterations) {}
+  ControlCallback(const ck_control* control, int maximum_iterations)
+      : control_(control), maximum_iterations_(maximum_iterations) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     try {
-      step(control_, std::min(1.0, summary.iteration / double(std::max(1, max_iterations_))));
-    } catch (const Cancelled&) {
-      cancelled = true;
+      step(control_, std::min(1.0, summary.iteration / double(std::max(1, maximum_iterations_))));
+    } catch (const Canceled&) {
+      canceled = true;
       return ceres::SOLVER_ABORT;
     }
     return ceres::SOLVER_CONTINUE;
   }
 
-  bool cancelled = false;
+  bool canceled = false;
 
  private:
   const ck_control* control_;
-  int max_iterations_;
+  int maximum_iterations_;
 };
 
 /// The parameter blocks of a bundle and the Ceres problem over them.
@@ -46,7 +46,7 @@ class Adjustment {
 
   ceres::Solver::Summary solve(ControlCallback& callback) {
     ceres::Solver::Options solver;
-    solver.max_num_iterations = options_.max_iterations;
+    solver.max_num_iterations = options_.maximum_iterations;
     solver.function_tolerance = options_.function_tolerance;
     solver.gradient_tolerance = 1e-10;
     solver.parameter_tolerance = 1e-10;
@@ -66,13 +66,13 @@ class Adjustment {
   }
 
   /// False if adjusted cameras are not finite or have a focal length of 0 or less.
-  bool is_sound() const {
-    bool sound = true;
+  bool is_valid() const {
+    bool valid = true;
     for (size_t i = 0; i < blocks_.size(); ++i) {
-      sound = sound && std::isfinite(blocks_[i][0] + blocks_[i][4]);
-      sound = sound && (i >= bundle_.camera_count || blocks_[i][0] > 0);
+      valid = valid && std::isfinite(blocks_[i][0] + blocks_[i][4]);
+      valid = valid && (i >= bundle_.camera_count || blocks_[i][0] > 0);
     }
-    return sound;
+    return valid;
   }
 
   /// Writes the adjusted values back.
@@ -233,17 +233,17 @@ ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
   return ck::guarded([&] {
     using namespace ck;
     require(bundle && summary && options, "bundle adjustment needs a scene");
-    require(options->max_iterations >= 0 && options->huber_width > 0,
+    require(options->maximum_iterations >= 0 && options->huber_width > 0,
             "a bundle adjustment option is out of range");
     *summary = {0, 0, 0, true};
     if (bundle->observation_count == 0) return;
     step(control, 0);
     Adjustment adjustment(*bundle, *options);
-    ControlCallback callback(control, options->max_iterations);
+    ControlCallback callback(control, options->maximum_iterations);
     const ceres::Solver::Summary result = adjustment.solve(callback);
-    if (callback.cancelled) throw Cancelled{};
+    if (callback.canceled) throw Canceled{};
     if (result.termination_type == ceres::FAILURE) throw std::runtime_error(result.message);
-    if (!adjustment.is_sound()) throw std::runtime_error("bundle adjustment diverged");
+    if (!adjustment.is_valid()) throw std::runtime_error("bundle adjustment diverged");
     adjustment.store();
     *summary = {2 * result.initial_cost, 2 * result.final_cost,
                 static_cast<int32_t>(result.iterations.size()),

@@ -3,8 +3,8 @@
 #include <ceres/manifold.h>
 #include <ceres/sized_cost_function.h>
 
-#include "geometry/camera_model.h"
 #include "ck_bundle.h"
+#include "geometry/camera_model.h"
 
 namespace ck {
 

@@ -3,10 +3,10 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/camera_model.h"
 #include "ck_bundle.h"
 #include "core/guard.h"
 #include "core/parallel.h"
+#include "geometry/camera_model.h"
 
 namespace ck {
 namespace {
@@ -86,10 +86,10 @@ struct Track {
       if (!next.allFinite()) return;
       const double next_cost = squares(chosen, next);
       if (!(next_cost < cost)) return;
-      const bool settled = cost - next_cost < 1e-6 * cost;
+      const bool converged = cost - next_cost < 1e-6 * cost;
       point = next;
       cost = next_cost;
-      if (settled) return;
+      if (converged) return;
     }
   }
 
@@ -119,44 +119,44 @@ struct Track {
     return std::acos(std::clamp(cosine, -1.0, 1.0));
   }
 
-  std::vector<size_t> inliers(const Vector3& point, double max_error) const {
+  std::vector<size_t> inliers(const Vector3& point, double maximum_error) const {
     std::vector<size_t> chosen;
     for (size_t i = 0; i < count; ++i) {
-      if (error(point, i) <= max_error) chosen.push_back(i);
+      if (error(point, i) <= maximum_error) chosen.push_back(i);
     }
     return chosen;
   }
 
-  double score(const Vector3& point, double max_square) const {
+  double score(const Vector3& point, double maximum_squared_error) const {
     double sum = 0;
     for (size_t i = 0; i < count; ++i) {
       const double e = error(point, i);
-      sum += std::min(e * e, max_square);
+      sum += std::min(e * e, maximum_squared_error);
     }
     return sum;
   }
 
   /// The inliers of the best hypothesis from two rays.
-  std::vector<size_t> robust(double max_error, double min_angle) const {
-    const double max_square = max_error * max_error;
+  std::vector<size_t> robust_inliers(double maximum_error, double minimum_angle) const {
+    const double maximum_squared_error = maximum_error * maximum_error;
     double best_score = std::numeric_limits<double>::infinity();
     Vector3 best = Vector3::Zero();
     // Pairs in order of descending distance within the track, up to a fixed number.
     size_t tried = 0;
-    for (size_t gap = count - 1; gap >= 1 && tried < 60; --gap) {
-      for (size_t i = 0; i + gap < count && tried < 60; ++i) {
-        if (angle(i, i + gap) < min_angle) continue;
+    for (size_t separation = count - 1; separation >= 1 && tried < 60; --separation) {
+      for (size_t i = 0; i + separation < count && tried < 60; ++i) {
+        if (angle(i, i + separation) < minimum_angle) continue;
         ++tried;
         Vector3 point;
-        if (!intersect({i, i + gap}, point)) continue;
-        const double s = score(point, max_square);
+        if (!intersect({i, i + separation}, point)) continue;
+        const double s = score(point, maximum_squared_error);
         if (s < best_score) {
           best_score = s;
           best = point;
         }
       }
     }
-    return std::isfinite(best_score) ? inliers(best, max_error) : std::vector<size_t>{};
+    return std::isfinite(best_score) ? inliers(best, maximum_error) : std::vector<size_t>{};
   }
 
   /// True if a point was found that at least two observations agree on.
@@ -167,20 +167,20 @@ struct Track {
     for (size_t i = 0; i < count; ++i) chosen[i] = i;
     if (intersect(chosen, point)) {
       refine(chosen, point);
-      if (inliers(point, options.max_error).size() == count) {
-        return largest_angle(chosen, point) >= options.min_angle;
+      if (inliers(point, options.maximum_error).size() == count) {
+        return largest_angle(chosen, point) >= options.minimum_angle;
       }
     }
     if (count < 3) return false;
-    chosen = robust(options.max_error, options.min_angle);
+    chosen = robust_inliers(options.maximum_error, options.minimum_angle);
     for (int round = 0; round < 3; ++round) {
       if (chosen.size() < 2 || !intersect(chosen, point)) return false;
       refine(chosen, point);
-      const std::vector<size_t> next = inliers(point, options.max_error);
+      const std::vector<size_t> next = inliers(point, options.maximum_error);
       if (next == chosen) break;
       chosen = next;
     }
-    return chosen.size() >= 2 && largest_angle(chosen, point) >= options.min_angle;
+    return chosen.size() >= 2 && largest_angle(chosen, point) >= options.minimum_angle;
   }
 };
 
@@ -243,7 +243,7 @@ ck_status ck_triangulate(double* positions, size_t position_stride, uint8_t* fou
 ck_status ck_measure_tracks(double* errors, double* angles, const double* positions,
                             size_t position_stride, const int32_t* offsets, size_t track_count,
                             const ck_observation* observations, const ck_views* views,
-                            double max_error, const ck_control* control) {
+                            double maximum_error, const ck_control* control) {
   return ck::guarded([&] {
     using namespace ck;
     if (track_count == 0) return;
@@ -262,7 +262,7 @@ ck_status ck_measure_tracks(double* errors, double* angles, const double* positi
                                     Vector2(observations[i].x, observations[i].y))
                                        .norm()
                                  : std::numeric_limits<double>::infinity();
-        if (!(errors[i] <= max_error)) continue;
+        if (!(errors[i] <= maximum_error)) continue;
         const Vector3 ray = (point - prepared.centers[photo]).normalized();
         for (const Vector3& other : rays) cosine = std::min(cosine, ray.dot(other));
         rays.push_back(ray);

@@ -8,9 +8,9 @@ namespace ck {
 ///
 /// Only for files that are compiled without special instructions.
 template <typename Table>
-const Table& dispatch(ck_instructions wish, const Table& (*portable)(), const Table& (*avx2)(),
+const Table& dispatch(ck_instructions requested, const Table& (*portable)(), const Table& (*avx2)(),
                       const Table& (*avx512)()) {
-  switch (chosen_instructions(wish)) {
+  switch (chosen_instructions(requested)) {
     case ck_instructions_avx512_vnni:
     case ck_instructions_avx512:
       return avx512();

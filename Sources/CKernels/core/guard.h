@@ -9,7 +9,7 @@
 namespace ck {
 
 /// Thrown by `step` when the caller cancels.
-struct Cancelled {};
+struct Canceled {};
 
 /// Thrown when valid input does not determine a result.
 struct Degenerate : std::runtime_error {
@@ -22,11 +22,11 @@ void set_last_error(const std::string& message);
 /// Whether an exception of the standard library or of OpenCV reports a failed allocation.
 bool is_out_of_memory(const std::exception& error);
 
-/// Reports progress; throws `Cancelled` when the caller cancels.
+/// Reports progress; throws `Canceled` when the caller cancels.
 inline void step(const ck_control* control, double fraction) {
   if (control && control->should_continue &&
       !control->should_continue(control->context, fraction)) {
-    throw Cancelled{};
+    throw Canceled{};
   }
 }
 
@@ -46,9 +46,9 @@ ck_status guarded(Body&& body) noexcept {
   try {
     body();
     return ck_ok;
-  } catch (const Cancelled&) {
+  } catch (const Canceled&) {
     set_last_error("canceled");
-    return ck_cancelled;
+    return ck_canceled;
   } catch (const std::invalid_argument& e) {
     set_last_error(e.what());
     return ck_invalid_argument;

@@ -27,10 +27,10 @@ bool ck_instructions_supported(ck_instructions instructions) {
   return false;
 }
 
-ck_instructions ck::chosen_instructions(ck_instructions wish) {
-  require(ck_instructions_supported(wish),
+ck_instructions ck::chosen_instructions(ck_instructions requested) {
+  require(ck_instructions_supported(requested),
           "this processor doesn't support the requested instructions");
-  if (wish != ck_instructions_automatic) return wish;
+  if (requested != ck_instructions_automatic) return requested;
   for (ck_instructions set :
        {ck_instructions_avx512_vnni, ck_instructions_avx512, ck_instructions_avx2}) {
     if (ck_instructions_supported(set)) return set;

@@ -9,6 +9,6 @@ namespace ck {
 
 /// The instruction set to use: the requested one, or the most capable one of this processor if
 /// automatic was requested. Throws if the processor does not support it.
-ck_instructions chosen_instructions(ck_instructions wish);
+ck_instructions chosen_instructions(ck_instructions requested);
 
 }  // namespace ck

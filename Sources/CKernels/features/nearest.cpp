@@ -35,11 +35,12 @@ Scan scan_with(ck_instructions instructions) {
 }  // namespace
 
 NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* columns,
-                         size_t column_count, ck_instructions wish, const ck_control* control) {
+                         size_t column_count, ck_instructions requested,
+                         const ck_control* control) {
   NearestTable table{std::vector<NearestTwo>(row_count), std::vector<NearestTwo>(column_count)};
   const uint32_t row_norm = largest_norm(rows, row_count);
   const uint32_t column_norm = largest_norm(columns, column_count);
-  const Scan scan = scan_with(chosen_instructions(wish));
+  const Scan scan = scan_with(chosen_instructions(requested));
   // Packed keys hold distances of unit-length descriptors (norm 512); others use the portable code.
   const bool is_packable = row_norm + column_norm < kFar;
   for (size_t i = 0; i < row_count; i += kBlockRows) {

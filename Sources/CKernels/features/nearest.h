@@ -67,7 +67,7 @@ size_t write_mutual_matches(const NearestTable& table, double ratio, double maxi
 /// Compares all descriptors of two sets. Throws if the processor does not support the instruction
 /// set.
 NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* columns,
-                         size_t column_count, ck_instructions wish, const ck_control* control);
+                         size_t column_count, ck_instructions requested, const ck_control* control);
 
 inline size_t rounded_up(size_t count, size_t step) { return (count + step - 1) / step * step; }
 

@@ -62,7 +62,7 @@ void BlockCholesky::add(size_t slot, const Eigen::Matrix3d& block) {
   }
 }
 
-bool BlockCholesky::factorise() {
+bool BlockCholesky::factorize() {
   solver_.factorize(matrix_);
   return solver_.info() == Eigen::Success;
 }

@@ -26,7 +26,7 @@ class BlockCholesky {
   void add(size_t slot, const Eigen::Matrix3d& block);
 
   /// Factorizes the matrix; false if it is not positive definite.
-  bool factorise();
+  bool factorize();
 
   /// Solves for a right-hand side with the last factorization.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;

@@ -4,16 +4,16 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/camera_model.h"
 #include "ck_global.h"
 #include "core/guard.h"
+#include "geometry/camera_model.h"
 #include "global/block_cholesky.h"
 
 namespace ck {
 namespace {
 
 /// The unknowns: camera centers, points and one factor per direction.
-struct Places {
+struct Unknowns {
   std::vector<Vector3> centers, points;
   std::vector<double> factors;
 };
@@ -22,13 +22,13 @@ struct Places {
 /// points (Schur complement); the remaining system contains the cameras only.
 class Positioning {
  public:
-  Positioning(Places places, const ck_direction* directions, size_t count,
+  Positioning(Unknowns unknowns, const ck_direction* directions, size_t count,
               const ck_positioning_options& options)
-      : places_(std::move(places)),
+      : unknowns_(std::move(unknowns)),
         directions_(directions),
         count_(count),
         options_(options),
-        system_(places_.centers.size(), blocks()) {
+        system_(unknowns_.centers.size(), blocks()) {
     for_each_pair([&](size_t a, size_t b) {
       slots_.push_back(system_.slot(std::max(directions_[a].photo, directions_[b].photo),
                                     std::min(directions_[a].photo, directions_[b].photo)));
@@ -37,14 +37,14 @@ class Positioning {
   }
 
   ck_positioning_summary solve(const ck_control* control) {
-    double cost = this->cost(places_);
+    double cost = this->cost(unknowns_);
     ck_positioning_summary summary = {cost, cost, 0, false};
     double damping = 1e-4, growth = 2;
-    for (int iteration = 0; iteration < options_.max_iterations; ++iteration) {
-      step(control, double(iteration) / options_.max_iterations);
+    for (int iteration = 0; iteration < options_.maximum_iterations; ++iteration) {
+      step(control, double(iteration) / options_.maximum_iterations);
       ++summary.iterations;
-      linearise();
-      Places next;
+      linearize();
+      Unknowns next;
       double expected = 0;
       const bool is_solved = advance(damping, next, expected);
       const double next_cost = is_solved ? this->cost(next) : cost;
@@ -57,7 +57,7 @@ class Positioning {
       const double gain = (cost - next_cost) / std::max(expected, 1e-300);
       damping = std::max(1e-12, damping * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
       growth = 2;
-      places_ = std::move(next);
+      unknowns_ = std::move(next);
       summary.converged = cost - next_cost < options_.function_tolerance * cost;
       cost = next_cost;
       if (summary.converged) break;
@@ -66,7 +66,7 @@ class Positioning {
     return summary;
   }
 
-  const Places& places() const { return places_; }
+  const Unknowns& unknowns() const { return unknowns_; }
 
  private:
   /// Contribution of one direction to the normal equations of y = X − c, with its factor
@@ -76,9 +76,9 @@ class Positioning {
     Vector3 right;
   };
 
-  Vector3 offset(const Places& places, size_t k) const {
-    return places.points[size_t(directions_[k].point)] -
-           places.centers[size_t(directions_[k].photo)];
+  Vector3 offset(const Unknowns& unknowns, size_t k) const {
+    return unknowns.points[size_t(directions_[k].point)] -
+           unknowns.centers[size_t(directions_[k].photo)];
   }
 
   Vector3 direction(size_t k) const {
@@ -113,24 +113,24 @@ class Positioning {
     return blocks;
   }
 
-  double cost(const Places& places) const {
+  double cost(const Unknowns& unknowns) const {
     const double h = options_.huber_width;
     double sum = 0;
     for (size_t k = 0; k < count_; ++k) {
-      const double r = (direction(k) - places.factors[k] * offset(places, k)).norm();
+      const double r = (direction(k) - unknowns.factors[k] * offset(unknowns, k)).norm();
       sum += r <= h ? r * r : h * (2 * r - h);
     }
     return sum / 2;
   }
 
   /// Computes residuals, offsets and robust weights at the current unknowns.
-  void linearise() {
+  void linearize() {
     residuals_.resize(count_);
     offsets_.resize(count_);
     weights_.resize(count_);
     for (size_t k = 0; k < count_; ++k) {
-      offsets_[k] = offset(places_, k);
-      residuals_[k] = direction(k) - places_.factors[k] * offsets_[k];
+      offsets_[k] = offset(unknowns_, k);
+      residuals_[k] = direction(k) - unknowns_.factors[k] * offsets_[k];
       const double r = residuals_[k].norm();
       weights_[k] = r <= options_.huber_width ? 1 : options_.huber_width / r;
     }
@@ -141,17 +141,17 @@ class Positioning {
   }
 
   /// One damped Gauss–Newton step. `expected` receives the predicted decrease of the cost.
-  bool advance(double damping, Places& next, double& expected) {
+  bool advance(double damping, Unknowns& next, double& expected) {
     eliminate_factors(damping);
-    std::vector<Eigen::Matrix3d> inverses(places_.points.size(), Eigen::Matrix3d::Zero());
-    std::vector<Vector3> point_rights(places_.points.size(), Vector3::Zero());
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(Eigen::Index(3 * places_.centers.size()));
+    std::vector<Eigen::Matrix3d> inverses(unknowns_.points.size(), Eigen::Matrix3d::Zero());
+    std::vector<Vector3> point_rights(unknowns_.points.size(), Vector3::Zero());
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(Eigen::Index(3 * unknowns_.centers.size()));
     assemble(damping, inverses, point_rights, right);
-    if (!system_.factorise()) return false;
+    if (!system_.factorize()) return false;
     const Eigen::VectorXd moves = system_.solve(right);
     if (!moves.allFinite()) return false;
 
-    next = places_;
+    next = unknowns_;
     for (size_t i = 0; i < next.centers.size(); ++i) {
       next.centers[i] += moves.segment<3>(Eigen::Index(3 * i));
     }
@@ -169,10 +169,10 @@ class Positioning {
   }
 
   /// Sets the factor for the moved camera and point; returns the predicted decrease.
-  double move_factor(size_t k, double damping, Places& next) const {
+  double move_factor(size_t k, double damping, Unknowns& next) const {
     const Vector3 move = offset(next, k) - offsets_[k];
     const Vector3& y = offsets_[k];
-    const double d = places_.factors[k];
+    const double d = unknowns_.factors[k];
     const double change = y.dot(residuals_[k] - d * move) / damped(y.squaredNorm(), damping);
     next.factors[k] = std::max(1e-5, d + change);
     const Vector3 predicted = residuals_[k] - d * move - change * y;
@@ -182,7 +182,7 @@ class Positioning {
   void eliminate_factors(double damping) {
     for (size_t k = 0; k < count_; ++k) {
       const Vector3& y = offsets_[k];
-      const double d = places_.factors[k], w = weights_[k];
+      const double d = unknowns_.factors[k], w = weights_[k];
       const double pivot = damped(y.squaredNorm(), damping);
       terms_[k].matrix = w * d * d * (Eigen::Matrix3d::Identity() - y * y.transpose() / pivot);
       terms_[k].right = w * d * (residuals_[k] - y * (y.dot(residuals_[k]) / pivot));
@@ -193,14 +193,14 @@ class Positioning {
   void assemble(double damping, std::vector<Eigen::Matrix3d>& inverses,
                 std::vector<Vector3>& point_rights, Eigen::VectorXd& right) {
     system_.clear();
-    std::vector<Vector3> diagonals(places_.centers.size(), Vector3::Zero());
+    std::vector<Vector3> diagonals(unknowns_.centers.size(), Vector3::Zero());
     size_t pair = 0;
     for_each_point([&](size_t begin, size_t end) {
       const size_t point = size_t(directions_[begin].point);
       Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
       Vector3 point_diagonal = Vector3::Zero();
       for (size_t k = begin; k < end; ++k) {
-        const double diagonal = weights_[k] * places_.factors[k] * places_.factors[k];
+        const double diagonal = weights_[k] * unknowns_.factors[k] * unknowns_.factors[k];
         sum += terms_[k].matrix;
         point_rights[point] += terms_[k].right;
         point_diagonal.array() += diagonal;
@@ -238,7 +238,7 @@ class Positioning {
     }
   }
 
-  Places places_;
+  Unknowns unknowns_;
   const ck_direction* directions_;
   size_t count_;
   const ck_positioning_options& options_;
@@ -250,19 +250,19 @@ class Positioning {
   std::vector<double> weights_;
 };
 
-Places read(const double* centers, size_t photo_count, const double* points, size_t point_count,
-            const ck_direction* directions, size_t direction_count) {
-  Places places;
-  for (size_t i = 0; i < photo_count; ++i) places.centers.emplace_back(centers + 3 * i);
-  for (size_t i = 0; i < point_count; ++i) places.points.emplace_back(points + 3 * i);
+Unknowns read(const double* centers, size_t photo_count, const double* points, size_t point_count,
+              const ck_direction* directions, size_t direction_count) {
+  Unknowns unknowns;
+  for (size_t i = 0; i < photo_count; ++i) unknowns.centers.emplace_back(centers + 3 * i);
+  for (size_t i = 0; i < point_count; ++i) unknowns.points.emplace_back(points + 3 * i);
   for (size_t k = 0; k < direction_count; ++k) {
     const ck_direction& d = directions[k];
     require(d.photo >= 0 && size_t(d.photo) < photo_count && d.point >= 0 &&
                 size_t(d.point) < point_count && (k == 0 || d.point >= directions[k - 1].point),
             "a direction refers to a missing photo or point, or is not grouped by point");
   }
-  places.factors.assign(direction_count, 1);
-  return places;
+  unknowns.factors.assign(direction_count, 1);
+  return unknowns;
 }
 
 }  // namespace
@@ -281,10 +281,10 @@ ck_status ck_position_globally(double* centers, size_t photo_count, double* poin
         direction_count, *options);
     *summary = positioning.solve(control);
     for (size_t i = 0; i < photo_count; ++i) {
-      for (int k = 0; k < 3; ++k) centers[3 * i + size_t(k)] = positioning.places().centers[i][k];
+      for (int k = 0; k < 3; ++k) centers[3 * i + size_t(k)] = positioning.unknowns().centers[i][k];
     }
     for (size_t i = 0; i < point_count; ++i) {
-      for (int k = 0; k < 3; ++k) points[3 * i + size_t(k)] = positioning.places().points[i][k];
+      for (int k = 0; k < 3; ++k) points[3 * i + size_t(k)] = positioning.unknowns().points[i][k];
     }
   });
 }

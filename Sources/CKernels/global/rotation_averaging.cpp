@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/camera_model.h"
 #include "ck_global.h"
 #include "core/guard.h"
+#include "geometry/camera_model.h"
 
 namespace ck {
 namespace {

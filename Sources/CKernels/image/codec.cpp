@@ -130,8 +130,8 @@ ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_code
   });
 }
 
-ck_status ck_image_decode_numbers(const uint8_t* bytes, size_t byte_count,
-                                  const ck_decode_limits* limits, ck_image** image) {
+ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count,
+                                const ck_decode_limits* limits, ck_image** image) {
   return ck::guarded([&] {
     ck::require(bytes && byte_count > 0, "the file is empty");
     ck::require(byte_count <= static_cast<size_t>(INT32_MAX), "the file is too large");

@@ -49,13 +49,13 @@ bool is_identity(cmsHTRANSFORM transform) {
 
 }  // namespace
 
-ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_colors colors,
+ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_color_space color_space,
                                    const uint8_t* profile, size_t profile_count) {
   return ck::guarded([&] {
     ck::require(pixel_count <= UINT32_MAX && profile_count <= UINT32_MAX,
                 "the image or its color profile is too large");
     const Profile source =
-        colors == ck_colors_adobe_rgb
+        color_space == ck_color_space_adobe_rgb
             ? adobe_rgb()
             : Profile(cmsOpenProfileFromMem(profile, static_cast<cmsUInt32Number>(profile_count)));
     if (!source || cmsGetColorSpace(source.get()) != cmsSigRgbData) return;

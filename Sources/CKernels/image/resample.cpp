@@ -46,8 +46,8 @@ ck_status ck_image_resize(const uint8_t* source, int32_t width, int32_t height, 
   });
 }
 
-ck_status ck_image_turn(const uint8_t* source, int32_t width, int32_t height, int32_t channels,
-                        int32_t orientation, uint8_t* destination) {
+ck_status ck_image_orient(const uint8_t* source, int32_t width, int32_t height, int32_t channels,
+                          int32_t orientation, uint8_t* destination) {
   return ck::guarded([&] {
     ck::require(orientation >= 1 && orientation <= 8, "EXIF orientations are 1 to 8");
     const cv::Mat from = wrap(source, width, height, channels);

@@ -10,10 +10,10 @@ extern "C" {
 /// Acceptance thresholds of triangulation.
 typedef struct {
   /// Largest reprojection error of an inlier, in pixels.
-  double max_error;
+  double maximum_error;
   /// Smallest triangulation angle in radians: the largest angle between two inlier rays must reach
   /// it.
-  double min_angle;
+  double minimum_angle;
 } ck_triangulation_options;
 
 /// Triangulates tracks: robust hypotheses from pairs of rays, then least squares on the
@@ -32,11 +32,11 @@ ck_status ck_triangulate(double* positions, size_t position_stride, uint8_t* fou
 ///
 /// `errors` holds one value per observation in pixels (infinite behind the camera), `angles` one
 /// value per track: the largest angle in radians between two rays whose error is at most
-/// `max_error`.
+/// `maximum_error`.
 ck_status ck_measure_tracks(double* errors, double* angles, const double* positions,
                             size_t position_stride, const int32_t* offsets, size_t track_count,
                             const ck_observation* observations, const ck_views* views,
-                            double max_error, const ck_control* control);
+                            double maximum_error, const ck_control* control);
 
 /// Camera parameters that bundle adjustment may change, as bits.
 typedef enum {
@@ -92,7 +92,7 @@ typedef struct {
 
 /// Options of bundle adjustment.
 typedef struct {
-  int32_t max_iterations;
+  int32_t maximum_iterations;
   /// Residual at which the Huber loss changes from quadratic to linear, in pixels.
   double huber_width;
   /// Stops when the relative decrease of the cost falls below this value.

@@ -12,7 +12,7 @@ extern "C" {
 /// Status of a kernel call.
 typedef enum {
   ck_ok = 0,
-  ck_cancelled = 1,
+  ck_canceled = 1,
   ck_invalid_argument = 2,
   /// The input is valid but does not determine a result.
   ck_degenerate = 3,

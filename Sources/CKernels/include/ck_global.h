@@ -47,7 +47,7 @@ typedef struct {
 
 /// Options of global positioning.
 typedef struct {
-  int32_t max_iterations;
+  int32_t maximum_iterations;
   /// Residual at which the Huber loss changes from quadratic to linear; residuals approximate sines
   /// of angles.
   double huber_width;

@@ -63,8 +63,8 @@ ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_code
 
 /// Decodes a single-channel 32-bit floating-point image, for example a depth map, without
 /// conversion. Returns an image without pixels if the file has another pixel format.
-ck_status ck_image_decode_numbers(const uint8_t* bytes, size_t byte_count,
-                                  const ck_decode_limits* limits, ck_image** image);
+ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count,
+                                const ck_decode_limits* limits, ck_image** image);
 
 /// Width in pixels.
 int32_t ck_image_width(const ck_image* image);
@@ -113,15 +113,15 @@ ck_status ck_heif_encode(const uint8_t* pixels, int32_t width, int32_t height, i
 /// The source color space of a conversion.
 typedef enum {
   /// The color space of an ICC profile.
-  ck_colors_icc = 0,
+  ck_color_space_icc = 0,
   /// Adobe RGB (1998).
-  ck_colors_adobe_rgb = 1,
-} ck_colors;
+  ck_color_space_adobe_rgb = 1,
+} ck_color_space;
 
 /// Converts RGB pixels in place to sRGB (IEC 61966-2-1) with relative colorimetric intent; values
 /// outside the sRGB gamut are clipped. Does nothing if the color space equals sRGB within two 8-bit
 /// steps, or if the profile is damaged or not an RGB profile.
-ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_colors colors,
+ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_color_space color_space,
                                    const uint8_t* profile, size_t profile_count);
 
 /// Inflates a zlib stream to at most `maximum` bytes.
@@ -145,8 +145,8 @@ ck_status ck_image_resize(const uint8_t* source, int32_t width, int32_t height, 
 
 /// Applies EXIF orientation 1…8 to the pixels. `destination` holds as many bytes as the source;
 /// orientations 5…8 swap width and height.
-ck_status ck_image_turn(const uint8_t* source, int32_t width, int32_t height, int32_t channels,
-                        int32_t orientation, uint8_t* destination);
+ck_status ck_image_orient(const uint8_t* source, int32_t width, int32_t height, int32_t channels,
+                          int32_t orientation, uint8_t* destination);
 
 /// Resamples (bicubic) an image of `source_camera` as seen by `destination_camera`, which has no
 /// distortion. Pixels outside the source repeat its border. Both images have `channels` channels

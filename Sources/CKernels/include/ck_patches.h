@@ -60,7 +60,7 @@ typedef struct {
   /// Nonzero to propagate patches across views.
   int32_t expands_across_views;
   /// Nonzero for fronto-parallel patches instead of slanted ones.
-  int32_t is_frontal;
+  int32_t is_fronto_parallel;
   /// Random seed; the same seed gives the same patches.
   uint32_t seed;
   /// Instruction set of the inner loops. Results differ by rounding only.
@@ -107,13 +107,13 @@ ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
 
 /// Thresholds of the patch filter and of fusion.
 typedef struct {
-  /// Largest cost of a patch for which `minimum_agreeing` consistent views suffice.
+  /// Largest cost of a patch for which `minimum_consistent_views` consistent views suffice.
   float photometric_threshold;
   /// Largest cost of any patch; between the two thresholds one more consistent view is required.
   float weak_texture_threshold;
   /// Number of other views that must be consistent; all but one if there are fewer, but at least
   /// one.
-  int32_t minimum_agreeing;
+  int32_t minimum_consistent_views;
   /// Largest disparity between two consistent patches, in pixels of the coarser view.
   float reprojection_threshold;
   /// Largest relative difference in depth of two consistent patches.
@@ -122,13 +122,13 @@ typedef struct {
   float normal_cosine;
   /// Relative depth difference from which another view that sees past a patch counts as a
   /// free-space violation.
-  float contradiction_threshold;
+  float free_space_threshold;
   /// Number of passes that remove boundary pixels affected by foreground fattening.
-  int32_t fringe_passes;
+  int32_t depth_edge_passes;
   /// Difference in gray levels at which the similarity of two pixels is one half.
-  float fringe_contrast;
+  float depth_edge_contrast;
   /// Connected components with fewer patches are removed.
-  int32_t minimum_island;
+  int32_t minimum_island_size;
   /// Largest disparity at which consistent patches are fused, in pixels of the coarser view.
   float fusion_threshold;
   /// Instruction set of the inner loops. Results differ by rounding only.

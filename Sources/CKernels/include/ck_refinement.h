@@ -18,7 +18,7 @@ typedef struct {
   double x, y;
   /// Spacing of the samples in pixels, at least 1.
   double step;
-} ck_template_place;
+} ck_template_location;
 
 /// Initial estimate of a template's location in another photo.
 typedef struct {
@@ -39,23 +39,24 @@ typedef struct {
   double x, y;
   /// Zero-mean normalized cross-correlation at the center, −1…1; −1 if the search failed.
   double zncc;
-} ck_template_find;
+} ck_template_match;
 
 /// Extracts templates from an image with 1, 3 (RGB) or 4 channels.
 ///
 /// `samples` receives `CK_TEMPLATE_SAMPLES` values per location: 64 times the luma 0…255. `valid`
 /// is set to 1 if the square lies within the image and has texture in two directions.
 ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t height,
-                               int32_t channels, size_t row_stride, const ck_template_place* places,
-                               size_t count, uint16_t* samples, uint8_t* valid);
+                               int32_t channels, size_t row_stride,
+                               const ck_template_location* locations, size_t count,
+                               uint16_t* samples, uint8_t* valid);
 
 /// Locates templates in an image by least squares matching (Gruen, "Adaptive least squares
 /// correlation", 1985) of position, gain and offset, in the inverse compositional form (Baker and
-/// Matthews, IJCV 2004). A search that moves more than `max_shift` pixels from its start fails.
+/// Matthews, IJCV 2004). A search that moves more than `maximum_shift` pixels from its start fails.
 ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
                              size_t row_stride, const uint16_t* samples, size_t template_count,
-                             const ck_template_search* searches, size_t count, double max_shift,
-                             ck_template_find* finds);
+                             const ck_template_search* searches, size_t count, double maximum_shift,
+                             ck_template_match* matches);
 
 #ifdef __cplusplus
 }

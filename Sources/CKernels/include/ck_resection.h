@@ -16,9 +16,9 @@ ck_status ck_p3p(ck_pose* poses, size_t* pose_count, const double* rays, const d
 /// Options of pose estimation.
 typedef struct {
   /// Largest reprojection error of an inlier, in pixels.
-  double max_error;
+  double maximum_error;
   /// Largest number of hypotheses to draw.
-  int32_t max_iterations;
+  int32_t maximum_iterations;
   /// Stops when the best hypothesis is the best of all with this probability, 0…1.
   double confidence;
   /// Fewer inliers return `ck_degenerate`.

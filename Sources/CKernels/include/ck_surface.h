@@ -52,13 +52,13 @@ ck_status ck_voxel_cells(const float* positions, size_t stride, size_t count, do
                          const int8_t* levels, const ck_control* control, int32_t* cells,
                          size_t* cell_count, int32_t* components, size_t* component_count);
 
-/// Finds the nearest `neighbours` points within `maximum_distance` of every query.
+/// Finds the nearest `neighbors` points within `maximum_distance` of every query.
 ///
-/// `indices` and `distances` hold `neighbours` elements per query, the nearest first; −1 and
+/// `indices` and `distances` hold `neighbors` elements per query, the nearest first; −1 and
 /// infinity where there are fewer.
 ck_status ck_nearest_points(const float* points, size_t point_stride, size_t point_count,
                             const float* queries, size_t query_stride, size_t query_count,
-                            int32_t neighbours, double maximum_distance, const ck_control* control,
+                            int32_t neighbors, double maximum_distance, const ck_control* control,
                             int32_t* indices, float* distances);
 
 /// An axis-aligned grid of cubic cells; x varies fastest.
@@ -89,7 +89,7 @@ typedef struct {
   /// Number of rounds of comparing photos and moving vertices.
   int32_t rounds;
   /// Largest number of views that each view is compared with.
-  int32_t neighbours;
+  int32_t neighbors;
   /// Photos are compared by normalized cross-correlation in windows of `2 × radius + 1` pixels per
   /// side.
   int32_t radius;

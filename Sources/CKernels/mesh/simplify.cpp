@@ -69,9 +69,9 @@ class Simplifier {
         mesh_(load_points(input), load_faces(input)),
         vertices_(input.position_count),
         versions_(input.position_count, 0),
-        homes_(input.position_count),
+        representatives_(input.position_count),
         alive_(mesh_.face_count()) {
-    std::iota(homes_.begin(), homes_.end(), 0u);
+    std::iota(representatives_.begin(), representatives_.end(), 0u);
     find_borders();
     add_quadrics();
   }
@@ -135,8 +135,8 @@ class Simplifier {
   /// collapses.
   void fit(const ck_control* control) {
     if (!has_collapsed_) return;
-    for (uint32_t v = 0; v < homes_.size(); ++v) root(&homes_, v);
-    SurfaceFit(input_, homes_, &mesh_).run(control);
+    for (uint32_t v = 0; v < representatives_.size(); ++v) root(&representatives_, v);
+    SurfaceFit(input_, representatives_, &mesh_).run(control);
   }
 
   void copy(float* positions, size_t* position_count, size_t stride, uint32_t* triangles,
@@ -295,18 +295,18 @@ class Simplifier {
     vertices_[a] = {t.quadric, t.error, vertices_[a].is_border || vertices_[b].is_border};
     ++versions_[a];
     ++versions_[b];
-    homes_[b] = a;
+    representatives_[b] = a;
     has_collapsed_ = true;
     mesh_.for_neighbors(a, [&](uint32_t v) { push(a, v); });
   }
 
   bool keeps_shape(uint32_t a, uint32_t b, const Point& p) const {
-    return keeps_sides(a, b, p) && keeps_sides(b, a, p);
+    return keeps_orientation(a, b, p) && keeps_orientation(b, a, p);
   }
 
   /// Whether the normals of the remaining triangles at `v` rotate by less than the limit when it
   /// moves to `p`.
-  bool keeps_sides(uint32_t v, uint32_t other, const Point& p) const {
+  bool keeps_orientation(uint32_t v, uint32_t other, const Point& p) const {
     return mesh_.all_faces(v, [&](uint32_t i) {
       if (mesh_.has(i, other)) return true;
       const Point before = mesh_.normal(mesh_.face(i));
@@ -320,8 +320,8 @@ class Simplifier {
   InputMesh input_;
   CollapseMesh mesh_;
   std::vector<Vertex> vertices_;
-  std::vector<uint32_t> versions_;  ///< number of changes of each vertex
-  std::vector<uint32_t> homes_;     ///< the vertex that each one was merged into
+  std::vector<uint32_t> versions_;         ///< number of changes of each vertex
+  std::vector<uint32_t> representatives_;  ///< the vertex that each one was merged into
   CollapseQueue queue_;
   size_t alive_ = 0;
   double minimum_cosine_ = 0;

@@ -55,9 +55,9 @@ Point unit(const Point& n) {
 
 }  // namespace
 
-SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& homes,
+SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& representatives,
                        CollapseMesh* mesh)
-    : mesh_(*mesh), sides_(mesh->face_count()), normals_(mesh->face_count()) {
+    : mesh_(*mesh), initial_normals_(mesh->face_count()), normals_(mesh->face_count()) {
   samples_.reserve(input.triangle_count + input.position_count);
   std::vector<double> areas(input.position_count, 0);
   for (size_t t = 0; t < input.triangle_count; ++t) {
@@ -66,12 +66,12 @@ SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& home
     const Point n = cross(b - a, c - a);
     const double area = std::sqrt(dot(n, n)) / 2;
     // Centroid and corners in this proportion integrate any quadratic function exactly.
-    add((a + b + c) * (1.0 / 3), area * 3 / 4, homes[f[0]]);
+    add((a + b + c) * (1.0 / 3), area * 3 / 4, representatives[f[0]]);
     for (size_t k = 0; k < 3; ++k) areas[f[k]] += area / 12;
   }
-  for (size_t v = 0; v < areas.size(); ++v) add(input.point(v), areas[v], homes[v]);
-  for (size_t f = 0; f < sides_.size(); ++f) {
-    if (mesh_.is_alive(f)) sides_[f] = unit(mesh_.normal(mesh_.face(f)));
+  for (size_t v = 0; v < areas.size(); ++v) add(input.point(v), areas[v], representatives[v]);
+  for (size_t f = 0; f < initial_normals_.size(); ++f) {
+    if (mesh_.is_alive(f)) initial_normals_[f] = unit(mesh_.normal(mesh_.face(f)));
   }
   for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
     if (!mesh_.is_used(v) || mesh_.is_border(v)) continue;
@@ -80,14 +80,14 @@ SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& home
   }
 }
 
-void SurfaceFit::add(const Point& position, double area, uint32_t home) {
+void SurfaceFit::add(const Point& position, double area, uint32_t representative) {
   // The vertex is unused if its component was removed.
-  if (!(area > 0) || !mesh_.is_used(home)) return;
+  if (!(area > 0) || !mesh_.is_used(representative)) return;
   samples_.push_back({{static_cast<float>(position[0]), static_cast<float>(position[1]),
                        static_cast<float>(position[2])},
                       static_cast<float>(area),
                       {},
-                      home});
+                      representative});
 }
 
 void SurfaceFit::run(const ck_control* control) {
@@ -175,12 +175,12 @@ void SurfaceFit::move_vertices() {
 }
 
 void SurfaceFit::move(uint32_t v, const Point& p) {
-  const bool keeps_sides = mesh_.all_faces(v, [&](uint32_t i) {
+  const bool keeps_orientation = mesh_.all_faces(v, [&](uint32_t i) {
     const Point n = mesh_.normal(mesh_.face(i), v, p);
     const double length2 = dot(n, n);
-    return length2 > 0 && dot(n, sides_[i]) >= kMinimumCosine * std::sqrt(length2);
+    return length2 > 0 && dot(n, initial_normals_[i]) >= kMinimumCosine * std::sqrt(length2);
   });
-  if (keeps_sides) mesh_.move(v, p);
+  if (keeps_orientation) mesh_.move(v, p);
 }
 
 }  // namespace ck::texture

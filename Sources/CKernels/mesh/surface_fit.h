@@ -31,8 +31,10 @@ struct InputMesh {
 /// vertex: the simplified surface is slightly too small. Boundaries are not moved.
 class SurfaceFit {
  public:
-  /// `homes` holds for each vertex of `input` the vertex of `mesh` that it was merged into.
-  SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& homes, CollapseMesh* mesh);
+  /// `representatives` holds for each vertex of `input` the vertex of `mesh` that it was merged
+  /// into.
+  SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& representatives,
+             CollapseMesh* mesh);
 
   void run(const ck_control* control);
 
@@ -45,7 +47,7 @@ class SurfaceFit {
     uint32_t face;                 ///< initially the index of a vertex
   };
 
-  void add(const Point& position, double area, uint32_t home);
+  void add(const Point& position, double area, uint32_t representative);
   /// Searches for the nearest triangle around a nearby vertex, except for samples whose projection
   /// lies inside their triangle.
   void find_faces(bool is_first);
@@ -60,7 +62,7 @@ class SurfaceFit {
   CollapseMesh& mesh_;
   std::vector<Sample> samples_;
   std::vector<uint32_t> offsets_, order_;  ///< the samples of each triangle
-  std::vector<Point> sides_;               ///< unit normals before the first move
+  std::vector<Point> initial_normals_;     ///< unit normals before the first move
   std::vector<Point> normals_;             ///< unit normals when the samples were last projected
   std::vector<uint32_t> movable_;
   std::vector<Point> starts_;  ///< initial positions of the movable vertices

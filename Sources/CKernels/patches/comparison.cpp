@@ -42,7 +42,7 @@ Pyramids::Pyramids(const ck_patch_view& reference, const ck_patch_view* sources,
   for (size_t i = 0; i < count; ++i) images_.push_back(pyramid(sources[i], levels));
 }
 
-Comparison Pyramids::compare(int level, const DepthRange& range, float margin,
+Comparison Pyramids::compare(int level, const InverseDepthRange& range, float margin,
                              const ck_patch_options& options) const {
   const double scale = 1.0 / (1 << level);
   const Image& image = images_[0][level];
@@ -51,7 +51,7 @@ Comparison Pyramids::compare(int level, const DepthRange& range, float margin,
   c.height = image.height;
   c.luma = image.luma.data();
   c.bilateral_contrast = options.bilateral_contrast;
-  c.is_frontal = options.is_frontal != 0;
+  c.is_fronto_parallel = options.is_fronto_parallel != 0;
   // Averaging 2 × 2 pixels halves the standard deviation of the noise.
   const double noise = reference_.noise * scale;
   c.noise_variance = static_cast<float>(noise * noise);

@@ -8,7 +8,7 @@
 namespace ck::patches {
 
 /// The range of inverse depths of a set of patches.
-struct DepthRange {
+struct InverseDepthRange {
   float lowest = 0, highest = 0;
 
   void include(float w) {
@@ -28,7 +28,7 @@ class Pyramids {
   /// The input for scoring the reference's patches at one level, for inverse depths from the lower
   /// end of the range divided by `margin` to its upper end times `margin`. Valid as long as the
   /// pyramids exist.
-  Comparison compare(int level, const DepthRange& range, float margin,
+  Comparison compare(int level, const InverseDepthRange& range, float margin,
                      const ck_patch_options& options) const;
 
  private:

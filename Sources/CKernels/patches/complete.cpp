@@ -3,32 +3,32 @@
 #include <vector>
 
 #include "core/guard.h"
-#include "patches/ask.h"
 #include "patches/comparison.h"
-#include "patches/optimise.h"
+#include "patches/geometric_consistency.h"
+#include "patches/optimize.h"
 #include "patches/smooth.h"
 
 namespace ck::patches {
 namespace {
 
 /// Maps the patches of one view into another.
-class Transfer {
+class PatchTransfer {
  public:
-  Transfer(const ck_patch_map& from, const ck_patch_map& to)
-      : there_(from.view, to), back_(to.view, from) {}
+  PatchTransfer(const ck_patch_map& from, const ck_patch_map& to)
+      : forward_(from.view, to), backward_(to.view, from) {}
 
   /// Computes the cell of the other view that shows a patch, and the patch's plane over that view's
   /// pixels; false if the patch is outside the view or back-facing.
-  bool carry(const ck_patch& p, int x, int y, int& cell_x, int& cell_y, Plane& plane) const {
+  bool project(const ck_patch& p, int x, int y, int& cell_x, int& cell_y, Plane& plane) const {
     float q[3];
     for (int i = 0; i < 3; ++i) {
-      q[i] = there_.base[i] + x * there_.column0[i] + y * there_.column1[i] +
-             p.inverse_depth * there_.epipole[i];
+      q[i] = forward_.base[i] + x * forward_.column0[i] + y * forward_.column1[i] +
+             p.inverse_depth * forward_.epipole[i];
     }
     if (!(q[2] > 1e-6f)) return false;
     const float u = q[0] / q[2], v = q[1] / q[2];
-    if (!(u >= kMargin && v >= kMargin && u < there_.width - kMargin &&
-          v < there_.height - kMargin)) {
+    if (!(u >= kMargin && v >= kMargin && u < forward_.width - kMargin &&
+          v < forward_.height - kMargin)) {
       return false;
     }
     cell_x = static_cast<int>(u);
@@ -40,41 +40,41 @@ class Transfer {
       return p.gradient_x * (d[0] - at_x * d[2]) + p.gradient_y * (d[1] - at_y * d[2]) +
              p.inverse_depth * d[2];
     };
-    const float slope = 1 - along(back_.epipole);
+    const float slope = 1 - along(backward_.epipole);
     if (!(slope > 1e-3f)) return false;
-    plane.gx = along(back_.column0) / slope;
-    plane.gy = along(back_.column1) / slope;
+    plane.gx = along(backward_.column0) / slope;
+    plane.gy = along(backward_.column1) / slope;
     plane.w = p.inverse_depth / q[2];
     plane = plane.at(cell_x + 0.5f - u, cell_y + 0.5f - v);
     return true;
   }
 
  private:
-  Passage there_, back_;
+  RelativeProjection forward_, backward_;
 };
 
 /// The accepted patches of neighbors, mapped to the rejected cells of the reference; of several at
 /// a cell, the nearest to the camera.
-std::vector<Plane> offers_across(const ck_patch_map& reference, const ck_patch_map* neighbors,
-                                 size_t count) {
+std::vector<Plane> proposals_from_neighbors(const ck_patch_map& reference,
+                                            const ck_patch_map* neighbors, size_t count) {
   const size_t width = static_cast<size_t>(reference.view.width);
-  std::vector<Plane> offers(width * reference.view.height);
+  std::vector<Plane> proposals(width * reference.view.height);
   for (size_t n = 0; n < count; ++n) {
     const ck_patch_map& neighbor = neighbors[n];
-    const Transfer transfer(neighbor, reference);
+    const PatchTransfer transfer(neighbor, reference);
     for (int y = 0; y < neighbor.view.height; ++y) {
       for (int x = 0; x < neighbor.view.width; ++x) {
         const size_t from = static_cast<size_t>(y) * neighbor.view.width + x;
         if (!neighbor.states[from]) continue;
         int to_x, to_y;
         Plane plane;
-        if (!transfer.carry(neighbor.patches[from], x, y, to_x, to_y, plane)) continue;
+        if (!transfer.project(neighbor.patches[from], x, y, to_x, to_y, plane)) continue;
         const size_t to = to_y * width + to_x;
-        if (!reference.states[to] && plane.w > offers[to].w) offers[to] = plane;
+        if (!reference.states[to] && plane.w > proposals[to].w) proposals[to] = plane;
       }
     }
   }
-  return offers;
+  return proposals;
 }
 
 /// Propagates the accepted patches of a view into its rejected cells, and re-estimates those next
@@ -82,14 +82,14 @@ std::vector<Plane> offers_across(const ck_patch_map& reference, const ck_patch_m
 class Completion {
  public:
   Completion(const ck_patch_map& reference, const Comparison& comparison,
-             const std::vector<Plane>& offers, const ck_patch_options& options)
+             const std::vector<Plane>& proposals, const ck_patch_options& options)
       : comparison_(comparison),
-        offers_(offers),
+        proposals_(proposals),
         steps_(options.refinement_steps),
         grid_(reference.view.width, reference.view.height),
         is_good_(grid_.planes.size()),
         is_edge_(grid_.planes.size()),
-        optimiser_(grid_, comparison, kernels(options.instructions)) {
+        optimizer_(grid_, comparison, kernels(options.instructions)) {
     grid_.read(reference.patches);
     for (size_t i = 0; i < is_good_.size(); ++i) is_good_[i] = reference.states[i] != 0;
     mark_edges();
@@ -103,8 +103,8 @@ class Completion {
         .run(control, from, to, [&](Cell* cells, int count) {
           const auto end = std::remove_if(cells, cells + count, [&](const Cell& cell) {
             if (is_good(cell)) return !is_forward || !is_edge_[grid_.index(cell.x, cell.y)];
-            const bool has_offer = is_forward && offers_[grid_.index(cell.x, cell.y)].w > 0;
-            return !has_offer && !is_good(cell, back, 0) && !is_good(cell, 0, back);
+            const bool has_proposal = is_forward && proposals_[grid_.index(cell.x, cell.y)].w > 0;
+            return !has_proposal && !is_good(cell, back, 0) && !is_good(cell, 0, back);
           });
           if (end > cells) visit(cells, static_cast<int>(end - cells), is_forward);
         });
@@ -114,7 +114,7 @@ class Completion {
 
  private:
   /// The best patch found so far for a cell.
-  struct Found {
+  struct BestPatch {
     Plane plane;
     float cost = kNoPatch;
     bool is_new = false;
@@ -130,7 +130,7 @@ class Completion {
 
   void visit(const Cell* cells, int count, bool is_forward) {
     const int back = is_forward ? -1 : 1;
-    Found found[kWaveSize];
+    BestPatch found[kWaveSize];
     for (int i = 0; i < count; ++i) {
       // A new patch must have a lower cost than a rejected patch, but not than an accepted one at
       // an edge: that was estimated from texels of both sides.
@@ -138,7 +138,7 @@ class Completion {
     }
     attempt(cells, count, found, [&](const Cell& cell) {
       if (is_good(cell)) return good_plane(cell, 0, 0);
-      return is_forward ? offers_[grid_.index(cell.x, cell.y)] : Plane();
+      return is_forward ? proposals_[grid_.index(cell.x, cell.y)] : Plane();
     });
     attempt(cells, count, found, [&](const Cell& cell) { return good_plane(cell, back, 0); });
     attempt(cells, count, found, [&](const Cell& cell) { return good_plane(cell, 0, back); });
@@ -154,12 +154,12 @@ class Completion {
   /// Optimizes each cell's patch starting from the plane `propose(const Cell&)`, unless the current
   /// best one was obtained from there.
   template <typename Propose>
-  void attempt(const Cell* cells, int count, Found* found, const Propose& propose) {
+  void attempt(const Cell* cells, int count, BestPatch* found, const Propose& propose) {
     constexpr float kSame = 0.4f;  // pixels; within reach of Gauss–Newton
     Cell tried[kWaveSize];
     Plane planes[kWaveSize];
     float support[kWaveSize][kTexels];
-    Found* results[kWaveSize];
+    BestPatch* results[kWaveSize];
     int n = 0;
     for (int i = 0; i < count; ++i) {
       planes[n] = propose(cells[i]);
@@ -169,10 +169,10 @@ class Completion {
       tried[n] = cells[i];
       results[n++] = &found[i];
     }
-    optimiser_.start(tried, planes, support, n);
-    optimiser_.refine(steps_, false);
+    optimizer_.start(tried, planes, support, n);
+    optimizer_.refine(steps_, false);
     for (int i = 0; i < n; ++i) {
-      const Candidate& pixel = optimiser_.begin()[i];
+      const Candidate& pixel = optimizer_.begin()[i];
       if (pixel.cost < results[i]->cost) *results[i] = {pixel.plane, pixel.cost, true};
     }
   }
@@ -190,7 +190,7 @@ class Completion {
       for (const auto& [dx, dy] : kNear) {
         for (int x = kMargin; x < grid_.width - kMargin; ++x) {
           const size_t here = grid_.index(x, y), there = grid_.index(x + dx, y + dy);
-          const bool apart = are_apart(grid_.planes[here], grid_.planes[there], dx, dy);
+          const bool apart = are_discontinuous(grid_.planes[here], grid_.planes[there], dx, dy);
           is_edge_[here] |= is_good_[here] & is_good_[there] & apart;
         }
       }
@@ -199,9 +199,10 @@ class Completion {
 
   /// True if neither of two patches, (dx, dy) apart, continues the other. If only one of them does
   /// not, it is tilted by noise.
-  bool are_apart(const Plane& here, const Plane& there, int dx, int dy) const {
+  bool are_discontinuous(const Plane& here, const Plane& there, int dx, int dy) const {
     const auto x = static_cast<float>(dx), y = static_cast<float>(dy);
-    return distance(here.at(x, y), there) > kApart && distance(there.at(-x, -y), here) > kApart;
+    return distance(here.at(x, y), there) > kDiscontinuity &&
+           distance(there.at(-x, -y), here) > kDiscontinuity;
   }
 
   /// Support weight of each texel of a patch: how likely it belongs to the same surface. Small
@@ -211,42 +212,43 @@ class Completion {
       for (const int dx : kTexelOffsets) {
         const size_t cell = grid_.index(at.x + dx, at.y + dy);
         const Plane there = plane.at(static_cast<float>(dx), static_cast<float>(dy));
-        const float apart = distance(grid_.planes[cell], there) / kApart;
+        const float apart = distance(grid_.planes[cell], there) / kDiscontinuity;
         *weights++ = is_good_[cell] ? 1 / (1 + apart * apart * apart * apart) : 0.5f;
       }
     }
   }
 
   /// Disparity between patches of two different surfaces, in pixels of a source.
-  static constexpr float kApart = 1;
+  static constexpr float kDiscontinuity = 1;
 
   const Comparison& comparison_;
-  const std::vector<Plane>& offers_;
+  const std::vector<Plane>& proposals_;
   const int steps_;
   Grid grid_;
   std::vector<uint8_t> is_good_;
   /// Accepted patches next to another surface, to be re-estimated.
   std::vector<uint8_t> is_edge_;
-  PatchOptimiser optimiser_;
+  PatchOptimizer optimizer_;
 };
 
 void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch_map* neighbors,
               size_t count, const ck_patch_options& options, const ck_control* control) {
-  const auto offers = offers_across(reference, neighbors, options.expands_across_views ? count : 0);
-  DepthRange range;
-  for (size_t i = 0; i < offers.size(); ++i) {
-    range.include(offers[i].w);
+  const auto proposals =
+      proposals_from_neighbors(reference, neighbors, options.expands_across_views ? count : 0);
+  InverseDepthRange range;
+  for (size_t i = 0; i < proposals.size(); ++i) {
+    range.include(proposals[i].w);
     if (reference.states[i]) range.include(reference.patches[i].inverse_depth);
   }
   if (range.is_empty()) {
-    std::copy(reference.patches, reference.patches + offers.size(), completed);
+    std::copy(reference.patches, reference.patches + proposals.size(), completed);
     return;
   }
   std::vector<ck_patch_view> sources;
   for (size_t i = 0; i < count; ++i) sources.push_back(neighbors[i].view);
   const Pyramids pyramids(reference.view, sources.data(), count, 1);
   const Comparison comparison = pyramids.compare(0, range, 1.1f, options);
-  Completion completion(reference, comparison, offers, options);
+  Completion completion(reference, comparison, proposals, options);
   completion.sweep(true, control, 0, 0.7);
   completion.sweep(false, control, 0.7, 1);
   smooth(completion.grid(), comparison);

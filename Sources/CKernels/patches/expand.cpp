@@ -2,26 +2,26 @@
 
 #include <algorithm>
 
-#include "patches/optimise.h"
+#include "patches/optimize.h"
 
 namespace ck::patches {
 
 void expand(Grid& grid, const Comparison& comparison, const Kernels& kernels, const Sweep& sweep,
             const ck_control* control, double progress_from, double progress_to) {
-  PatchOptimiser optimiser(grid, comparison, kernels);
+  PatchOptimizer optimizer(grid, comparison, kernels);
   const Wavefront wavefront(grid.width, grid.height, sweep.is_forward);
   const int back = sweep.is_forward ? -1 : 1;
   wavefront.run(control, progress_from, progress_to, [&](Cell* cells, int count) {
     const auto end = std::remove_if(cells, cells + count, [&](const Cell& cell) {
       return !grid.sources[grid.index(cell.x, cell.y)];
     });
-    optimiser.start(cells, static_cast<int>(end - cells));
-    optimiser.offer_different([&](const Cell& cell) { return grid.plane_from(cell, back, 0); });
-    optimiser.offer_different([&](const Cell& cell) { return grid.plane_from(cell, 0, back); });
-    optimiser.perturb(sweep.perturbations, sweep.seed);
-    optimiser.refine(sweep.refinement_steps, false);
-    if (sweep.may_inherit) optimiser.settle();
-    optimiser.finish();
+    optimizer.start(cells, static_cast<int>(end - cells));
+    optimizer.test_distinct([&](const Cell& cell) { return grid.plane_from(cell, back, 0); });
+    optimizer.test_distinct([&](const Cell& cell) { return grid.plane_from(cell, 0, back); });
+    optimizer.perturb(sweep.perturbations, sweep.seed);
+    optimizer.refine(sweep.refinement_steps, false);
+    if (sweep.may_inherit) optimizer.revert_to_coarse_if_weak();
+    optimizer.finish();
   });
 }
 

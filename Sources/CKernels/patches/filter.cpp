@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/guard.h"
-#include "patches/ask.h"
+#include "patches/geometric_consistency.h"
 
 namespace ck::patches {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 /// Where texture is weak the correlation is less reliable, and one more view is required. With few
 /// other views, all but one suffice.
 int required_views(int neighbors, const ck_patch& patch, const ck_patch_filter_options& options) {
-  const int regular = std::min(options.minimum_agreeing, std::max(1, neighbors - 1));
+  const int regular = std::min(options.minimum_consistent_views, std::max(1, neighbors - 1));
   return patch.cost < options.photometric_threshold ? regular : regular + 1;
 }
 
@@ -35,13 +35,13 @@ uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int
 }
 
 /// Accumulates the results of one neighbor. Separate arrays let the compiler vectorize the loop.
-void count(const uint8_t* __restrict kinds, size_t n, uint8_t bit, uint8_t* __restrict agreeing,
-           uint8_t* __restrict contradicting, uint8_t* __restrict visibility) {
+void count(const uint8_t* __restrict kinds, size_t n, uint8_t bit, uint8_t* __restrict consistent,
+           uint8_t* __restrict violating, uint8_t* __restrict visibility) {
   for (size_t x = 0; x < n; ++x) {
-    const uint8_t agrees = kinds[x] & kAgrees;
-    agreeing[x] = static_cast<uint8_t>(agreeing[x] + agrees);
-    visibility[x] |= agrees ? bit : uint8_t{0};
-    contradicting[x] = static_cast<uint8_t>(contradicting[x] + kinds[x] / kSeesThrough);
+    const uint8_t is_consistent = kinds[x] & kConsistent;
+    consistent[x] = static_cast<uint8_t>(consistent[x] + is_consistent);
+    visibility[x] |= is_consistent ? bit : uint8_t{0};
+    violating[x] = static_cast<uint8_t>(violating[x] + kinds[x] / kFreeSpaceViolation);
   }
 }
 
@@ -53,14 +53,14 @@ class VisibilityFilter {
                    const ck_patch_filter_options& options)
       : reference_(reference),
         options_(options),
-        agreement_(reference.view, options),
-        ask_(ask_function(options.instructions)),
+        thresholds_(reference.view, options),
+        check_(consistency_check(options.instructions)),
         row_(reference.view.width),
-        replies_(reference.view.width),
-        agreeing_(row_.w.size()),
-        contradicting_(row_.w.size()),
+        results_(reference.view.width),
+        consistent_(row_.w.size()),
+        violating_(row_.w.size()),
         visibility_(row_.w.size()) {
-    for (size_t i = 0; i < count; ++i) passages_.emplace_back(reference.view, neighbors[i]);
+    for (size_t i = 0; i < count; ++i) projections_.emplace_back(reference.view, neighbors[i]);
   }
 
   void run(uint8_t* states, uint8_t* visibility, const ck_control* control) {
@@ -68,7 +68,7 @@ class VisibilityFilter {
     for (int y = 0; y < height; ++y) {
       step(control, static_cast<double>(y) / height);
       row_.read(reference_.patches, y, options_.weak_texture_threshold);
-      ask_neighbors();
+      check_neighbors();
       const size_t start = static_cast<size_t>(y) * width;
       for (int x = 0; x < width; ++x) {
         const ck_patch& patch = reference_.patches[start + x];
@@ -79,42 +79,42 @@ class VisibilityFilter {
   }
 
  private:
-  void ask_neighbors() {
-    std::fill(agreeing_.begin(), agreeing_.end(), 0);
-    std::fill(contradicting_.begin(), contradicting_.end(), 0);
+  void check_neighbors() {
+    std::fill(consistent_.begin(), consistent_.end(), 0);
+    std::fill(violating_.begin(), violating_.end(), 0);
     std::fill(visibility_.begin(), visibility_.end(), 0);
     uint8_t bit = 1;
-    for (const Passage& passage : passages_) {
-      ask_(passage, agreement_, row_, replies_);
-      count(replies_.kind.data(), agreeing_.size(), bit, agreeing_.data(), contradicting_.data(),
+    for (const RelativeProjection& projection : projections_) {
+      check_(projection, thresholds_, row_, results_);
+      count(results_.kind.data(), consistent_.size(), bit, consistent_.data(), violating_.data(),
             visibility_.data());
       bit = static_cast<uint8_t>(bit << 1);
     }
   }
 
   bool passes(const ck_patch& patch, int x) const {
-    return row_.w[x] > 0 && contradicting_[x] <= agreeing_[x] / 2 &&
-           agreeing_[x] >= required_views(static_cast<int>(passages_.size()), patch, options_);
+    return row_.w[x] > 0 && violating_[x] <= consistent_[x] / 2 &&
+           consistent_[x] >= required_views(static_cast<int>(projections_.size()), patch, options_);
   }
 
   const ck_patch_map& reference_;
   const ck_patch_filter_options& options_;
-  const Agreement agreement_;
-  const Ask ask_;
-  std::vector<Passage> passages_;
-  Row row_;
-  Replies replies_;
-  std::vector<uint8_t> agreeing_, contradicting_, visibility_;
+  const ConsistencyThresholds thresholds_;
+  const ConsistencyCheck check_;
+  std::vector<RelativeProjection> projections_;
+  PatchRow row_;
+  ConsistencyRow results_;
+  std::vector<uint8_t> consistent_, violating_, visibility_;
 };
 
 /// Removes accepted boundary patches that resemble the rejected pixels around them: foreground
 /// fattening, where a textureless background next to an outline gets the outline's depth.
-class Fringe {
+class DepthEdgeFilter {
  public:
-  explicit Fringe(float contrast) {
+  explicit DepthEdgeFilter(float contrast) {
     for (int difference = 0; difference < 256; ++difference) {
       const float ratio = static_cast<float>(difference) / contrast;
-      likeness_[difference] = static_cast<int32_t>(std::lround(65536 / (1 + ratio * ratio)));
+      similarity_[difference] = static_cast<int32_t>(std::lround(65536 / (1 + ratio * ratio)));
     }
   }
 
@@ -129,7 +129,7 @@ class Fringe {
         if (!before[cell]) continue;
         int around = 0;
         for (int dx = -kRadius; dx <= kRadius; ++dx) around += rejected[x + dx];
-        if (around > 0 && is_fringe(before, view, cell)) states[cell] = 0;
+        if (around > 0 && is_fattened(before, view, cell)) states[cell] = 0;
       }
     }
   }
@@ -148,21 +148,22 @@ class Fringe {
   }
 
   /// Whether the pixel is more similar to the rejected pixels around it than to the accepted ones.
-  bool is_fringe(const std::vector<uint8_t>& states, const ck_patch_view& view, size_t cell) const {
+  bool is_fattened(const std::vector<uint8_t>& states, const ck_patch_view& view,
+                   size_t cell) const {
     const int luma = view.luma[cell];
     int32_t balance = 0;
     for (int dy = -kRadius; dy <= kRadius; ++dy) {
       const size_t row = cell + static_cast<ptrdiff_t>(dy) * view.width;
       for (int dx = -kRadius; dx <= kRadius; ++dx) {
-        const int32_t likeness = likeness_[std::abs(view.luma[row + dx] - luma)];
-        balance += states[row + dx] ? likeness : -likeness;
+        const int32_t similarity = similarity_[std::abs(view.luma[row + dx] - luma)];
+        balance += states[row + dx] ? similarity : -similarity;
       }
     }
     return balance < 0;
   }
 
   /// Similarity by difference in gray levels, 0…65536: 1 / (1 + (difference / contrast)²).
-  int32_t likeness_[256];
+  int32_t similarity_[256];
 };
 
 /// Removes small connected components; adjacent patches are connected if their inverse depths
@@ -205,10 +206,10 @@ ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch
     ck::require(!visibility || neighbor_count <= kMaxSources, "at most 8 neighbors");
     VisibilityFilter(*reference, neighbors, neighbor_count, *options)
         .run(states, visibility, control);
-    const Fringe fringe(options->fringe_contrast);
-    for (int pass = 0; pass < options->fringe_passes; ++pass) {
-      fringe.remove(states, reference->view);
+    const DepthEdgeFilter depth_edges(options->depth_edge_contrast);
+    for (int pass = 0; pass < options->depth_edge_passes; ++pass) {
+      depth_edges.remove(states, reference->view);
     }
-    remove_islands(states, *reference, options->minimum_island);
+    remove_islands(states, *reference, options->minimum_island_size);
   });
 }

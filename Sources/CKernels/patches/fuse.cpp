@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/guard.h"
-#include "patches/ask.h"
+#include "patches/geometric_consistency.h"
 
 namespace ck::patches {
 namespace {
@@ -58,16 +58,16 @@ class Fusion {
          const ck_patch_filter_options& options)
       : reference_(reference),
         options_(options),
-        agreement_(reference.view, options),
-        ask_(ask_function(options.instructions)),
+        thresholds_(reference.view, options),
+        check_(consistency_check(options.instructions)),
         row_(reference.view.width) {
     for (size_t i = 0; i < count; ++i) neighbors_.push_back(&neighbors[i]);
     // Sorted by photo, so that the result does not depend on the order of the input.
     std::sort(neighbors_.begin(), neighbors_.end(),
               [](const auto* a, const auto* b) { return a->photo < b->photo; });
     for (const ck_patch_map* map : neighbors_) {
-      passages_.emplace_back(reference.view, *map);
-      replies_.emplace_back(reference.view.width);
+      projections_.emplace_back(reference.view, *map);
+      results_.emplace_back(reference.view.width);
     }
   }
 
@@ -79,8 +79,8 @@ class Fusion {
       const uint8_t* states = reference_.states + start;
       row_.read(reference_.patches, y, options_.weak_texture_threshold);
       for (int x = 0; x < width; ++x) row_.w[x] = states[x] ? row_.w[x] : 0;
-      for (size_t i = 0; i < passages_.size(); ++i) {
-        ask_(passages_[i], agreement_, row_, replies_[i]);
+      for (size_t i = 0; i < projections_.size(); ++i) {
+        check_(projections_[i], thresholds_, row_, results_[i]);
       }
       for (int x = 0; x < width; ++x) {
         if (states[x] && collect(x, y) && fuse(*fused, x, y)) ++fused;
@@ -92,9 +92,9 @@ class Fusion {
  private:
   /// Converts a plane at a pixel to an estimate of weight 1 with a unit normal.
   Estimate estimate(int x, int y, float w, float gx, float gy) const {
-    const float nx = gx * agreement_.fx, ny = gy * agreement_.fy;
-    const float nz = w + gx * (agreement_.cx - static_cast<float>(x)) +
-                     gy * (agreement_.cy - static_cast<float>(y));
+    const float nx = gx * thresholds_.fx, ny = gy * thresholds_.fy;
+    const float nz = w + gx * (thresholds_.cx - static_cast<float>(x)) +
+                     gy * (thresholds_.cy - static_cast<float>(y));
     const float scale = 1 / std::sqrt(nx * nx + ny * ny + nz * nz);
     return {w, {nx * scale, ny * scale, nz * scale}, 1};
   }
@@ -105,16 +105,18 @@ class Fusion {
     const size_t cell = static_cast<size_t>(y) * reference_.view.width + x;
     group_.clear();
     group_.add(reference_, cell, estimate(x, y, row_.w[x], row_.gx[x], row_.gy[x]));
-    const int own = reference_.states[cell];
+    const int reference_footprint = reference_.states[cell];
     for (size_t i = 0; i < neighbors_.size(); ++i) {
-      const Replies& r = replies_[i];
-      if (r.kind[x] != kAgrees) continue;
+      const ConsistencyRow& r = results_[i];
+      if (r.kind[x] != kConsistent) continue;
       const ck_patch_map& other = *neighbors_[i];
       group_.neighbors.push_back(i);
       const auto there = static_cast<size_t>(r.cell[x]);
       const int footprint = other.states ? other.states[there] : 0;
       if (footprint == 0 || r.distance[x] > options_.fusion_threshold) continue;
-      if (footprint < own || (footprint == own && other.photo < reference_.photo)) return false;
+      if (footprint < reference_footprint ||
+          (footprint == reference_footprint && other.photo < reference_.photo))
+        return false;
       group_.add(other, there, estimate(x, y, r.w[x], r.gx[x], r.gy[x]));
     }
     return true;
@@ -177,12 +179,12 @@ class Fusion {
 
   const ck_patch_map& reference_;
   const ck_patch_filter_options& options_;
-  const Agreement agreement_;
-  const Ask ask_;
+  const ConsistencyThresholds thresholds_;
+  const ConsistencyCheck check_;
   std::vector<const ck_patch_map*> neighbors_;
-  std::vector<Passage> passages_;
-  Row row_;
-  std::vector<Replies> replies_;
+  std::vector<RelativeProjection> projections_;
+  PatchRow row_;
+  std::vector<ConsistencyRow> results_;
   Group group_;
 };
 

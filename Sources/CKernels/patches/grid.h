@@ -70,7 +70,7 @@ struct Comparison {
   Warps warps;
   float bilateral_contrast = 6;
   /// Fronto-parallel patches: planes have no gradient.
-  bool is_frontal = false;
+  bool is_fronto_parallel = false;
   /// Variance of the luma noise in gray levels squared.
   float noise_variance = 1;
   /// Bounds of a patch's inverse depth.
@@ -108,7 +108,7 @@ struct alignas(64) Samples {
   float motion_x[8], motion_y[8];
   int group_count = 0;
   /// Bit mask of the slots whose sources see the patch unoccluded; only these contribute to `step`.
-  unsigned voters = 0;
+  unsigned visible_slots = 0;
 };
 
 /// A plane to score at a pixel, and its cost: 1 − ZNCC, averaged over the two best sources.

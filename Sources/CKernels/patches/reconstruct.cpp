@@ -13,11 +13,11 @@ namespace {
 /// The number of pyramid levels, such that the shorter side of the coarsest one has at least about
 /// 32 pixels.
 int level_count(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,
-                int wanted) {
+                int requested) {
   int side = std::min(reference.width, reference.height);
   for (size_t i = 0; i < count; ++i) side = std::min({side, sources[i].width, sources[i].height});
   int levels = 1;
-  while (levels < wanted && (side >> levels) >= 32) ++levels;
+  while (levels < requested && (side >> levels) >= 32) ++levels;
   return levels;
 }
 
@@ -27,7 +27,7 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
                  const ck_control* control) {
   const int levels = level_count(reference, sources, count, options.level_count);
   const Pyramids pyramids(reference, sources, count, levels);
-  DepthRange range;
+  InverseDepthRange range;
   for (size_t i = 0; i < seed_count; ++i) range.include(seeds[i].inverse_depth);
   if (range.is_empty()) throw Degenerate("the view has no sparse points to start from");
   Grid grid;

@@ -31,7 +31,7 @@ class Parents {
     return fine;
   }
 
-  const DepthRange& range() const { return range_; }
+  const InverseDepthRange& range() const { return range_; }
 
  private:
   /// The neighbors that are consistent with the accepted patches around, because only they see the
@@ -42,16 +42,17 @@ class Parents {
     constexpr float kPromising = 0.3f;  // cost, 1 − ZNCC
     constexpr int kEnough = 3;          // sources
     bool is_promising = false;
-    unsigned agreeing = 0;
+    unsigned consistent = 0;
     for (int j = std::max(0, y - 1); j <= std::min(grid_.height - 1, y + 1); ++j) {
       for (int i = std::max(0, x - 1); i <= std::min(grid_.width - 1, x + 1); ++i) {
         const size_t cell = grid_.index(i, j);
-        if (map_.states[cell]) agreeing |= map_.visibility[cell];
+        if (map_.states[cell]) consistent |= map_.visibility[cell];
         is_promising |= map_.states[cell] != 0 || grid_.costs[cell] < kPromising;
       }
     }
     if (!is_promising) return 0;
-    return __builtin_popcount(agreeing) < kEnough ? kAllSources : static_cast<uint8_t>(agreeing);
+    return __builtin_popcount(consistent) < kEnough ? kAllSources
+                                                    : static_cast<uint8_t>(consistent);
   }
 
   static void set(Grid& fine, size_t cell, uint8_t sources) {
@@ -63,7 +64,7 @@ class Parents {
 
   const ck_patch_map& map_;
   Grid grid_;
-  DepthRange range_;
+  InverseDepthRange range_;
 };
 
 Grid refine(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,

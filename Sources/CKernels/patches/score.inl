@@ -298,7 +298,7 @@ CK_INLINE void conclude(const Comparison& c, Trial& trial, int count, const Mome
   store8(samples.inverse_deviation, inverse_deviation);
   // Sources with a much higher cost than the best one are occluded and do not contribute to the
   // step.
-  samples.voters = mask(costs < std::min(1.0f, 1.5f * first + 0.05f));
+  samples.visible_slots = mask(costs < std::min(1.0f, 1.5f * first + 0.05f));
   samples.group_count = (count + kSlots - 1) / kSlots;
 }
 
@@ -339,7 +339,7 @@ bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plan
   F16 squares = 0, squares_y = 0, squares_yy = 0, products = 0, products_y = 0;
   const I16 bit = {1, 1, 1, 1, 2, 2, 2, 2, 4, 4, 4, 4, 8, 8, 8, 8};
   for (int g = 0; g < samples.group_count; ++g) {
-    const I16 is_used = (bit & static_cast<int>(samples.voters >> kSlots * g)) != 0;
+    const I16 is_used = (bit & static_cast<int>(samples.visible_slots >> kSlots * g)) != 0;
     const F16 share = is_used ? F16(1) : F16(0);
     const F16 mean = by_source(samples.mean + kSlots * g);
     const F16 inverse_deviation = by_source(samples.inverse_deviation + kSlots * g);

@@ -10,9 +10,9 @@ namespace {
 /// smoothed.
 constexpr float kSufficient = 1.5f;
 /// Weight of a patch's current estimate relative to those of its neighbors.
-constexpr float kOwn = 0.1f;
+constexpr float kSelfWeight = 0.1f;
 /// Disparity difference in standard deviations above which a patch belongs to another surface.
-constexpr float kFar = 5;
+constexpr float kOutlierDeviations = 5;
 /// Number of averaging passes; the spacing of the averaged patches doubles with each.
 constexpr int kPasses = 4;
 
@@ -25,7 +25,7 @@ constexpr int kRadius = 2;
 class Information {
  public:
   Information(const Grid& grid, const uint8_t* luma)
-      : grid_(grid), luma_(luma), energy_(grid.width), grey_(grid.width), square_(grid.width) {}
+      : grid_(grid), luma_(luma), energy_(grid.width), gray_(grid.width), square_(grid.width) {}
 
   /// Computes a row; zero where there is no patch, and at the border.
   void read(float* result, int y) {
@@ -36,14 +36,14 @@ class Information {
     const float* costs = &grid_.costs[grid_.index(0, y)];
     const Plane* planes = &grid_.planes[grid_.index(0, y)];
     for (int x = kMargin; x < w - kMargin; ++x) {
-      int energy = 0, grey = 0, square = 0;
+      int energy = 0, gray = 0, square = 0;
       for (int i = x - kRadius; i <= x + kRadius; ++i) {
         energy += energy_[i];
-        grey += grey_[i];
+        gray += gray_[i];
         square += square_[i];
       }
       constexpr float kTexel = 1.0f / ((2 * kRadius + 1) * (2 * kRadius + 1));
-      const float mean = grey * kTexel, variance = square * kTexel - mean * mean;
+      const float mean = gray * kTexel, variance = square * kTexel - mean * mean;
       // Noise variance in gray levels squared: at least one, because of rounding and compression,
       // plus the unexplained variance.
       const float noise = 1 + 2 * std::min(1.0f, costs[x]) * variance;
@@ -57,14 +57,14 @@ class Information {
   void sum_columns(int y) {
     const int w = grid_.width;
     std::fill(energy_.begin(), energy_.end(), 0);
-    std::fill(grey_.begin(), grey_.end(), 0);
+    std::fill(gray_.begin(), gray_.end(), 0);
     std::fill(square_.begin(), square_.end(), 0);
     for (int j = y - kRadius; j <= y + kRadius; ++j) {
       const uint8_t* p = luma_ + static_cast<ptrdiff_t>(j) * w;
       for (int x = 1; x + 1 < w; ++x) {
         const int gx = p[x + 1] - p[x - 1], gy = p[x + w] - p[x - w], value = p[x];
         energy_[x] += gx * gx + gy * gy;
-        grey_[x] += value;
+        gray_[x] += value;
         square_[x] += value * value;
       }
     }
@@ -72,7 +72,7 @@ class Information {
 
   const Grid& grid_;
   const uint8_t* luma_;
-  std::vector<int32_t> energy_, grey_, square_;
+  std::vector<int32_t> energy_, gray_, square_;
 };
 
 /// Number of patches that are smoothed together.
@@ -184,7 +184,7 @@ class Pass {
     const int count = std::min(kBlock, grid_.width - start);
     for (int i = 0; i < count; ++i) {
       if (!(shares[i] > 0)) continue;
-      const float factor = shares[i] / (sums.weight[i] + kOwn * information[i]);
+      const float factor = shares[i] / (sums.weight[i] + kSelfWeight * information[i]);
       const float w = planes[i].w + factor * sums.w[i];
       if (!(w > 0)) continue;
       planes[i].w = w;
@@ -206,7 +206,7 @@ void smooth(Grid& grid, const Comparison& comparison) {
   std::vector<float> information(grid.planes.size());
   Information reader(grid, comparison.luma);
   for (int y = 0; y < grid.height; ++y) reader.read(&information[grid.index(0, y)], y);
-  const float scale = comparison.motion / kFar;
+  const float scale = comparison.motion / kOutlierDeviations;
   for (int pass = 0; pass < kPasses; ++pass)
     Pass(grid, information, 1 << pass, scale * scale).run();
 }

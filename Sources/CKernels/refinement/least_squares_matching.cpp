@@ -16,7 +16,7 @@ constexpr int kCount = kSide * kSide;
 /// Largest number of iterations of a search.
 constexpr int kIterations = 15;
 /// Step length in pixels below which a search has converged.
-constexpr double kSettled = 0.003;
+constexpr double kConvergedStep = 0.003;
 /// Stored template samples per gray level.
 constexpr float kSampleScale = 64;
 /// Smallest standard deviation of the luma, in gray levels, of a template with texture.
@@ -49,7 +49,7 @@ float weighted_dot(const Window& a, const Window& b) {
 }
 
 /// Subtracts the mean and scales to unit variance; returns the standard deviation.
-float normalise(Window& values) {
+float normalize(Window& values) {
   float mean = 0;
   for (int k = 0; k < kCount; ++k) mean += kWeights[k] * values[k];
   for (float& value : values) value -= mean;
@@ -80,7 +80,7 @@ struct Template {
       dx[k] = 0.5f * (p[1] - p[-1]);
       dy[k] = 0.5f * (p[CK_TEMPLATE_SIDE] - p[-CK_TEMPLATE_SIDE]);
     }
-    deviation = normalise(unit);
+    deviation = normalize(unit);
     const float factor = deviation > 1e-6f ? 1 / deviation : 0;
     for (int k = 0; k < kCount; ++k) dx[k] *= factor, dy[k] *= factor;
     project_out(dx, unit);
@@ -97,9 +97,9 @@ struct Template {
 };
 
 /// Locates one template; a ZNCC of −1 means that the search failed.
-ck_template_find search(const LumaPyramid& image, const Template& model,
-                        const ck_template_search& s, double max_shift) {
-  const ck_template_find nothing{s.x, s.y, -1};
+ck_template_match search(const LumaPyramid& image, const Template& model,
+                         const ck_template_search& s, double maximum_shift) {
+  const ck_template_match nothing{s.x, s.y, -1};
   const double a = s.step * s.warp[0], b = s.step * s.warp[1], c = s.step * s.warp[2],
                d = s.step * s.warp[3];
   const double determinant = double(model.xx) * model.yy - double(model.xy) * model.xy;
@@ -110,7 +110,7 @@ ck_template_find search(const LumaPyramid& image, const Template& model,
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     Window values;
     if (!image.sample_grid(level, x, y, a, c, b, d, kSide, values.data())) return nothing;
-    normalise(values);
+    normalize(values);
     float bx = 0, by = 0;
     for (int k = 0; k < kCount; ++k) {
       const float residual = kWeights[k] * (values[k] - model.unit[k]);
@@ -121,8 +121,8 @@ ck_template_find search(const LumaPyramid& image, const Template& model,
     const double v = (model.xx * by - model.xy * bx) / determinant;
     const double step_x = a * u + b * v, step_y = c * u + d * v;
     x -= step_x, y -= step_y;
-    if (!(std::hypot(x - s.x, y - s.y) <= max_shift)) return nothing;
-    if (std::hypot(step_x, step_y) < kSettled) {
+    if (!(std::hypot(x - s.x, y - s.y) <= maximum_shift)) return nothing;
+    if (std::hypot(step_x, step_y) < kConvergedStep) {
       return {x, y, double(weighted_dot(values, model.unit))};
     }
   }
@@ -140,13 +140,14 @@ void check_image(const uint8_t* pixels, int32_t width, int32_t height, int32_t c
 }  // namespace ck
 
 ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t height,
-                               int32_t channels, size_t row_stride, const ck_template_place* places,
-                               size_t count, uint16_t* samples, uint8_t* valid) {
+                               int32_t channels, size_t row_stride,
+                               const ck_template_location* locations, size_t count,
+                               uint16_t* samples, uint8_t* valid) {
   return ck::guarded([&] {
     ck::check_image(pixels, width, height, channels, row_stride);
     const ck::LumaPyramid image(pixels, width, height, channels, row_stride);
     for (size_t i = 0; i < count; ++i) {
-      const ck_template_place& p = places[i];
+      const ck_template_location& p = locations[i];
       float values[CK_TEMPLATE_SAMPLES];
       uint16_t* out = samples + i * CK_TEMPLATE_SAMPLES;
       valid[i] = image.sample_grid(image.level_for(p.step), p.x, p.y, p.step, 0, 0, p.step,
@@ -163,8 +164,8 @@ ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t hei
 
 ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
                              size_t row_stride, const uint16_t* samples, size_t template_count,
-                             const ck_template_search* searches, size_t count, double max_shift,
-                             ck_template_find* finds) {
+                             const ck_template_search* searches, size_t count, double maximum_shift,
+                             ck_template_match* matches) {
   return ck::guarded([&] {
     ck::check_image(pixels, width, height, channels, row_stride);
     const ck::LumaPyramid image(pixels, width, height, channels, row_stride);
@@ -175,7 +176,7 @@ ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t heigh
       const uint16_t* stored = samples + static_cast<size_t>(s.index) * CK_TEMPLATE_SAMPLES;
       float values[CK_TEMPLATE_SAMPLES];
       for (int k = 0; k < CK_TEMPLATE_SAMPLES; ++k) values[k] = stored[k] / ck::kSampleScale;
-      finds[i] = ck::search(image, ck::Template(values), s, max_shift);
+      matches[i] = ck::search(image, ck::Template(values), s, maximum_shift);
     }
   });
 }

@@ -19,7 +19,7 @@ struct Resection {
   std::vector<Vector2> pixels;
   /// Unit rays in the camera frame.
   std::vector<Vector3> rays;
-  double max_square;
+  double maximum_squared_error;
 
   size_t size() const { return points.size(); }
 
@@ -34,7 +34,7 @@ struct Resection {
   double score(const Pose& pose, double best) const {
     double sum = 0;
     for (size_t i = 0; i < size(); ++i) {
-      sum += std::min(square_error(pose, i), max_square);
+      sum += std::min(square_error(pose, i), maximum_squared_error);
       if (sum >= best) return sum;
     }
     return sum;
@@ -42,7 +42,7 @@ struct Resection {
 
   size_t count_inliers(const Pose& pose) const {
     size_t count = 0;
-    for (size_t i = 0; i < size(); ++i) count += square_error(pose, i) <= max_square;
+    for (size_t i = 0; i < size(); ++i) count += square_error(pose, i) <= maximum_squared_error;
     return count;
   }
 
@@ -75,13 +75,13 @@ struct Resection {
       const Vector3 rotated = pose.rotation * points[i];
       const Vector3 p = rotated + pose.translation;
       if (!(p.z() > 1e-9)) {
-        cost += max_square;
+        cost += maximum_squared_error;
         continue;
       }
       const Vector2 r = project(camera, p) - pixels[i];
       const double square = r.squaredNorm();
-      cost += std::min(square, max_square);
-      if (square > max_square) continue;
+      cost += std::min(square, maximum_squared_error);
+      if (square > maximum_squared_error) continue;
       const Eigen::Matrix<double, 2, 3> jp = project_jacobian(camera, p);
       Eigen::Matrix<double, 2, 6> j;
       for (int row = 0; row < 2; ++row) {
@@ -115,13 +115,13 @@ struct Resection {
       Eigen::Matrix<double, 6, 1> next_g;
       const double next_cost = normal_equations(next, huber, next_h, next_g);
       if (next_cost < cost) {
-        const bool settled = cost - next_cost < 1e-8 * cost;
+        const bool converged = cost - next_cost < 1e-8 * cost;
         pose = next;
         cost = next_cost;
         h = next_h;
         g = next_g;
         lambda = std::max(1e-12, lambda / 10);
-        if (settled) break;
+        if (converged) break;
       } else {
         lambda *= 10;
         if (lambda > 1e6) break;
@@ -145,11 +145,11 @@ bool search(const Resection& problem, const ck_resection_options& options,
   Random random(options.seed);
   double best_score = std::numeric_limits<double>::infinity();
   // A minimal sample is never exact, so the number of iterations has a lower bound.
-  const int least = std::min(options.max_iterations, 30);
-  int limit = options.max_iterations;
+  const int least = std::min(options.maximum_iterations, 30);
+  int limit = options.maximum_iterations;
   std::array<Pose, 4> poses;
   for (int iteration = 0; iteration < std::max(least, limit); ++iteration) {
-    if (iteration % 50 == 0) step(control, double(iteration) / options.max_iterations);
+    if (iteration % 50 == 0) step(control, double(iteration) / options.maximum_iterations);
     int found = 0;
     if (!problem.sample(random, poses, found)) continue;
     for (int k = 0; k < found; ++k) {
@@ -157,14 +157,14 @@ bool search(const Resection& problem, const ck_resection_options& options,
       if (!(score < best_score)) continue;
       best = poses[k];
       best_score = score;
-      const Pose local = problem.refine(poses[k], 8, std::sqrt(problem.max_square) / 3);
+      const Pose local = problem.refine(poses[k], 8, std::sqrt(problem.maximum_squared_error) / 3);
       score = problem.score(local, best_score);
       if (score < best_score) {
         best = local;
         best_score = score;
       }
       const double ratio = double(problem.count_inliers(best)) / double(problem.size());
-      limit = std::min(options.max_iterations, needed_iterations(ratio, options.confidence));
+      limit = std::min(options.maximum_iterations, needed_iterations(ratio, options.confidence));
     }
   }
   return std::isfinite(best_score);
@@ -181,11 +181,11 @@ ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const
     using namespace ck;
     require(pose && inliers && inlier_count && pixels && points && camera && options,
             "resection needs pixels, points and a camera");
-    require(options->max_error > 0 && options->max_iterations > 0,
+    require(options->maximum_error > 0 && options->maximum_iterations > 0,
             "a resection option is out of range");
     *inlier_count = 0;
     if (count < 4) throw Degenerate("resection needs at least four points");
-    Resection problem{*camera, {}, {}, {}, options->max_error * options->max_error};
+    Resection problem{*camera, {}, {}, {}, options->maximum_error * options->maximum_error};
     for (size_t i = 0; i < count; ++i) {
       const auto* p =
           reinterpret_cast<const double*>(reinterpret_cast<const char*>(points) + i * point_stride);
@@ -199,9 +199,9 @@ ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const
     Pose best;
     if (!search(problem, *options, control, best))
       throw Degenerate("no pose agrees with the points");
-    best = problem.refine(best, 20, std::min(1.0, options->max_error));
+    best = problem.refine(best, 20, std::min(1.0, options->maximum_error));
     for (size_t i = 0; i < count; ++i) {
-      inliers[i] = problem.square_error(best, i) <= problem.max_square;
+      inliers[i] = problem.square_error(best, i) <= problem.maximum_squared_error;
       *inlier_count += inliers[i];
     }
     *pose = pose_to(best);

@@ -12,9 +12,9 @@
 namespace {
 
 /// The cells that the rays of one photo cross, as a bit set.
-class Crossed {
+class CrossedCells {
  public:
-  explicit Crossed(const ck_free_space_grid& grid) : grid_(grid) {
+  explicit CrossedCells(const ck_free_space_grid& grid) : grid_(grid) {
     const size_t cells = static_cast<size_t>(grid.size[0]) * grid.size[1] * grid.size[2];
     words_.assign((cells + 63) / 64, 0);
   }
@@ -126,7 +126,7 @@ ck_status ck_free_space(const ck_free_space_grid* grid, const float* points, siz
     const ck::StridedPoints p{points, point_stride, point_count};
     std::mutex mutex;
     ck::parallel_for(control, photo_count, [&](size_t photo) {
-      Crossed crossed(*grid);
+      CrossedCells crossed(*grid);
       for (uint32_t i : seen[photo]) crossed.cast(centers + 3 * photo, p[i], clearances[i]);
       std::lock_guard<std::mutex> lock(mutex);
       crossed.add_to(counts);

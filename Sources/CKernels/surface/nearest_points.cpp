@@ -36,13 +36,13 @@ struct FinitePoints {
 
 ck_status ck_nearest_points(const float* points, size_t point_stride, size_t point_count,
                             const float* queries, size_t query_stride, size_t query_count,
-                            int32_t neighbours, double maximum_distance, const ck_control* control,
+                            int32_t neighbors, double maximum_distance, const ck_control* control,
                             int32_t* indices, float* distances) {
   return ck::guarded([&] {
     ck::require((points || point_count == 0) && (queries || query_count == 0), "null pointer");
-    ck::require(neighbours > 0 && indices && distances, "invalid output");
+    ck::require(neighbors > 0 && indices && distances, "invalid output");
     ck::require(maximum_distance > 0, "the distance must be positive");
-    const size_t width = static_cast<size_t>(neighbours);
+    const size_t width = static_cast<size_t>(neighbors);
     std::fill(indices, indices + query_count * width, -1);
     std::fill(distances, distances + query_count * width, std::numeric_limits<float>::infinity());
     const FinitePoints finite({points, point_stride, point_count});
@@ -58,9 +58,9 @@ ck_status ck_nearest_points(const float* points, size_t point_stride, size_t poi
         if (!q.is_finite(i)) continue;
         const Eigen::Vector3d query(q[i][0], q[i][1], q[i][2]);
         const int n = std::isfinite(maximum_distance)
-                          ? tree.SearchHybrid(query, maximum_distance, neighbours, found, squared)
-                          : tree.SearchKNN(query, neighbours, found, squared);
-        for (int k = 0; k < std::min(n, neighbours); ++k) {
+                          ? tree.SearchHybrid(query, maximum_distance, neighbors, found, squared)
+                          : tree.SearchKNN(query, neighbors, found, squared);
+        for (int k = 0; k < std::min(n, neighbors); ++k) {
           indices[i * width + k] = finite.indices[found[k]];
           distances[i * width + k] = static_cast<float>(std::sqrt(squared[k]));
         }

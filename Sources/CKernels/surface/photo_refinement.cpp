@@ -11,7 +11,7 @@ namespace ck::surface {
 
 /// Sorts the directed edges; on a closed surface each occurs once per adjacent triangle, hence
 /// twice.
-void RefinedMesh::find_neighbours() {
+void RefinedMesh::find_neighbors() {
   std::vector<uint64_t> edges;
   edges.reserve(6 * triangles.size());
   for (const auto& t : triangles) {
@@ -28,12 +28,12 @@ void RefinedMesh::find_neighbours() {
     for (end = i + 1; end < edges.size() && edges[end] == edges[i];) ++end;
     const auto from = static_cast<uint32_t>(edges[i] >> 32), to = static_cast<uint32_t>(edges[i]);
     if (end - i != 2) is_border[from] = 1;
-    neighbours.push_back(to);
+    neighbors.push_back(to);
     ++offsets[from + 1];
     mean_edge += texture::length(positions[to] - positions[from]);
   }
   for (size_t v = 0; v < positions.size(); ++v) offsets[v + 1] += offsets[v];
-  mean_edge /= static_cast<double>(std::max<size_t>(1, neighbours.size()));
+  mean_edge /= static_cast<double>(std::max<size_t>(1, neighbors.size()));
 }
 
 void RefinedMesh::find_normals() {
@@ -69,11 +69,11 @@ VertexEvidence gather(const RefinedMesh& mesh, const std::vector<RefinementView>
   for (size_t first = 0; first < views.size(); first += batch) {
     step(control, done + share * static_cast<double>(first) / static_cast<double>(views.size()));
     const size_t count = std::min(batch, views.size() - first);
-    std::vector<std::vector<PixelEvidence>> said(count);
+    std::vector<std::vector<PixelEvidence>> evidence_by_view(count);
     parallel_for(&quiet, count,
-                 [&](size_t i) { said[i] = compare(mesh, views, first + i, options); });
+                 [&](size_t i) { evidence_by_view[i] = compare(mesh, views, first + i, options); });
     for (size_t i = 0; i < count; ++i) {
-      for (const PixelEvidence& p : said[i]) {
+      for (const PixelEvidence& p : evidence_by_view[i]) {
         const auto& t = mesh.triangles[p.triangle];
         for (size_t k = 0; k < 3; ++k) {
           sum.slope2[t[k]] += static_cast<double>(p.weights[k]) * p.slope2;
@@ -82,7 +82,7 @@ VertexEvidence gather(const RefinedMesh& mesh, const std::vector<RefinementView>
         const RefinementView& view = views[first + i];
         footprints += view.footprint(view.project(mesh.positions[t[0]]).z);
       }
-      pixels += said[i].size();
+      pixels += evidence_by_view[i].size();
     }
   }
   sum.footprint = footprints / static_cast<double>(std::max<size_t>(1, pixels));
@@ -105,7 +105,7 @@ ck_status ck_photo_refinement_create(const float* positions, size_t stride, size
   return ck::guarded([&] {
     ck::require(positions && triangles && options && refinement, "null pointer");
     ck::require(position_count > 0 && triangle_count > 0, "the mesh has no triangles");
-    ck::require(options->rounds >= 0 && options->neighbours >= 0 && options->radius > 0 &&
+    ck::require(options->rounds >= 0 && options->neighbors >= 0 && options->radius > 0 &&
                     options->noise > 0 && options->minimum_correlation < 1 &&
                     options->smoothness >= 0,
                 "the options of the refinement are out of range");
@@ -126,7 +126,7 @@ ck_status ck_photo_refinement_create(const float* positions, size_t stride, size
                   "a triangle refers to a vertex that does not exist");
       mesh.triangles.push_back({v[0], v[1], v[2]});
     }
-    mesh.find_neighbours();
+    mesh.find_neighbors();
     *refinement = result.release();
   });
 }
@@ -152,7 +152,7 @@ ck_status ck_photo_refinement_run(ck_photo_refinement* refinement, const ck_cont
     const int rounds = refinement->options.rounds;
     std::vector<uint8_t> is_moved(mesh.positions.size(), 0);
     mesh.find_normals();
-    ck::surface::choose_partners(mesh, refinement->options.neighbours, &views);
+    ck::surface::choose_partners(mesh, refinement->options.neighbors, &views);
     for (int round = 0; round < rounds; ++round) {
       mesh.find_normals();
       const auto evidence = ck::surface::gather(mesh, views, refinement->options, control,

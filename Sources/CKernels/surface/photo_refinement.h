@@ -19,15 +19,15 @@ struct RefinedMesh {
   /// Unit normals at the vertices.
   std::vector<Vec3> normals;
   std::vector<std::array<uint32_t, 3>> triangles;
-  /// The neighbors of vertex v are `neighbours[offsets[v]..<offsets[v + 1]]`, in ascending order.
-  std::vector<uint32_t> offsets, neighbours;
+  /// The neighbors of vertex v are `neighbors[offsets[v]..<offsets[v + 1]]`, in ascending order.
+  std::vector<uint32_t> offsets, neighbors;
   /// Whether a vertex has an edge that is not shared by exactly two triangles.
   std::vector<uint8_t> is_border;
   /// Mean edge length in world units.
   double mean_edge = 0;
 
-  /// Fills `offsets`, `neighbours`, `is_border` and `mean_edge`.
-  void find_neighbours();
+  /// Fills `offsets`, `neighbors`, `is_border` and `mean_edge`.
+  void find_neighbors();
   /// Computes the area-weighted vertex normals.
   void find_normals();
   /// The normal of a triangle, with twice its area as length.

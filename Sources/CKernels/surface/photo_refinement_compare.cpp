@@ -107,23 +107,23 @@ class Comparison {
     evidence_.resize(image_.triangles.size());
     points_.resize(evidence_.size());
     moves_.resize(evidence_.size());
-    own_.resize(evidence_.size());
+    reference_.resize(evidence_.size());
     for (size_t i = 0; i < evidence_.size(); ++i) evidence_[i] = locate(i);
   }
 
   void add(const RefinementView& partner) {
     warp(partner);
-    sums_ = {valid_, own_, other_, slope_, valid_, valid_, valid_};
+    sums_ = {valid_, reference_, other_, slope_, valid_, valid_, valid_};
     for (size_t i = 0; i < valid_.size(); ++i) {
-      sums_[kOwn][i] *= valid_[i];
-      sums_[kOwn2][i] = sums_[kOwn][i] * own_[i];
+      sums_[kReference][i] *= valid_[i];
+      sums_[kReference2][i] = sums_[kReference][i] * reference_[i];
       sums_[kOther2][i] = other_[i] * other_[i];
-      sums_[kBoth][i] = sums_[kOwn][i] * other_[i];
+      sums_[kBoth][i] = sums_[kReference][i] * other_[i];
     }
     for (auto& sum : sums_) sum_squares(image_.width, image_.height, options_.radius, &sum);
     const auto side = static_cast<float>(2 * options_.radius + 1);
     for (size_t i = 0; i < valid_.size(); ++i) {
-      if (valid_[i] > 0 && sums_[kCount][i] > 0.5f * side * side) judge(i);
+      if (valid_[i] > 0 && sums_[kCount][i] > 0.5f * side * side) add_evidence(i);
     }
   }
 
@@ -137,7 +137,7 @@ class Comparison {
   }
 
  private:
-  enum { kCount, kOwn, kOther, kSlope, kOwn2, kOther2, kBoth, kSums };
+  enum { kCount, kReference, kOther, kSlope, kReference2, kOther2, kBoth, kSums };
 
   /// Computes the surface point of a pixel and its displacement along the viewing ray per unit of
   /// displacement of the surface along its normal.
@@ -170,8 +170,9 @@ class Comparison {
     if (!is_good || !view_.sees(pixel, 0)) return {SurfaceImage::kNone, {}, 0, 0};
     points_[i] = point;
     moves_[i] = ray * (1 / slope);
-    own_[i] = view_.luminance[static_cast<size_t>(y) * static_cast<size_t>(view_.pinhole.width) +
-                              static_cast<size_t>(x)];
+    reference_[i] =
+        view_.luminance[static_cast<size_t>(y) * static_cast<size_t>(view_.pinhole.width) +
+                        static_cast<size_t>(x)];
     return e;
   }
 
@@ -206,19 +207,20 @@ class Comparison {
 
   /// Adds the evidence of a pixel: the difference of the two luminances, each normalized by the
   /// mean and standard deviation of its window, and its derivative.
-  void judge(size_t i) {
+  void add_evidence(size_t i) {
     const float n = 1 / sums_[kCount][i];
-    const float own_mean = sums_[kOwn][i] * n, other_mean = sums_[kOther][i] * n;
+    const float reference_mean = sums_[kReference][i] * n, other_mean = sums_[kOther][i] * n;
     const float noise2 = options_.noise * options_.noise;
-    const float own2 = std::max(0.0f, sums_[kOwn2][i] * n - own_mean * own_mean) + noise2;
+    const float reference2 =
+        std::max(0.0f, sums_[kReference2][i] * n - reference_mean * reference_mean) + noise2;
     const float other2 = std::max(0.0f, sums_[kOther2][i] * n - other_mean * other_mean) + noise2;
-    const float both = sums_[kBoth][i] * n - own_mean * other_mean;
-    const float correlation = both / std::sqrt(own2 * other2);
+    const float both = sums_[kBoth][i] * n - reference_mean * other_mean;
+    const float correlation = both / std::sqrt(reference2 * other2);
     const float least = options_.minimum_correlation;
     if (!(correlation > least)) return;
     const float other_scale = 1 / std::sqrt(other2);
-    const float difference =
-        (other_[i] - other_mean) * other_scale - (own_[i] - own_mean) / std::sqrt(own2);
+    const float difference = (other_[i] - other_mean) * other_scale -
+                             (reference_[i] - reference_mean) / std::sqrt(reference2);
     const float slope = (slope_[i] - sums_[kSlope][i] * n) * other_scale;
     float weight =
         std::min(1.0f, (correlation - least) / std::max(1e-3f, kGoodCorrelation - least));
@@ -235,7 +237,7 @@ class Comparison {
   std::vector<Vec3> points_, moves_;
   /// By pixel: this view's luminance, whether the partner sees the point, its luminance there, and
   /// the derivative of the latter.
-  std::vector<float> own_, valid_, other_, slope_;
+  std::vector<float> reference_, valid_, other_, slope_;
   std::array<std::vector<float>, kSums> sums_;
 };
 

@@ -42,20 +42,20 @@ class System {
         pull_(size_, 0),
         scratch_(size_, 0) {
     const double unit = evidence.footprint;
-    const double usual = usual_evidence(evidence) * unit * unit;
-    if (!(usual > 0)) return;
+    const double median = median_evidence(evidence) * unit * unit;
+    if (!(median > 0)) return;
     // The bending of a given shape decreases with the square of the edge length.
     const double relative = unit / mesh.mean_edge;
-    const double weight = smoothness * usual * relative * relative * relative * relative;
+    const double weight = smoothness * median * relative * relative * relative * relative;
     const double crease = kCrease * mesh.mean_edge / unit;
     std::vector<float> heights(size_, 0), bend(size_, 0);
     for_all([&](size_t v) { heights[v] = static_cast<float>(bend_at(v) / unit); });
     for (size_t v = 0; v < size_; ++v) {
       const double slope2 = evidence.slope2[v] * unit * unit;
-      if (mesh.is_border[v] || !(slope2 > kLeastShare * usual)) continue;
+      if (mesh.is_border[v] || !(slope2 > kLeastShare * median)) continue;
       is_movable[v] = 1;
       const double sharpness = mean_around(v, heights) / crease;
-      const double part = std::min(1.0, slope2 / (kGoodShare * usual));
+      const double part = std::min(1.0, slope2 / (kGoodShare * median));
       bending_[v] = static_cast<float>(weight * part / (1 + sharpness * sharpness));
       bend[v] = heights[v] * bending_[v];
       diagonal_[v] = static_cast<float>(slope2);
@@ -106,7 +106,7 @@ class System {
 
  private:
   /// The median of the positive evidence; 0 if there is none.
-  static double usual_evidence(const VertexEvidence& evidence) {
+  static double median_evidence(const VertexEvidence& evidence) {
     std::vector<double> some;
     for (double value : evidence.slope2) {
       if (value > 0) some.push_back(value);
@@ -123,7 +123,7 @@ class System {
     const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
     if (first == end) return 0;
     for (uint32_t k = first; k < end; ++k) {
-      sum += mesh_.positions[mesh_.neighbours[k]] - mesh_.positions[v];
+      sum += mesh_.positions[mesh_.neighbors[k]] - mesh_.positions[v];
     }
     return dot(mesh_.normals[v], sum) / static_cast<float>(end - first);
   }
@@ -132,7 +132,7 @@ class System {
   double mean_around(size_t v, const std::vector<float>& values) const {
     double sum = values[v];
     const uint32_t first = mesh_.offsets[v], end = mesh_.offsets[v + 1];
-    for (uint32_t k = first; k < end; ++k) sum += values[mesh_.neighbours[k]];
+    for (uint32_t k = first; k < end; ++k) sum += values[mesh_.neighbors[k]];
     return sum / (1 + static_cast<double>(end - first));
   }
 
@@ -153,7 +153,7 @@ class System {
       if (bending_[v] == 0 || first == end) return;
       float sum = 0;
       for (uint32_t k = first; k < end; ++k) {
-        const uint32_t n = mesh_.neighbours[k];
+        const uint32_t n = mesh_.neighbors[k];
         sum += moves[n] * dot(mesh_.normals[v], mesh_.normals[n]);
       }
       (*result)[v] = bending_[v] * (sum / static_cast<float>(end - first) - moves[v]);
@@ -165,7 +165,7 @@ class System {
     for_all([&](size_t v) {
       float sum = -bends[v];
       for (uint32_t k = mesh_.offsets[v]; k < mesh_.offsets[v + 1]; ++k) {
-        const uint32_t n = mesh_.neighbours[k];
+        const uint32_t n = mesh_.neighbors[k];
         const auto count = static_cast<float>(mesh_.offsets[n + 1] - mesh_.offsets[n]);
         sum += bends[n] * dot(mesh_.normals[v], mesh_.normals[n]) / count;
       }
@@ -197,16 +197,16 @@ class Move {
   Move(const std::vector<float>& lengths, RefinedMesh* mesh)
       : mesh_(*mesh), before_(mesh->positions), lengths_(lengths) {
     for (const auto& t : mesh_.triangles) {
-      sides_.push_back(texture::normalized(mesh_.doubled_area(t)));
+      initial_normals_.push_back(texture::normalized(mesh_.doubled_area(t)));
     }
     for (uint32_t v = 0; v < lengths_.size(); ++v) place(v);
   }
 
   /// Gives the corners of triangles that rotate too far the same displacement, because the
   /// triangles are narrow; those that still rotate too far are not moved.
-  void straighten() {
+  void limit_rotations() {
     for (int pass = 0; pass < kPasses; ++pass) {
-      for_turned([&](const std::array<uint32_t, 3>& t) {
+      for_rotated([&](const std::array<uint32_t, 3>& t) {
         const float mean = (lengths_[t[0]] + lengths_[t[1]] + lengths_[t[2]]) / 3;
         // Fixed vertices have displacement 0 and keep it.
         for (uint32_t v : t) set(v, lengths_[v] == 0 ? 0 : mean);
@@ -214,7 +214,7 @@ class Move {
     }
     for (bool changes = true; changes;) {
       changes = false;
-      for_turned([&](const std::array<uint32_t, 3>& t) {
+      for_rotated([&](const std::array<uint32_t, 3>& t) {
         for (uint32_t v : t) {
           changes = changes || lengths_[v] != 0;
           set(v, 0);
@@ -227,11 +227,11 @@ class Move {
   static constexpr int kPasses = 8;
 
   template <typename Body>
-  void for_turned(Body&& body) {
-    for (size_t t = 0; t < sides_.size(); ++t) {
+  void for_rotated(Body&& body) {
+    for (size_t t = 0; t < initial_normals_.size(); ++t) {
       const auto& triangle = mesh_.triangles[t];
       const Vec3 now = texture::normalized(mesh_.doubled_area(triangle));
-      if (dot(now, sides_[t]) < kMinimumCosine) body(triangle);
+      if (dot(now, initial_normals_[t]) < kMinimumCosine) body(triangle);
     }
   }
 
@@ -245,7 +245,7 @@ class Move {
   RefinedMesh& mesh_;
   const std::vector<Vec3> before_;
   std::vector<float> lengths_;
-  std::vector<Vec3> sides_;
+  std::vector<Vec3> initial_normals_;
 };
 
 }  // namespace
@@ -258,7 +258,7 @@ std::vector<uint8_t> move_vertices(const VertexEvidence& evidence, float smoothn
     const float move = std::clamp(lengths[v], -kLongestStep, kLongestStep);
     lengths[v] = system.is_movable[v] ? move * static_cast<float>(evidence.footprint) : 0;
   }
-  Move(lengths, mesh).straighten();
+  Move(lengths, mesh).limit_rotations();
   return system.is_movable;
 }
 

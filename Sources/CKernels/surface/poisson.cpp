@@ -63,9 +63,9 @@ void run(const std::shared_ptr<Job>& job) {
 /// Estimated progress of the solver, which reports none: linear in the expected duration up to 80
 /// %, then asymptotically approaching 1.
 double fraction(double seconds, int depth, size_t points) {
-  const double usual =
+  const double expected =
       3.4 * std::pow(2.4, depth - 8) * std::pow(1e-5 * static_cast<double>(points), 0.25);
-  const double share = seconds / usual;
+  const double share = seconds / expected;
   return share < 0.8 ? share : 1 - 0.2 * std::exp(4 - 5 * share);
 }
 

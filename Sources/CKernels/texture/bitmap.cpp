@@ -64,7 +64,7 @@ Bitmap Bitmap::dilated(int reach) const {
   return result;
 }
 
-Bitmap Bitmap::turned() const {
+Bitmap Bitmap::rotated() const {
   Bitmap result(height_, width_);
   for (int y = 0; y < height_; ++y) {
     const uint64_t* from = row(y);
@@ -79,7 +79,7 @@ Bitmap Bitmap::turned() const {
   return result;
 }
 
-int Bitmap::longest_gap(int y) const {
+int Bitmap::longest_clear_run(int y) const {
   const uint64_t* r = row(y);
   int longest = 0, start = 0;
   for (int w = 0; w < words_; ++w) {

@@ -63,10 +63,10 @@ class Bitmap {
   Bitmap dilated(int reach) const;
 
   /// Rotated by 90° from x to y.
-  Bitmap turned() const;
+  Bitmap rotated() const;
 
   /// The length of the longest run of texels of a row that are not set.
-  int longest_gap(int y) const;
+  int longest_clear_run(int y) const;
 
  private:
   int width_ = 0, height_ = 0, words_ = 0;

@@ -45,7 +45,7 @@ bool ChartBorders::pass() {
   bool has_changed = false;
   for (uint32_t i = 0; i < graph_.clusters.size(); ++i) {
     const uint32_t best = better_chart(i);
-    if (best == charts_[i] || cuts(i)) continue;
+    if (best == charts_[i] || disconnects(i)) continue;
     charts_[i] = best;
     has_changed = true;
   }
@@ -92,7 +92,7 @@ void ChartBorders::list_charts_around(uint32_t cluster) {
 }
 
 /// Whether moving a cluster would disconnect the rest of its chart locally.
-bool ChartBorders::cuts(uint32_t cluster) {
+bool ChartBorders::disconnects(uint32_t cluster) {
   ring_.clear();
   for (const Neighbor& n : graph_.neighbors_of(cluster)) {
     if (charts_[n.cluster] == charts_[cluster]) ring_.push_back(n.cluster);

@@ -25,7 +25,7 @@ class ChartBorders {
   bool pass();
   uint32_t better_chart(uint32_t cluster);
   void list_charts_around(uint32_t cluster);
-  bool cuts(uint32_t cluster);
+  bool disconnects(uint32_t cluster);
 
   const ClusterGraph& graph_;
   const std::vector<Vec3>& axes_;

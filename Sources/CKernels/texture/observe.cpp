@@ -141,7 +141,7 @@ class Observer {
     const std::array<Vec2, 3> p = {corners[0].pixel, corners[1].pixel, corners[2].pixel};
     result.area = std::fabs(cross(p[1] - p[0], p[2] - p[0])) / 2;
     result.cosine = cosine;
-    look_around(corners, cosine, &result);
+    check_surroundings(corners, cosine, &result);
     measure(p, &result);
     return result;
   }
@@ -193,8 +193,8 @@ class Observer {
   }
 
   /// Sets `clearance` and `interior` from the depths and the mask around the corners.
-  void look_around(const std::array<Corner, 3>& corners, float cosine,
-                   ck_face_observation* result) const {
+  void check_surroundings(const std::array<Corner, 3>& corners, float cosine,
+                          ck_face_observation* result) const {
     result->clearance = result->interior = 1;
     const float slope = std::sqrt(std::max(0.0f, 1 - cosine * cosine)) / cosine;
     for (const Corner& c : corners) {

@@ -30,16 +30,17 @@ std::vector<Vec3> cosine_directions(size_t count) {
 
 /// Ambient occlusion by interleaved sampling (Keller and Heidrich, EGWR 2001): a few rays per
 /// texel, different ones at its neighbors, and the mean over as many texels as share the whole set.
-class Openness {
+class AmbientOcclusionBaker {
  public:
-  Openness(const ck_atlas& atlas, const ck_bake_source& source, size_t rays_per_texel, float reach)
+  AmbientOcclusionBaker(const ck_atlas& atlas, const ck_bake_source& source, size_t rays_per_texel,
+                        float reach)
       : atlas_(atlas),
         source_(source),
         reach_(reach),
         lift_(5e-4f * atlas.scene.diagonal),
         directions_(cosine_directions(kParts * rays_per_texel)),
         positions_(atlas.faces.size()),
-        open_(atlas.faces.size(), 0),
+        unoccluded_(atlas.faces.size(), 0),
         spacings_(atlas.corners.size() / 6, 0) {}
 
   void cast(const ck_control* control) {
@@ -57,7 +58,7 @@ class Openness {
         positions_[texel] = base.position;
         const size_t part =
             static_cast<size_t>(y) % kSquare * kSquare + static_cast<size_t>(x) % kSquare;
-        open_[texel] = open_share(point, part);
+        unoccluded_[texel] = unoccluded_share(point, part);
       });
     });
   }
@@ -83,7 +84,7 @@ class Openness {
   }
 
   /// The fraction of a texel's rays that are not occluded.
-  float open_share(const DensePoint& point, size_t part) const {
+  float unoccluded_share(const DensePoint& point, size_t part) const {
     Vec3 u, v;
     frame_around(point.normal, &u, &v);
     const Vec3 origin = point.position + point.normal * lift_;
@@ -112,11 +113,11 @@ class Openness {
         if (length(positions_[texel] - positions_[center]) > near) continue;
         const float w =
             kWeights[static_cast<size_t>(dy + 2)] * kWeights[static_cast<size_t>(dx + 2)];
-        sum += w * open_[texel];
+        sum += w * unoccluded_[texel];
         weight += w;
       }
     }
-    return weight > 0 ? sum / weight : open_[center];
+    return weight > 0 ? sum / weight : unoccluded_[center];
   }
 
   const ck_atlas& atlas_;
@@ -125,7 +126,7 @@ class Openness {
   std::vector<Vec3> directions_;
   /// Position of each texel on the simplified surface.
   std::vector<Vec3> positions_;
-  std::vector<float> open_;
+  std::vector<float> unoccluded_;
   std::vector<float> spacings_;
 };
 
@@ -139,9 +140,9 @@ ck_status ck_atlas_occlusion(const ck_atlas* atlas, const ck_bake_source* source
     ck::require(atlas && source && source->dense && gray, "an argument is missing");
     ck::require(rays_per_texel > 0 && rays_per_texel <= 256, "too many rays for a texel");
     std::fill(gray, gray + atlas->faces.size(), uint8_t{255});
-    ck::texture::Openness openness(*atlas, *source, rays_per_texel, maximum_distance);
-    openness.cast(control);
-    openness.gather(control, gray);
+    ck::texture::AmbientOcclusionBaker baker(*atlas, *source, rays_per_texel, maximum_distance);
+    baker.cast(control);
+    baker.gather(control, gray);
     ck::texture::fill_uncovered(atlas->faces, atlas->side, 1, control, gray);
   });
 }

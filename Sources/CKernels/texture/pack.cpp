@@ -7,14 +7,14 @@
 
 #include "ck_texture.h"
 #include "core/guard.h"
-#include "texture/sheet.h"
 #include "geometry/vec.h"
+#include "texture/atlas_occupancy.h"
 
 namespace ck::texture {
 namespace {
 
 /// Fraction of the texture that charts cover in the first attempt; hardly any set covers more.
-constexpr double kHopedUsage = 0.86;
+constexpr double kInitialUsage = 0.86;
 
 struct Span {
   Vec2 low, high;
@@ -26,7 +26,7 @@ struct Shape {
   Span span;
 };
 
-Vec2 turned(Vec2 p, int quarter_turns) {
+Vec2 rotated(Vec2 p, int quarter_turns) {
   switch (quarter_turns & 3) {
     case 1:
       return {-p.y, p.x};
@@ -105,7 +105,7 @@ class Packer {
       return options_.maximum_scale > 0 ? std::min<double>(scale, options_.maximum_scale) : scale;
     };
     std::vector<ck_chart_placement> best(shapes_.size()), placements(shapes_.size());
-    double scale = scale_of(kHopedUsage), too_large = 0;
+    double scale = scale_of(kInitialUsage), too_large = 0;
     constexpr int kMaximumTries = 200;
     int tries = 0;
     while (!try_scale(static_cast<float>(scale), control, &best)) {
@@ -144,53 +144,53 @@ class Packer {
   /// Packs all charts at a scale; false if one does not fit.
   bool try_scale(float scale, const ck_control* control,
                  std::vector<ck_chart_placement>* placements) {
-    std::vector<Sheet> sheets(static_cast<size_t>(options_.atlas_count),
-                              Sheet(options_.side - 2 * margin_));
+    std::vector<AtlasOccupancy> atlas_occupancies(static_cast<size_t>(options_.atlas_count),
+                                                  AtlasOccupancy(options_.side - 2 * margin_));
     for (size_t k = 0; k < order_.size(); ++k) {
       if (k % 16 == 0) step(control, 0.5);
-      if (!place(order_[k], scale, &sheets, &(*placements)[order_[k]])) return false;
+      if (!place(order_[k], scale, &atlas_occupancies, &(*placements)[order_[k]])) return false;
     }
     return true;
   }
 
   /// Places a chart on the first page that has room.
-  bool place(size_t chart, float scale, std::vector<Sheet>* sheets,
+  bool place(size_t chart, float scale, std::vector<AtlasOccupancy>* atlas_occupancies,
              ck_chart_placement* placement) const {
     const float own = scale * density_[chart];
     const Span& span = shapes_[chart].span;
     const Vec2 extent = (span.high - span.low) * own;
     const auto side = static_cast<float>(options_.side - 2 * margin_);
     if (!(extent.x < side && extent.y < side)) return false;
-    std::vector<Stamp> stamps;
-    stamps.emplace_back(rasterized(chart, own));
+    std::vector<ChartMask> masks;
+    masks.emplace_back(rasterized(chart, own));
     // Small charts are tested in fewer rotations: more would only cost time.
-    const int size = stamps[0].texels.width() * stamps[0].texels.height();
+    const int size = masks[0].texels.width() * masks[0].texels.height();
     const int turns = size <= 64 ? 1 : size <= 4096 ? 2 : 4;
-    while (static_cast<int>(stamps.size()) < turns) {
-      stamps.emplace_back(stamps.back().texels.turned());
+    while (static_cast<int>(masks.size()) < turns) {
+      masks.emplace_back(masks.back().texels.rotated());
     }
-    for (size_t s = 0; s < sheets->size(); ++s) {
-      Sheet& sheet = (*sheets)[s];
-      size_t best = stamps.size();
+    for (size_t s = 0; s < atlas_occupancies->size(); ++s) {
+      AtlasOccupancy& atlas_occupancy = (*atlas_occupancies)[s];
+      size_t best = masks.size();
       int best_x = 0, best_y = 0, limit = options_.side;
-      for (size_t turn = 0; turn < stamps.size(); ++turn) {
+      for (size_t turn = 0; turn < masks.size(); ++turn) {
         // The position with the smallest bottom row wins.
         int x = 0, y = 0;
-        if (!sheet.find(stamps[turn], limit, &x, &y)) continue;
+        if (!atlas_occupancy.find(masks[turn], limit, &x, &y)) continue;
         best = turn;
         best_x = x;
         best_y = y;
-        limit = y + stamps[turn].texels.height() - 1;
+        limit = y + masks[turn].texels.height() - 1;
       }
-      if (best == stamps.size()) continue;
-      const Stamp& stamp = stamps[best];
-      sheet.take(stamp, options_.padding, best_x, best_y);
+      if (best == masks.size()) continue;
+      const ChartMask& mask = masks[best];
+      atlas_occupancy.place(mask, options_.padding, best_x, best_y);
       const auto turn = static_cast<int>(best);
-      const auto width = static_cast<float>(stamp.texels.width());
-      const auto height = static_cast<float>(stamp.texels.height());
+      const auto width = static_cast<float>(mask.texels.width());
+      const auto height = static_cast<float>(mask.texels.height());
       // The position of the mask's origin corner after the rotation.
       const Vec2 origin{turn == 1 || turn == 2 ? width : 0, turn == 2 || turn == 3 ? height : 0};
-      const Vec2 low = turned(span.low * own, turn);
+      const Vec2 low = rotated(span.low * own, turn);
       placement->scale = own;
       placement->quarter_turns = turn;
       placement->offset[0] = static_cast<float>(best_x + margin_) + origin.x - low.x;

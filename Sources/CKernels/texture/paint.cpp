@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "texture/atlas.h"
 #include "geometry/pinhole.h"
+#include "texture/atlas.h"
 
 namespace ck::texture {
 namespace {

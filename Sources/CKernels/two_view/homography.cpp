@@ -8,7 +8,7 @@ namespace {
 
 /// Hartley's normalization: moves the mean of the points to the origin and scales their mean
 /// distance from it to √2.
-Eigen::Matrix3d normalisation(const std::vector<Eigen::Vector2d>& points) {
+Eigen::Matrix3d normalization(const std::vector<Eigen::Vector2d>& points) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const auto& p : points) mean += p;
   mean /= static_cast<double>(points.size());
@@ -25,7 +25,7 @@ Eigen::Matrix3d normalisation(const std::vector<Eigen::Vector2d>& points) {
 
 bool homography(const std::vector<Eigen::Vector2d>& first,
                 const std::vector<Eigen::Vector2d>& second, Eigen::Matrix3d& result) {
-  const Eigen::Matrix3d a = normalisation(first), b = normalisation(second);
+  const Eigen::Matrix3d a = normalization(first), b = normalization(second);
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (size_t i = 0; i < first.size(); ++i) {
     const Eigen::Vector3d p = a * first[i].homogeneous(), q = b * second[i].homogeneous();

@@ -9,7 +9,7 @@ namespace {
 
 /// A matrix with its derivatives with respect to the local parameters.
 template <int N>
-struct Linearised {
+struct Linearized {
   Eigen::Matrix3d matrix;
   Eigen::Matrix<double, 9, N> derivatives;
 
@@ -32,8 +32,8 @@ struct PoseParameters {
   static constexpr int kCount = 5;
   RelativePose pose;
 
-  Linearised<kCount> linearised() const {
-    Linearised<kCount> result;
+  Linearized<kCount> linearized() const {
+    Linearized<kCount> result;
     const Eigen::Matrix3d t = cross_matrix(pose.translation);
     result.matrix = t * pose.rotation;
     for (int k = 0; k < 3; ++k) {
@@ -65,8 +65,8 @@ struct FundamentalParameters {
     return u.col(0) * v.col(0).transpose() + s * u.col(1) * v.col(1).transpose();
   }
 
-  Linearised<kCount> linearised() const {
-    Linearised<kCount> result;
+  Linearized<kCount> linearized() const {
+    Linearized<kCount> result;
     result.matrix = matrix();
     for (int k = 0; k < 3; ++k) {
       const Eigen::Matrix3d axis = cross_matrix(Eigen::Vector3d::Unit(k));
@@ -93,7 +93,7 @@ double truncated_cost(const Eigen::Matrix3d& matrix, const Matches& matches, dou
 
 /// Normal equations of the Sampson errors below `limit`.
 template <int N>
-void accumulate(const Linearised<N>& model, const Matches& matches, double limit,
+void accumulate(const Linearized<N>& model, const Matches& matches, double limit,
                 Eigen::Matrix<double, N, N>& normal, Eigen::Matrix<double, N, 1>& gradient) {
   normal.setZero();
   gradient.setZero();
@@ -125,7 +125,7 @@ template <class Parameters>
 double refine(Parameters& parameters, const Matches& matches, double limit, int iterations) {
   constexpr int N = Parameters::kCount;
   double damping = 1e-3;
-  Linearised<N> model = parameters.linearised();
+  Linearized<N> model = parameters.linearized();
   double cost = truncated_cost(model.matrix, matches, limit);
   Eigen::Matrix<double, N, N> normal;
   Eigen::Matrix<double, N, 1> gradient;
@@ -137,7 +137,7 @@ double refine(Parameters& parameters, const Matches& matches, double limit, int 
     const Eigen::Matrix<double, N, 1> step = -damped.ldlt().solve(gradient);
     if (!step.allFinite()) break;
     const Parameters moved = parameters.moved(step);
-    const Linearised<N> moved_model = moved.linearised();
+    const Linearized<N> moved_model = moved.linearized();
     const double moved_cost = truncated_cost(moved_model.matrix, matches, limit);
     if (!(moved_cost < cost)) {
       damping *= 10;

@@ -79,8 +79,8 @@ extension PoseErrors {
         rotation: Quaternion(angle: Double($0) * .pi / 2, axis: [0, 0, 1]), translation: .zero)
     }
     func error(_ turn: RigidTransform) -> Double {
-      zip(pairs, pairs.dropFirst()).reduce(0) { sum, neighbours in
-        let (a, b) = neighbours
+      zip(pairs, pairs.dropFirst()).reduce(0) { sum, neighbors in
+        let (a, b) = neighbors
         let truth = b.truth.rotation * a.truth.rotation.conjugate
         let estimate = b.estimate.rotation * a.estimate.rotation.conjugate
         let turned = turn.rotation * estimate * turn.rotation.conjugate

@@ -1,12 +1,12 @@
 import SceneModel
 
 /// An item of a `BoundingTree`.
-protocol Boundable: Sendable {
+protocol BoundedItem: Sendable {
   var bounds: (min: SIMD3<Float>, max: SIMD3<Float>) { get }
   func squaredDistance(to point: SIMD3<Float>) -> Float
 }
 
-extension SIMD3<Float>: Boundable {
+extension SIMD3<Float>: BoundedItem {
   var bounds: (min: SIMD3<Float>, max: SIMD3<Float>) { (self, self) }
 
   func squaredDistance(to point: SIMD3<Float>) -> Float { (self - point).squaredLength }
@@ -16,7 +16,7 @@ extension SIMD3<Float>: Boundable {
 ///
 /// Items are sorted along the Morton curve of their centers and bisected recursively. The tree is
 /// implicit: the children of node i are 2i + 1 and 2i + 2.
-struct BoundingTree<Item: Boundable>: Sendable {
+struct BoundingTree<Item: BoundedItem>: Sendable {
   private struct Box {
     var min: SIMD3<Float>
     var max: SIMD3<Float>

@@ -1,7 +1,7 @@
 import SceneModel
 
 /// A triangle given by its corners.
-struct FlatTriangle: Boundable {
+struct FlatTriangle: BoundedItem {
   var a: SIMD3<Float>
   var b: SIMD3<Float>
   var c: SIMD3<Float>

@@ -79,8 +79,8 @@ package struct StoredZip {
   /// Length of an extra field at `offset` so that its end is aligned to 64 bytes: none, or at least
   /// the four bytes of its header.
   private static func padding(at offset: Int) -> Int {
-    let gap = (alignment - offset % alignment) % alignment
-    return gap == 0 || gap >= 4 ? gap : gap + alignment
+    let distance = (alignment - offset % alignment) % alignment
+    return distance == 0 || distance >= 4 ? distance : distance + alignment
   }
 
   private mutating func appendExtraField(length: Int) {

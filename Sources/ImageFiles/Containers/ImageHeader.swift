@@ -130,7 +130,7 @@ package struct ImageHeader: Hashable, Sendable {
 
   /// Whether a file's header indicates an alpha channel: possible in PNG, WebP, HEIF and TIFF
   /// files.
-  package static func promisesAlpha(_ bytes: [UInt8]) -> Bool {
+  package static func declaresAlpha(_ bytes: [UInt8]) -> Bool {
     let reader = ByteReader(bytes)
     if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
       // Gray or color, with alpha.

@@ -140,7 +140,7 @@ package struct BundleAdjustment: Sendable {
     _ points: inout [SIMD3<Double>], _ summary: inout ck_bundle_summary, _ control: KernelControl
   ) throws {
     var rawOptions = ck_bundle_options(
-      max_iterations: Int32(options.maximumIterations), huber_width: options.huberWidth,
+      maximum_iterations: Int32(options.maximumIterations), huber_width: options.huberWidth,
       function_tolerance: options.functionTolerance,
       dense_photo_limit: Int32(options.densePhotoLimit),
       direct_photo_limit: Int32(options.directPhotoLimit))

@@ -58,7 +58,7 @@ package struct Triangulation: Sendable {
     var inliers = [UInt8](repeating: 0, count: tracks.observations.count)
     let raw = tracks.observations.map(\.raw)
     var rawOptions = ck_triangulation_options(
-      max_error: options.maximumError, min_angle: options.minimumAngle)
+      maximum_error: options.maximumError, minimum_angle: options.minimumAngle)
     try withKernel(control) { control in
       photos.withViews { views in
         positions.withUnsafeMutableBytes { positions in

@@ -54,7 +54,7 @@ package final class KernelControl: Sendable {
   }
 
   /// A copy that reports no progress.
-  var silent: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
+  var withoutProgress: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
 
   /// Reports progress; returns false if the run is canceled.
   fileprivate func shouldContinue(at fraction: Double) -> Bool {
@@ -134,7 +134,7 @@ package func withKernel(
   }
   switch status {
   case ck_ok: return
-  case ck_cancelled: throw CancellationError()
+  case ck_canceled: throw CancellationError()
   case ck_invalid_argument: throw KernelError.invalidArgument(String(cString: ck_last_error()))
   case ck_degenerate: throw KernelError.degenerate(String(cString: ck_last_error()))
   case ck_out_of_memory: throw KernelError.outOfMemory

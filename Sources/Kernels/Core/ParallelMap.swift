@@ -46,7 +46,7 @@ extension KernelControl {
     _ count: Int, _ body: @escaping @Sendable (Int, KernelControl) throws -> Result
   ) throws -> [Result] {
     let controls = units(count)
-    return try silent.parallelMap(count) { index in
+    return try withoutProgress.parallelMap(count) { index in
       let result = try body(index, controls[index])
       try controls[index].step(1)
       return result

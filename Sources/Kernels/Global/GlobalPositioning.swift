@@ -58,7 +58,7 @@ package struct GlobalPositioning: Sendable {
     }
     var summary = ck_positioning_summary()
     var rawOptions = ck_positioning_options(
-      max_iterations: Int32(options.maximumIterations), huber_width: options.huberWidth,
+      maximum_iterations: Int32(options.maximumIterations), huber_width: options.huberWidth,
       function_tolerance: options.functionTolerance)
     try withKernel(control) { control in
       ck_position_globally(

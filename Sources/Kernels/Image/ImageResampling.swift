@@ -21,7 +21,7 @@ extension RasterImage {
     var result = RasterImage(
       width: swaps ? height : width, height: swaps ? width : height, channels: channels)
     try withKernel(KernelControl()) { _ in
-      ck_image_turn(
+      ck_image_orient(
         pixels, Int32(width), Int32(height), Int32(channels), Int32(orientation), &result.pixels)
     }
     return result

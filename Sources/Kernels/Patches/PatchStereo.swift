@@ -178,9 +178,9 @@ package enum PatchStereo {
     package var contradictionThreshold: Float = 0.01
     /// Number of erosion passes that remove boundary pixels similar to their rejected neighbors
     /// (foreground fattening).
-    package var fringePasses = 1
+    package var depthEdgePasses = 1
     /// Gray-level difference at which the similarity of two pixels is one half.
-    package var fringeContrast: Float = 10
+    package var depthEdgeContrast: Float = 10
     /// Connected components with fewer patches are removed.
     package var minimumIsland: Int
     /// Maximum distance in pixels of patches that are fused.
@@ -237,10 +237,10 @@ package enum PatchStereo {
   /// (geometric consistency). With `recordsVisibility`, also stores which neighbors confirm each
   /// patch, for `refine`.
   package static func filter(
-    _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, tellsVisibility: Bool = false,
+    _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, recordsVisibility: Bool = false,
     control: KernelControl
   ) throws {
-    if tellsVisibility { map.makeVisibility() }
+    if recordsVisibility { map.makeVisibility() }
     var (rawOptions, rawMap) = (options.raw, map.raw)
     let rawNeighbors = neighbors.map(\.raw)
     try withExtendedLifetime(neighbors) {
@@ -298,7 +298,7 @@ extension PatchStereo.Options {
       level_count: Int32(levelCount), coarse_sweeps: Int32(coarseSweeps),
       perturbations: Int32(perturbations), refinement_steps: Int32(refinementSteps),
       bilateral_contrast: bilateralContrast, expands_across_views: expandsAcrossViews ? 1 : 0,
-      is_frontal: estimatesNormals ? 0 : 1, seed: seed, instructions: instructions.raw)
+      is_fronto_parallel: estimatesNormals ? 0 : 1, seed: seed, instructions: instructions.raw)
   }
 }
 
@@ -307,11 +307,11 @@ extension PatchStereo.FilterOptions {
     ck_patch_filter_options(
       photometric_threshold: photometricThreshold,
       weak_texture_threshold: max(photometricThreshold, weakTextureThreshold),
-      minimum_agreeing: Int32(minimumAgreeingViews),
+      minimum_consistent_views: Int32(minimumAgreeingViews),
       reprojection_threshold: reprojectionThreshold, depth_threshold: depthThreshold,
       normal_cosine: cosine(degrees: normalThresholdDegrees),
-      contradiction_threshold: contradictionThreshold, fringe_passes: Int32(fringePasses),
-      fringe_contrast: fringeContrast, minimum_island: Int32(minimumIsland),
+      free_space_threshold: contradictionThreshold, depth_edge_passes: Int32(depthEdgePasses),
+      depth_edge_contrast: depthEdgeContrast, minimum_island_size: Int32(minimumIsland),
       fusion_threshold: fusionThreshold, instructions: instructions.raw)
   }
 }

@@ -68,7 +68,7 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
   }
 
   /// A located template.
-  package struct Find: Hashable, Sendable {
+  package struct Match: Hashable, Sendable {
     /// Pixels of the searched photo, origin at the top-left corner.
     package var center: SIMD2<Double>
     /// Zero-mean normalized cross-correlation, at most 1.
@@ -84,7 +84,7 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
   package static func templates(of places: [Place], in image: RasterImage) throws -> Templates {
     var templates = Templates(count: places.count)
     var valid = [UInt8](repeating: 0, count: places.count)
-    let raw = places.map { ck_template_place(x: $0.center.x, y: $0.center.y, step: $0.step) }
+    let raw = places.map { ck_template_location(x: $0.center.x, y: $0.center.y, step: $0.step) }
     try withKernel(KernelControl()) { _ in
       ck_extract_templates(
         image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
@@ -96,10 +96,10 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
 
   /// The match of each search in one photo; nil if it left the photo or its surroundings, or didn't
   /// converge.
-  package func finds(
+  package func matches(
     _ searches: [Search], of templates: Templates, in image: RasterImage
-  ) throws -> [Find?] {
-    var finds = [ck_template_find](repeating: ck_template_find(), count: searches.count)
+  ) throws -> [Match?] {
+    var matches = [ck_template_match](repeating: ck_template_match(), count: searches.count)
     let raw = searches.map { search in
       ck_template_search(
         index: Int32(search.template), step: search.step,
@@ -110,8 +110,8 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
       ck_match_templates(
         image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
         image.width * image.channels, templates.samples, templates.isValid.count, raw, raw.count,
-        maximumShift, &finds)
+        maximumShift, &matches)
     }
-    return finds.map { $0.zncc > -1 ? Find(center: [$0.x, $0.y], zncc: $0.zncc) : nil }
+    return matches.map { $0.zncc > -1 ? Match(center: [$0.x, $0.y], zncc: $0.zncc) : nil }
   }
 }

@@ -47,7 +47,7 @@ package struct Resection: Sendable {
     var inlierCount = 0
     var model = ck_camera_model(camera)
     var raw = ck_resection_options(
-      max_error: options.maximumError, max_iterations: Int32(options.maximumIterations),
+      maximum_error: options.maximumError, maximum_iterations: Int32(options.maximumIterations),
       confidence: options.confidence, minimum_inliers: Int32(options.minimumInliers),
       seed: options.seed)
     try withKernel(control) { control in

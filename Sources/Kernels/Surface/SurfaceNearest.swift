@@ -4,7 +4,7 @@ import SceneModel
 /// The k nearest points of a set for each query.
 package struct NearestPoints: Sendable {
   /// Number of neighbors per query.
-  package let neighbours: Int
+  package let neighbors: Int
   /// `neighbors` indices per query, nearest first; −1 if there are fewer.
   package let indices: [Int32]
   /// The distances corresponding to `indices`; infinite if there are fewer.
@@ -12,10 +12,10 @@ package struct NearestPoints: Sendable {
 
   /// Finds the nearest `neighbors` of `points` within `maximumDistance` of every query.
   package init(
-    of queries: [SIMD3<Float>], in points: [SIMD3<Float>], neighbours: Int = 1,
+    of queries: [SIMD3<Float>], in points: [SIMD3<Float>], neighbors: Int = 1,
     maximumDistance: Double = .infinity, _ control: KernelControl
   ) throws {
-    let width = max(1, neighbours)
+    let width = max(1, neighbors)
     var indices = [Int32](repeating: -1, count: queries.count * width)
     var distances = [Float](repeating: .infinity, count: queries.count * width)
     if !queries.isEmpty {
@@ -31,7 +31,7 @@ package struct NearestPoints: Sendable {
         }
       }
     }
-    self.neighbours = width
+    self.neighbors = width
     self.indices = indices
     self.distances = distances
   }

@@ -14,7 +14,7 @@ package final class SurfaceRefinement {
     /// Number of rounds of comparing photos and moving vertices by at most half a pixel.
     package var rounds = 3
     /// Maximum number of photos that each photo is compared with.
-    package var neighbours = 8
+    package var neighbors = 8
     /// Window radius: photos are compared after subtracting the means of windows of `2 × radius +
     /// 1` pixels a side.
     package var radius = 6
@@ -37,7 +37,7 @@ package final class SurfaceRefinement {
   package init(_ mesh: Mesh, options: Options = Options(), _ control: KernelControl) throws {
     var handle: OpaquePointer?
     var raw = ck_photo_refinement_options(
-      rounds: Int32(clamping: options.rounds), neighbours: Int32(clamping: options.neighbours),
+      rounds: Int32(clamping: options.rounds), neighbors: Int32(clamping: options.neighbors),
       radius: Int32(clamping: options.radius), noise: options.noise,
       minimum_correlation: options.minimumCorrelation,
       smoothness: options.smoothness)

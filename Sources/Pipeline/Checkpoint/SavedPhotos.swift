@@ -10,7 +10,7 @@ struct SavedPhotos: Sendable {
   func run(_ saved: SavedRun, _ context: StageContext) throws -> IngestedPhotos {
     var options = PhotoIngestion.Options()
     // All of them passed validation in the context of the full set.
-    (options.blur.minimumShareOfMedian, options.blur.hopeless) = (0, 0)
+    (options.blur.minimumShareOfMedian, options.blur.minimumSharpness) = (0, 0)
     (options.duplicates.maximumBlockDifference, options.maximumPhotos) = (-1, .max)
     options.inspection.usesMasks = false
     let names = saved.record.photos.map(\.name)

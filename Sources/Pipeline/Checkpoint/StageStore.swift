@@ -124,7 +124,7 @@ private struct SavedNotes: Codable {
   }
 
   func replay(to notes: StageNotes) {
-    for (name, value) in counts { notes.count(name, value) }
+    for (name, value) in counts { notes.record(name, value) }
     warnings.forEach(notes.warn)
     details.forEach(notes.tell)
   }

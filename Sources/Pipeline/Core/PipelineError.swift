@@ -42,7 +42,7 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .noPhotos:
       "Name a folder with photos (JPEG, HEIC or PNG) of one object, taken all around it."
     case .tooFewPhotos:
-      "Take 20 or more photos all around the object, each overlapping its neighbours by 70 %."
+      "Take 20 or more photos all around the object, each overlapping its neighbors by 70 %."
     case .tooFewCameras:
       "Cameras are given to photos by file name, and must be for the whole photo in its upright "
         + "position; name the folder with the photos that they were made for."

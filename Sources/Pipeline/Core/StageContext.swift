@@ -35,7 +35,7 @@ package final class StageNotes: Sendable {
   package init() {}
 
   /// Records a figure, for instance `points` or `meanReprojectionError`.
-  package func count(_ name: String, _ value: Double) {
+  package func record(_ name: String, _ value: Double) {
     state.withLock { $0.counts[name] = value }
   }
 
@@ -45,7 +45,7 @@ package final class StageNotes: Sendable {
   }
 
   /// Records a sentence for the user who wants to know more.
-  package func tell(_ sentence: String) {
+  package func log(_ sentence: String) {
     state.withLock { $0.details.append(sentence) }
   }
 

@@ -42,21 +42,21 @@ package struct ModelPreview: Sendable {
       context.control.part(from: 0.3, to: 0.4))
     let picture = ModelPicture(options: options.picture, model: model, textures: textures)
     let tiles = try context.control.part(from: 0.4, to: 1).parallelMap(viewpoints.poses.count) {
-      picture.drawn(by: viewpoints.camera, from: viewpoints.poses[$0])
+      picture.rendered(by: viewpoints.camera, from: viewpoints.poses[$0])
     }
-    return sheet(tiles, viewpoints.camera)
+    return overview(tiles, viewpoints.camera)
   }
 
   /// Renders the overview and writes it as PNG.
   package func write(
     _ model: TexturedMesh, cameras: [RigidTransform], to file: URL, _ context: StageContext
   ) throws {
-    let sheet = try run(model, cameras: cameras, context)
-    try AtomicFile.write(try ImageCodec.encodePNG(sheet), to: file)
+    let overview = try run(model, cameras: cameras, context)
+    try AtomicFile.write(try ImageCodec.encodePNG(overview), to: file)
   }
 
   /// Arranges the pictures in rows; missing ones are filled with the background.
-  private func sheet(_ tiles: [RasterImage], _ camera: Camera) -> RasterImage {
+  private func overview(_ tiles: [RasterImage], _ camera: Camera) -> RasterImage {
     let columns = max(1, min(options.columns, tiles.count))
     let rows = max(1, (tiles.count + columns - 1) / columns)
     let (width, height) = (camera.width, camera.height)

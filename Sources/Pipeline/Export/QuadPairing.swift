@@ -27,8 +27,8 @@ struct QuadPairing: Sendable {
     try context.control.step(1)
     let result = reordered(model, partners: partners)
     let quads = result.atlases.map(\.quadCount).reduce(0, +)
-    context.notes.count("quads", Double(quads))
-    context.notes.count("polygons", Double(model.mesh.triangles.count - quads))
+    context.notes.record("quads", Double(quads))
+    context.notes.record("polygons", Double(model.mesh.triangles.count - quads))
     return result
   }
 
@@ -164,15 +164,15 @@ private struct PairGraph {
   /// pairs. Returns whether any pair changed.
   private func augment(_ partners: inout [Int32]) -> Bool {
     var hasChanged = false
-    for lonely in neighbors.indices where partners[lonely] < 0 {
-      for near in neighbors[lonely] {
+    for unmatched in neighbors.indices where partners[unmatched] < 0 {
+      for near in neighbors[unmatched] {
         let far = partners[Int(near)]
         guard far >= 0,
           let other = neighbors[Int(far)].first(where: {
-            partners[Int($0)] < 0 && Int($0) != lonely
+            partners[Int($0)] < 0 && Int($0) != unmatched
           })
         else { continue }
-        (partners[lonely], partners[Int(near)]) = (near, Int32(lonely))
+        (partners[unmatched], partners[Int(near)]) = (near, Int32(unmatched))
         (partners[Int(far)], partners[Int(other)]) = (other, far)
         hasChanged = true
         break

@@ -29,8 +29,8 @@ package struct Simplification: Sendable {
     var result = try mesh.simplified(
       maximumTriangles: options.maximumTriangles, context.control)
     result.normals = result.angleWeightedNormals()
-    context.notes.count("triangles", Double(result.triangles.count))
-    context.notes.count("trianglesBeforeSimplification", Double(mesh.triangles.count))
+    context.notes.record("triangles", Double(result.triangles.count))
+    context.notes.record("trianglesBeforeSimplification", Double(mesh.triangles.count))
     return result
   }
 }

@@ -16,11 +16,11 @@ package struct ImageAlignment: Sendable {
     package var minimumPhotos = 3
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
-    package var standpoint = StandpointCheck.Options()
+    package var pureRotation = PureRotationCheck.Options()
     package var mapping = SparseMapping.Options()
-    package var lookAlikes = LookAlikeCheck.Options()
+    package var sceneAmbiguity = SceneAmbiguityCheck.Options()
     package var refinement = ObservationRefinement.Options()
-    package var framing = WorldFraming.Options()
+    package var worldAlignment = WorldAlignment.Options()
 
     package init() {}
   }
@@ -54,9 +54,9 @@ package struct ImageAlignment: Sendable {
     guard !graph.pairs.isEmpty else {
       throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
     }
-    let isOfOnePlace = StandpointCheck(options.standpoint)
-      .isOfOnePlace(graph, features: features, photos: photos, cameras: calibrated)
-    guard !isOfOnePlace else {
+    let isPureRotation = PureRotationCheck(options.pureRotation)
+      .isPureRotation(graph, features: features, photos: photos, cameras: calibrated)
+    guard !isPureRotation else {
       throw PipelineError.alignmentFailed(
         reason: "all photos were taken from one place; walk around the object between photos.")
     }
@@ -66,16 +66,17 @@ package struct ImageAlignment: Sendable {
         context.part(from: 0.7, to: 0.85))
     }
     try check(mapped, context.notes)
-    try timed("lookAlikeSeconds", context) {
-      try checkLookAlikes(mapped, graph, features, images, context.part(from: 0.85, to: 0.87))
+    try timed("ambiguityCheckSeconds", context) {
+      try checkSceneAmbiguity(mapped, graph, features, images, context.part(from: 0.85, to: 0.87))
     }
     let refined = try timed("refinementSeconds", context) {
       try refine(mapped, features, calibrated, images, context.part(from: 0.87, to: 0.98))
     }
-    var framing = options.framing
+    var worldAlignment = options.worldAlignment
     let masks = images.hasMasks ? photos.count { $0.mask != nil } : 0
-    framing.findsSupport = framing.findsSupport && 2 * masks < photos.count
-    let reconstruction = WorldFraming(framing).run(refined, context.part(from: 0.98, to: 1))
+    worldAlignment.findsSupport = worldAlignment.findsSupport && 2 * masks < photos.count
+    let reconstruction = WorldAlignment(worldAlignment).run(
+      refined, context.part(from: 0.98, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction
@@ -98,32 +99,32 @@ package struct ImageAlignment: Sendable {
 
   /// Throws if the reconstruction superimposes repeated structures of the scene, and warns if it
   /// may.
-  private func checkLookAlikes(
+  private func checkSceneAmbiguity(
     _ mapped: Reconstruction, _ graph: ViewGraph, _ features: [FeatureSet], _ images: ImageStore,
     _ context: StageContext
   ) throws {
-    let findings: LookAlikeCheck.Findings
+    let findings: SceneAmbiguityCheck.Findings
     do {
-      findings = try LookAlikeCheck(options.lookAlikes)
+      findings = try SceneAmbiguityCheck(options.sceneAmbiguity)
         .run(mapped, graph, features: features, images: images, context)
     } catch let error as KernelError where error != .outOfMemory {
       context.notes.warn("The scene was not checked for repeated structure (\(error)).")
       return
     }
     switch findings.verdict {
-    case .sound: break
-    case .doubtful:
+    case .consistent: break
+    case .ambiguous:
       context.notes.warn(
         "The model may superimpose similar parts of the scene: "
-          + "\(findings.reason(mapped.photos)). Check the model; \(Self.lookAlikeAdvice)")
-    case .folded:
+          + "\(findings.reason(mapped.photos)). Check the model; \(Self.ambiguityAdvice)")
+    case .inconsistent:
       throw PipelineError.alignmentFailed(
         reason: "similar parts of the scene can't be distinguished: "
-          + "\(findings.reason(mapped.photos)); \(Self.lookAlikeAdvice)")
+          + "\(findings.reason(mapped.photos)); \(Self.ambiguityAdvice)")
     }
   }
 
-  private static let lookAlikeAdvice =
+  private static let ambiguityAdvice =
     "place distinctive objects around the subject, step back so that photos show them, or leave "
     + "out the photos of one of the similar parts."
 
@@ -142,11 +143,11 @@ package struct ImageAlignment: Sendable {
   private func report(_ reconstruction: Reconstruction, _ notes: StageNotes) {
     let points = reconstruction.points
     let observations = points.reduce(0) { $0 + $1.track.count }
-    notes.count("registered", Double(reconstruction.registered.count))
-    notes.count("points", Double(points.count))
-    notes.count("observations", Double(observations))
-    notes.count("meanReprojectionError", reconstruction.meanReprojectionError)
-    notes.count("meanTrackLength", Double(observations) / Double(max(1, points.count)))
+    notes.record("registered", Double(reconstruction.registered.count))
+    notes.record("points", Double(points.count))
+    notes.record("observations", Double(observations))
+    notes.record("meanReprojectionError", reconstruction.meanReprojectionError)
+    notes.record("meanTrackLength", Double(observations) / Double(max(1, points.count)))
     let missing = reconstruction.unregistered.count
     if missing > 0 {
       notes.warn(
@@ -161,7 +162,7 @@ package struct ImageAlignment: Sendable {
     let start = ContinuousClock.now
     let value = try body()
     let duration = (ContinuousClock.now - start).components
-    context.notes.count(name, Double(duration.seconds) + Double(duration.attoseconds) * 1e-18)
+    context.notes.record(name, Double(duration.seconds) + Double(duration.attoseconds) * 1e-18)
     return value
   }
 }

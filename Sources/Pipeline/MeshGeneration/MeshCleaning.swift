@@ -8,9 +8,9 @@ struct MeshCleaning {
     /// Components with a smaller share of the largest one's area are removed.
     var minimumComponentShare = 0.02
     /// An edge shorter than this share of the surface's extent counts as degenerate.
-    var coincidence: Float = 1e-6
+    var coincidenceTolerance: Float = 1e-6
     /// Number of nearest samples that determine a vertex color.
-    var colorNeighbours = 4
+    var colorNeighbors = 4
 
     init() {}
   }
@@ -22,12 +22,12 @@ struct MeshCleaning {
   func run(_ mesh: Mesh, samples: PointCloud, _ context: StageContext) throws -> Mesh {
     var result = mesh
     result.triangles = joiningCoincidentCorners(mesh)
-    result.triangles = properTriangles(result)
+    result.triangles = nondegenerateTriangles(result)
     try context.control.step(0.2)
     result = result.splitIntoManifold()
     try context.control.step(0.4)
     keepLargeComponents(&result)
-    removeLooseVertices(&result)
+    removeUnreferencedVertices(&result)
     guard !result.triangles.isEmpty else {
       throw PipelineError.noSurface(reason: "nothing of the surface is supported by the photos.")
     }
@@ -45,7 +45,7 @@ struct MeshCleaning {
   private func joiningCoincidentCorners(_ mesh: Mesh) -> [Triangle] {
     guard let bounds = mesh.bounds else { return [] }
     let triangles = mesh.triangles.filter { Int(max($0.a, $0.b, $0.c)) < mesh.positions.count }
-    let limit = options.coincidence * (bounds.max - bounds.min).length
+    let limit = options.coincidenceTolerance * (bounds.max - bounds.min).length
     var sets = DisjointSets(count: mesh.positions.count)
     for t in triangles {
       let (a, b, c) = mesh.corners(of: t)
@@ -62,20 +62,20 @@ struct MeshCleaning {
 
   /// Faces with three distinct corners and nonzero area, without duplicates and without opposite
   /// pairs.
-  private func properTriangles(_ mesh: Mesh) -> [Triangle] {
-    let proper = mesh.triangles.filter { t in
+  private func nondegenerateTriangles(_ mesh: Mesh) -> [Triangle] {
+    let nondegenerate = mesh.triangles.filter { t in
       guard t.a != t.b, t.b != t.c, t.c != t.a else { return false }
       let (a, b, c) = mesh.corners(of: t)
       return (b - a).cross(c - a).squaredLength > 0
     }.map(\.lowestFirst)
     var counts = [Int32](repeating: 0, count: mesh.positions.count)
-    for t in proper { counts[Int(t.a)] += 1 }
+    for t in nondegenerate { counts[Int(t.a)] += 1 }
     var faces = VertexLists(capacities: counts, empty: SIMD2<UInt32>())
-    for t in proper where !faces.contains([t.b, t.c], at: t.a) {
+    for t in nondegenerate where !faces.contains([t.b, t.c], at: t.a) {
       faces.append([t.b, t.c], at: t.a)
     }
     var seen = VertexLists(capacities: counts, empty: SIMD2<UInt32>())
-    return proper.filter { t in
+    return nondegenerate.filter { t in
       guard !faces.contains([t.c, t.b], at: t.a), !seen.contains([t.b, t.c], at: t.a)
       else { return false }
       seen.append([t.b, t.c], at: t.a)
@@ -97,7 +97,7 @@ struct MeshCleaning {
   }
 
   /// Removes vertices that no face references.
-  private func removeLooseVertices(_ mesh: inout Mesh) {
+  private func removeUnreferencedVertices(_ mesh: inout Mesh) {
     var numbers = [UInt32?](repeating: nil, count: mesh.positions.count)
     for t in mesh.triangles { for vertex in t.vertices { numbers[vertex] = 0 } }
     var positions: [SIMD3<Float>] = []
@@ -116,12 +116,12 @@ struct MeshCleaning {
     _ mesh: Mesh, _ samples: PointCloud, _ control: KernelControl
   ) throws -> [SIMD3<UInt8>] {
     let nearest = try NearestPoints(
-      of: mesh.positions, in: samples.positions, neighbours: options.colorNeighbours, control)
+      of: mesh.positions, in: samples.positions, neighbors: options.colorNeighbors, control)
     let unit = max(samples.medianFootprint ?? 1, .leastNormalMagnitude)
     return mesh.positions.indices.map { vertex in
       var (sum, weights) = (SIMD3<Float>(), Float(0))
-      for k in 0..<nearest.neighbours {
-        let slot = vertex * nearest.neighbours + k
+      for k in 0..<nearest.neighbors {
+        let slot = vertex * nearest.neighbors + k
         guard nearest.indices[slot] >= 0 else { break }
         let weight = 1 / (nearest.distances[slot] / unit + 0.2)
         sum += weight * SIMD3<Float>(samples.colors[Int(nearest.indices[slot])])

@@ -43,24 +43,25 @@ package struct MeshGeneration {
     try check(cloud)
     let selection = try select(
       cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.05))
-    var averaged = try CloudAveraging().run(
+    var downsampled = try VoxelDownsampling().run(
       cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
-    averaged.cloud = try averaged.withoutStrays(context.control.part(from: 0.07, to: 0.1))
-    context.notes.count("samples", Double(averaged.cloud.count))
+    downsampled.cloud = try downsampled.withoutOutliers(context.control.part(from: 0.07, to: 0.1))
+    context.notes.record("samples", Double(downsampled.cloud.count))
     var poisson = PoissonSurface()
     poisson.options.maximumDepth = options.maximumDepth
     let (closed, cell) = try poisson.run(
-      averaged.cloud, spacing: averaged.voxelSize, context.part(from: 0.1, to: 0.85))
+      downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
     var trimming = SurfaceTrimming()
-    trimming.options.closing.closesLarge = selection.isObject && options.closesObject
+    trimming.options.holeFilling.fillsLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
-      closed, samples: averaged.cloud, scene: cloud, spacing: max(averaged.voxelSize, cell / 2),
+      closed, samples: downsampled.cloud, scene: cloud,
+      spacing: max(downsampled.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.85, to: 0.96))
     let mesh = try MeshCleaning().run(
-      trimmed, samples: averaged.cloud, context.part(from: 0.96, to: 1))
-    context.notes.count("triangles", Double(mesh.triangles.count))
+      trimmed, samples: downsampled.cloud, context.part(from: 0.96, to: 1))
+    context.notes.record("triangles", Double(mesh.triangles.count))
     return mesh
   }
 
@@ -99,7 +100,7 @@ package struct MeshGeneration {
   ) throws -> Selection {
     if let silhouettes, silhouettes.share >= options.sufficientMaskShare {
       let isKept = try SceneTrimming().run(cloud, reconstruction, context)
-      context.notes.count("objectPoints", Double(isKept.count { $0 }))
+      context.notes.record("objectPoints", Double(isKept.count { $0 }))
       return Selection(
         isKept: isKept, isObject: true,
         support: StandingPlane(
@@ -113,13 +114,13 @@ package struct MeshGeneration {
             + "The whole scene is kept.")
       } else {
         let kept = result.isKept.filter { $0 }.count
-        context.notes.count("objectPoints", Double(kept))
-        context.notes.count("removedPoints", Double(cloud.count - kept))
+        context.notes.record("objectPoints", Double(kept))
+        context.notes.record("removedPoints", Double(cloud.count - kept))
         return Selection(isKept: result.isKept, isObject: true, support: result.support)
       }
     }
     let isKept = try SceneTrimming().run(cloud, reconstruction, context)
-    context.notes.count("removedPoints", Double(isKept.filter { !$0 }.count))
+    context.notes.record("removedPoints", Double(isKept.filter { !$0 }.count))
     return Selection(isKept: isKept, isObject: false, support: nil)
   }
 }

@@ -41,7 +41,7 @@ extension Reconstruction {
       cloud.photoOffsets.append(UInt32(cloud.photoIndices.count))
     }
     let nearest = try NearestPoints(
-      of: cloud.positions, in: cloud.positions, neighbours: 4, control)
+      of: cloud.positions, in: cloud.positions, neighbors: 4, control)
     let spacing =
       cloud.positions.indices.map { nearest.distances[$0 * 4 + 3] }
       .filter { $0 > 0 && $0.isFinite }.upperMedian ?? 1

@@ -19,14 +19,14 @@ struct ObjectIsolation {
     /// Samples farther from the focus than this share of the camera distance are not the object.
     var reach = 0.9
     /// Components within this distance of the object, as a share of its size, belong to it.
-    var gap = 0.04
+    var attachmentDistance = 0.04
     /// A component with at least this share of the main component's weight belongs to the object.
-    var partnerShare = 0.25
+    var secondaryShare = 0.25
     /// Minimum share of the object in the samples at the center of the view.
     var minimumShare = 0.02
     /// If more than this share of the outline is truncated at the region's border, no object is
     /// clear.
-    var maximumCut = 0.25
+    var maximumTruncation = 0.25
 
     init() {}
   }
@@ -46,11 +46,11 @@ struct ObjectIsolation {
   func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Result {
-    let averaging = CloudAveraging(
+    let downsampling = VoxelDownsampling(
       options: {
-        var o = CloudAveraging.Options(); o.voxelFootprints = options.sampleFootprints; return o
+        var o = VoxelDownsampling.Options(); o.voxelFootprints = options.sampleFootprints; return o
       }())
-    let samples = try averaging.run(cloud, context.part(from: 0, to: 0.5))
+    let samples = try downsampling.run(cloud, context.part(from: 0, to: 0.5))
     let outcome =
       try IsolationSamples(samples, reconstruction, options)
       .map { try $0.isolate(context.part(from: 0.5, to: 1)) } ?? .failure("no photo sees it.")
@@ -85,7 +85,7 @@ struct IsolationSamples {
 
   /// Nil if no registered photo sees a sample.
   init?(
-    _ samples: CloudAveraging.Result, _ reconstruction: Reconstruction,
+    _ samples: VoxelDownsampling.Result, _ reconstruction: Reconstruction,
     _ options: ObjectIsolation.Options
   ) throws {
     let depths = reconstruction.medianDepths(of: samples.cloud)
@@ -129,7 +129,7 @@ struct IsolationSamples {
     guard Double(share) >= options.minimumShare * Double(central.count) else {
       return .failure("the object in the common view is too small.")
     }
-    if try cut(isObject, isAbove, context.control) > options.maximumCut {
+    if try truncation(isObject, isAbove, context.control) > options.maximumTruncation {
       return .failure("the surface in the photos extends beyond their common view.")
     }
     return .object(isObject, support)
@@ -154,7 +154,7 @@ struct IsolationSamples {
     else { return nil }
     // Tiny components are noise, however near.
     for component in weights.indices where members[component].count < 8 { weights[component] = 0 }
-    var isPart = weights.map { $0 > 0 && $0 >= options.partnerShare * weights[main] }
+    var isPart = weights.map { $0 > 0 && $0 >= options.secondaryShare * weights[main] }
     isPart[main] = true
     try attach(&isPart, weights, members, indices, context.control)
     var isObject = [Bool](repeating: false, count: cloud.count)
@@ -177,7 +177,7 @@ struct IsolationSamples {
       let object = parts.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
       guard let bounds = Mesh(positions: object).bounds, !others.isEmpty else { return }
       let size = Double((bounds.max - bounds.min).length)
-      let reach = max(3 * cell * options.connectionSamples, options.gap * size)
+      let reach = max(3 * cell * options.connectionSamples, options.attachmentDistance * size)
       let queries = others.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
       let nearest = try NearestPoints(
         of: queries, in: object, maximumDistance: reach, control)
@@ -196,7 +196,8 @@ struct IsolationSamples {
 
   /// The length along which the object continues beyond the region of interest, relative to the
   /// circumference of a disc of the object's area.
-  private func cut(_ isObject: [Bool], _ isAbove: [Bool], _ control: KernelControl) throws -> Double
+  private func truncation(_ isObject: [Bool], _ isAbove: [Bool], _ control: KernelControl) throws
+    -> Double
   {
     let object = cloud.positions.indices.filter { isObject[$0] }
     let beyond = cloud.positions.indices.filter {

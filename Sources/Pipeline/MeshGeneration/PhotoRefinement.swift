@@ -35,7 +35,7 @@ struct PhotoRefinement {
     }
     var (result, moved) = try refinement.run(context.part(from: 0.15, to: 1).control)
     result.normals = result.areaWeightedNormals()
-    context.notes.count("refinedVertices", Double(moved))
+    context.notes.record("refinedVertices", Double(moved))
     return result
   }
 }

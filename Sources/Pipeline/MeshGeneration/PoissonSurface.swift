@@ -39,7 +39,7 @@ struct PoissonSurface {
         let surface = try solver.surface(
           positions: cloud.positions, normals: cloud.normals, context.control)
         guard !surface.mesh.triangles.isEmpty else { continue }
-        context.notes.count("poissonDepth", Double(solver.depth))
+        context.notes.record("poissonDepth", Double(solver.depth))
         return (surface.mesh, options.scale * extent / exp2(Double(solver.depth)))
       } catch let error as KernelError where error != .outOfMemory {
         failure = " (\(error))"

@@ -22,8 +22,8 @@ struct SurfaceTrimming {
     var cellSpacings = 2.0
     /// Maximum number of points that rays are cast to.
     var maximumRayPoints = 500_000
-    var rim = RimSmoothing.Options()
-    var closing = GapClosing.Options()
+    var boundary = BoundarySmoothing.Options()
+    var holeFilling = HoleFilling.Options()
 
     init() {}
   }
@@ -53,19 +53,20 @@ struct SurfaceTrimming {
         || distance > Float(options.contradictedSpacings)
           && isSeenThrough(mesh.center(of: triangle))
     }
-    isRemoved = RimSmoothing(options: options.rim).run(mesh, isRemoved: isRemoved) { index in
+    isRemoved = BoundarySmoothing(options: options.boundary).run(mesh, isRemoved: isRemoved) {
+      index in
       let triangle = mesh.triangles[index]
       return triangle.maximum(of: distances) <= Float(options.notchSpacings)
         && isInside?[index] != false && !isSeenThrough(mesh.center(of: triangle))
         && support.map { $0.height(of: SIMD3<Double>(mesh.center(of: triangle))) > 0 } ?? true
     }
     try context.control.step(0.9)
-    context.notes.count(
+    context.notes.record(
       "trimmedShare",
       Double(isRemoved.count { $0 }) / Double(max(1, mesh.triangles.count)))
-    var closing = GapClosing(options: options.closing)
-    closing.options.depth = Float(freeSpace.cellSize)
-    return closing.run(mesh, isRemoved: isRemoved, support: support) { point in
+    var holeFilling = HoleFilling(options: options.holeFilling)
+    holeFilling.options.depth = Float(freeSpace.cellSize)
+    return holeFilling.run(mesh, isRemoved: isRemoved, support: support) { point in
       isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
     }
   }

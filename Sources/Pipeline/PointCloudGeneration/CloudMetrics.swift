@@ -49,15 +49,15 @@ package struct CloudMetrics: Sendable {
 
   /// The share of the sparse points, 0…1, that have a dense point within reach.
   private func coverage(of points: [ScenePoint], by cloud: PointCloud) -> Double {
-    let places = points.map { SIMD3<Float>($0.position) }
+    let sparsePositions = points.map { SIMD3<Float>($0.position) }
       .filter { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite }
-    guard !places.isEmpty, cloud.count > 0 else { return 0 }
+    guard !sparsePositions.isEmpty, cloud.count > 0 else { return 0 }
     // A few distant points must not enlarge the cells for all.
     let typical = stride(from: 0, to: cloud.count, by: 1 + cloud.count / 10_000)
       .map { cloud.footprints[$0] }.sorted()
     let factor = Float(options.coverageFootprints)
     let reach = factor * typical[typical.count * 9 / 10]
-    var grid = PlaceGrid(places, reach: reach)
+    var grid = PointGrid(sparsePositions, reach: reach)
     for index in 0..<cloud.count {
       grid.mark(cloud.positions[index], within: min(reach, factor * cloud.footprints[index]))
     }
@@ -84,9 +84,9 @@ package struct CloudMetrics: Sendable {
 
   /// Records the metrics, and logs them as one sentence.
   private func report(_ values: Values, _ notes: StageNotes) {
-    notes.count("sparsePoints", Double(values.sparsePoints))
-    notes.count("pointsPerSparsePoint", values.pointsPerSparsePoint)
-    notes.count("sparseCoverage", values.sparseCoverage)
+    notes.record("sparsePoints", Double(values.sparsePoints))
+    notes.record("pointsPerSparsePoint", values.pointsPerSparsePoint)
+    notes.record("sparseCoverage", values.sparseCoverage)
     var parts = [
       "\(values.points) points, \(Int(values.pointsPerSparsePoint.rounded())) for each sparse point"
     ]
@@ -95,10 +95,10 @@ package struct CloudMetrics: Sendable {
     }
     parts.append("\(percent(values.sparseCoverage)) of the sparse points covered")
     if let density = values.pointsPerCubicMeter {
-      notes.count("pointsPerCubicMeter", density)
+      notes.record("pointsPerCubicMeter", density)
       parts.append(String(format: "%.3g points/m³", density))
     }
-    notes.tell(parts.joined(separator: "; ") + ".")
+    notes.log(parts.joined(separator: "; ") + ".")
   }
 
   private func percent(_ ratio: Double) -> String { String(format: "%.0f %%", 100 * ratio) }
@@ -106,19 +106,19 @@ package struct CloudMetrics: Sendable {
 
 /// A uniform grid over sparse points that marks those near any dense point. Faster to build than a
 /// k-d tree of the dense points.
-private struct PlaceGrid {
-  private let places: [SIMD3<Float>]
+private struct PointGrid {
+  private let sparsePositions: [SIMD3<Float>]
   private let inverseCell: Float
   private var cells: [SIMD3<Int32>: [Int32]] = [:]
   private var isMarked: [Bool]
 
   /// Inserts each point into its own cell and the 26 adjacent ones; cells are `reach` wide.
-  init(_ places: [SIMD3<Float>], reach: Float) {
-    self.places = places
+  init(_ sparsePositions: [SIMD3<Float>], reach: Float) {
+    self.sparsePositions = sparsePositions
     inverseCell = 1 / max(reach, .leastNormalMagnitude)
-    isMarked = [Bool](repeating: false, count: places.count)
-    for (index, place) in places.enumerated() {
-      guard let center = cell(of: place) else { continue }
+    isMarked = [Bool](repeating: false, count: sparsePositions.count)
+    for (index, position) in sparsePositions.enumerated() {
+      guard let center = cell(of: position) else { continue }
       for offset in 0..<27 {
         let step = SIMD3(Int32(offset % 3), Int32(offset / 3 % 3), Int32(offset / 9)) &- 1
         cells[center &+ step, default: []].append(Int32(index))
@@ -132,8 +132,8 @@ private struct PlaceGrid {
   mutating func mark(_ point: SIMD3<Float>, within distance: Float) {
     guard let cell = cell(of: point), let near = cells[cell] else { return }
     for index in near {
-      let way = places[Int(index)] - point
-      if (way * way).sum() <= distance * distance { isMarked[Int(index)] = true }
+      let offset = sparsePositions[Int(index)] - point
+      if (offset * offset).sum() <= distance * distance { isMarked[Int(index)] = true }
     }
   }
 

@@ -38,10 +38,10 @@ struct DensePlan: Sendable {
     _ step: PatchWorkspace.Step, _ indices: [Int], _ views: DenseViews,
     _ workspace: PatchWorkspace, _ control: KernelControl
   ) throws -> [Int] {
-    let isThere = try control.parallelUnits(indices.count) { index, _ in
+    let isValid = try control.parallelUnits(indices.count) { index, _ in
       workspace.contains(views.key(step, indices[index]))
     }
-    return zip(indices, isThere).filter { !$0.1 }.map(\.0)
+    return zip(indices, isValid).filter { !$0.1 }.map(\.0)
   }
 }
 

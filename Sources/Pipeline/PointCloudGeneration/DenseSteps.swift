@@ -25,8 +25,8 @@ struct DenseSteps {
     self.options = options
     self.share = share
     let (count, pixels) = (views.views.count, max(1, views.largestPixelCount))
-    photos = SharedValues(count: count, capacity: options.keptBytes / 4 / (4 * pixels))
-    halves = SharedValues(count: count, capacity: options.keptBytes / 4 / pixels)
+    photos = SharedValues(count: count, capacity: options.cacheBytes / 4 / (4 * pixels))
+    halves = SharedValues(count: count, capacity: options.cacheBytes / 4 / pixels)
   }
 
   /// Runs all steps in order, up to the per-view clouds.
@@ -88,7 +88,7 @@ struct DenseSteps {
       let coarse = try coarseMap(index)
       try PatchStereo.filter(
         coarse, neighbors: try sources.map(coarseMap), options: options.coarseFilter,
-        tellsVisibility: true, control: control.part(from: 0, to: 0.05))
+        recordsVisibility: true, control: control.part(from: 0, to: 0.05))
       let map = PatchMap(view: try photo(index))
       try PatchStereo.refine(
         map, from: coarse, sources: try sources.map(photo), options: options.patches,
@@ -96,7 +96,7 @@ struct DenseSteps {
       try masks.apply(to: map, index)
       try workspace.write(map.patchBytes, views.key(.patches, index))
     }
-    notePeaks(maps, context.notes)
+    recordPeaks(maps, context.notes)
   }
 
   /// Marks the patches that enough sources confirm.
@@ -113,7 +113,7 @@ struct DenseSteps {
         control: control)
       try workspace.write(UnsafeRawBufferPointer(own.stateBytes), views.key(states, index))
     }
-    notePeaks(maps, context.notes)
+    recordPeaks(maps, context.notes)
   }
 
   /// Expands patches across views and into holes, and re-estimates those at depth edges.
@@ -135,7 +135,7 @@ struct DenseSteps {
       }
       try workspace.write(result.patchBytes, views.key(completed, index))
     }
-    notePeaks(maps, context.notes)
+    recordPeaks(maps, context.notes)
   }
 
   /// Fuses each view's accepted patches into its points of the cloud.
@@ -167,13 +167,13 @@ struct DenseSteps {
       else { throw WorkspaceError.changed(file: workspace.url(key).path) }
       accepted += bytes.withUnsafeBytes { Int(clamping: $0.loadUnaligned(as: UInt64.self)) }
     }
-    warnOfGaps(Double(accepted) / max(1, views.objectPixelCount), context.notes)
+    warnIfSparse(Double(accepted) / max(1, views.objectPixelCount), context.notes)
     return cloud
   }
 
   /// Records the share of accepted pixels, and warns if the cloud is too sparse.
-  private func warnOfGaps(_ ratio: Double, _ notes: StageNotes) {
-    notes.count("acceptedPixelRatio", ratio)
+  private func warnIfSparse(_ ratio: Double, _ notes: StageNotes) {
+    notes.record("acceptedPixelRatio", ratio)
     guard ratio < options.sparseRatio else { return }
     notes.warn(
       "Only \((1000 * ratio).rounded() / 10) % of the photos' area could be reconstructed, so the "
@@ -222,7 +222,7 @@ extension DenseSteps {
   private func makeMaps() -> SharedValues<PatchMap> {
     SharedValues(
       count: views.views.count,
-      capacity: options.keptBytes / 4 * 3
+      capacity: options.cacheBytes / 4 * 3
         / max(1, PatchMap.bytesPerPixel * views.largestPixelCount))
   }
 
@@ -240,10 +240,10 @@ extension DenseSteps {
   }
 
   /// Records the peak numbers of maps and views in memory.
-  private func notePeaks(_ maps: SharedValues<PatchMap>, _ notes: StageNotes) {
+  private func recordPeaks(_ maps: SharedValues<PatchMap>, _ notes: StageNotes) {
     let before = notes.counts["peakMaps"] ?? 0
-    notes.count("peakMaps", max(before, Double(maps.peakCount)))
-    notes.count("peakViews", Double(photos.peakCount))
+    notes.record("peakMaps", max(before, Double(maps.peakCount)))
+    notes.record("peakViews", Double(photos.peakCount))
   }
 
   /// Reads a file of this run; throws if it was changed or deleted.

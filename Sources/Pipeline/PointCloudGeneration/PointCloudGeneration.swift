@@ -27,7 +27,7 @@ package struct PointCloudGeneration {
     /// Share of the photos' pixels below which a warning calls the cloud sparse.
     package var sparseRatio = 0.05
     /// Size in bytes of the cache of views and patch maps that are not in use.
-    package var keptBytes = 512 << 20
+    package var cacheBytes = 512 << 20
 
     package init(maximumPixelsPerView: Int = 1_000_000) {
       self.maximumPixelsPerView = maximumPixelsPerView
@@ -71,7 +71,7 @@ package struct PointCloudGeneration {
     defer { workspace.close() }
     let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
-    tellReuse(views.views.count - plan[.patches].count, views, context.notes)
+    recordReuse(views.views.count - plan[.patches].count, views, context.notes)
     let steps = DenseSteps(
       views, workspace, plan, masks(of: views, reconstruction, images), options)
     try steps.run(reconstruction, images, context.part(from: 0, to: 0.98))
@@ -82,7 +82,7 @@ package struct PointCloudGeneration {
       throw PipelineError.noSurface(
         reason: "no surface patch is consistent in three or more photos.")
     }
-    context.notes.count("points", Double(cloud.count))
+    context.notes.record("points", Double(cloud.count))
     return cloud
   }
 
@@ -105,7 +105,7 @@ package struct PointCloudGeneration {
     let plan = try DensePlan(
       .patches, of: own, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
-    tellReuse(own.count - plan[.patches].count, views, context.notes)
+    recordReuse(own.count - plan[.patches].count, views, context.notes)
     try DenseSteps(
       views, workspace, plan, masks(of: views, reconstruction, images), options, share: share
     ).run(reconstruction, images, context)
@@ -125,18 +125,18 @@ package struct PointCloudGeneration {
     guard let silhouettes = try Silhouettes(reconstruction, images: images) else { return cloud }
     let result = cloud.filtered(
       by: try silhouettes.areInside(cloud.positions, context.control))
-    context.notes.count("pointsOutsideMasks", Double(cloud.count - result.count))
+    context.notes.record("pointsOutsideMasks", Double(cloud.count - result.count))
     return result
   }
 
   /// Records view counts, and logs how many views are reused.
-  private func tellReuse(_ reused: Int, _ views: DenseViews, _ notes: StageNotes) {
+  private func recordReuse(_ reused: Int, _ views: DenseViews, _ notes: StageNotes) {
     let count = views.views.count
-    notes.count("views", Double(count))
-    notes.count("viewMegapixels", Double(views.pixelCount) / 1e6)
-    notes.count("reusedViews", Double(reused))
+    notes.record("views", Double(count))
+    notes.record("viewMegapixels", Double(views.pixelCount) / 1e6)
+    notes.record("reusedViews", Double(reused))
     if reused > 0 {
-      notes.tell("Reused the patches of \(reused) of \(count) views from an earlier run.")
+      notes.log("Reused the patches of \(reused) of \(count) views from an earlier run.")
     }
   }
 }

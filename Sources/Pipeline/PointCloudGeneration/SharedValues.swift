@@ -43,12 +43,12 @@ final class SharedValues<Value: AnyObject & Sendable>: Sendable {
       isNew = true
       return value
     }
-    note(value, index, isNew: isNew)
+    touch(value, index, isNew: isNew)
     return value
   }
 
   /// Caches a value that was just used, and updates the peak count.
-  private func note(_ value: Value, _ index: Int, isNew: Bool) {
+  private func touch(_ value: Value, _ index: Int, isNew: Bool) {
     // Released after the lock.
     var dropped: [(index: Int, value: Value)] = []
     state.withLock { state in

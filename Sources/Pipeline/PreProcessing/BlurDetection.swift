@@ -14,7 +14,7 @@ package struct BlurDetection: Sendable {
     /// rejected.
     package var minimumPhotos = 3
     /// Sharpness below which a photo is extremely blurred.
-    package var hopeless = 0.1
+    package var minimumSharpness = 0.1
 
     package init() {}
   }
@@ -26,7 +26,7 @@ package struct BlurDetection: Sendable {
   /// Returns for each sharpness whether the photo is too blurred.
   package func run(_ sharpness: [Double]) -> [Bool] {
     guard sharpness.count >= options.minimumPhotos else {
-      return sharpness.map { $0 < options.hopeless }
+      return sharpness.map { $0 < options.minimumSharpness }
     }
     let median = sharpness.sorted()[sharpness.count / 2]
     let bound = min(options.minimumShareOfMedian * median, options.alwaysSharp)

@@ -14,7 +14,7 @@ struct MaskFiles {
   /// The files that are not masks, in their original order.
   private(set) var photos: [URL] = []
   /// Masks without a photo.
-  private(set) var strays: [URL] = []
+  private(set) var masksWithoutPhoto: [URL] = []
   /// The masks by the lowercase file name or stem of their photo.
   private var masks: [String: URL] = [:]
 
@@ -25,7 +25,7 @@ struct MaskFiles {
     for file in maskFiles {
       guard let owner = Self.ownerInMaskFolder(file) else { continue }
       if !names.contains(owner) {
-        strays.append(file)
+        masksWithoutPhoto.append(file)
       } else if masks[owner] == nil {
         masks[owner] = file
       }
@@ -39,13 +39,13 @@ struct MaskFiles {
   /// Removes masks that are stored next to their photos from `files`. If there are any, files that
   /// are named like masks of missing photos don't count as photos either.
   private mutating func separate(_ files: [URL], _ names: Set<String>) {
-    let owners = files.map(Self.ownerBeside)
+    let owners = files.map(Self.ownerInPhotoFolder)
     let isMask = owners.map { owner in owner.map { names.contains($0) } ?? false }
     for index in files.indices {
       if isMask[index], let owner = owners[index] {
         if masks[owner] == nil { masks[owner] = files[index] }
       } else if owners[index] != nil, isMask.contains(true) {
-        strays.append(files[index])
+        masksWithoutPhoto.append(files[index])
       } else {
         photos.append(files[index])
       }
@@ -60,7 +60,7 @@ struct MaskFiles {
 
   /// The name of the photo that a file in the same folder is the mask of; nil if it isn't named
   /// like a mask.
-  private static func ownerBeside(_ file: URL) -> String? {
+  private static func ownerInPhotoFolder(_ file: URL) -> String? {
     guard isImageName(file) else { return nil }
     let stem = names(of: file)[1]
     for ending in ["_mask", ".mask"] where stem.hasSuffix(ending) && stem.count > ending.count {
@@ -70,7 +70,7 @@ struct MaskFiles {
   }
 
   private static func ownerInMaskFolder(_ file: URL) -> String? {
-    isImageName(file) ? ownerBeside(file) ?? names(of: file)[1] : nil
+    isImageName(file) ? ownerInPhotoFolder(file) ?? names(of: file)[1] : nil
   }
 
   private static func isImageName(_ file: URL) -> Bool {
@@ -88,10 +88,10 @@ extension MaskFiles {
     let inner = Self.folderNames.map { folder.appendingPathComponent($0, isDirectory: true) }
     let source = (named ?? inner.filter(Self.isFolder)).first
     // In the folder of photos itself, every photo would be its own mask.
-    let isElsewhere =
+    let isSeparateFolder =
       source?.resolvingSymlinksInPath().standardizedFileURL.path
       != folder.resolvingSymlinksInPath().standardizedFileURL.path
-    let maskFiles = try isElsewhere ? source.map(PhotoFolder.files) ?? [] : []
+    let maskFiles = try isSeparateFolder ? source.map(PhotoFolder.files) ?? [] : []
     self.init(files: files, maskFiles: maskFiles)
   }
 

@@ -10,7 +10,7 @@ import SceneModel
 /// both; then the other masks of the set decide, see `PhotoIngestion`.
 struct MaskInspection: Sendable {
   /// A valid mask, and what remains ambiguous about its orientation.
-  struct Found: Sendable {
+  struct ValidatedMask: Sendable {
     var mask: PhotoMask
     /// An alternative orientation that is equally possible.
     var otherOrientation: Int?
@@ -20,7 +20,7 @@ struct MaskInspection: Sendable {
   }
 
   /// A photo in stored orientation.
-  struct Stored: Sendable {
+  struct StoredPhoto: Sendable {
     var name: String
     var width: Int
     var height: Int
@@ -33,7 +33,7 @@ struct MaskInspection: Sendable {
   static let aspectTolerance = 0.005
 
   /// Reads a mask from its file; throws if it is unusable.
-  func file(_ url: URL, of photo: Stored) throws(MaskFault) -> Found {
+  func file(_ url: URL, of photo: StoredPhoto) throws(MaskFault) -> ValidatedMask {
     let image: RasterImage
     let bytes: [UInt8]
     do throws(ImageError) {
@@ -43,28 +43,31 @@ struct MaskInspection: Sendable {
       throw MaskFault(
         url.lastPathComponent, photo.name, error.errorDescription ?? "it can't be read")
     }
-    let own = PhotoMetadata(bytes).orientation
+    let exifOrientation = PhotoMetadata(bytes).orientation
     let coverage = try coverage(image, url.lastPathComponent, photo)
     var mask = PhotoMask(
-      file: url, orientation: own, contentHash: PhotoInspection.hash(bytes), coverage: coverage)
-    if own != 1 {
-      guard fits(image, turned: own, photo) else { throw aspectFault(image, url, photo) }
-      return Found(mask: mask)
+      file: url, orientation: exifOrientation, contentHash: PhotoInspection.hash(bytes),
+      coverage: coverage)
+    if exifOrientation != 1 {
+      guard fits(image, turned: exifOrientation, photo) else {
+        throw aspectFault(image, url, photo)
+      }
+      return ValidatedMask(mask: mask)
     }
     let (isUpright, isStored) = (
       fits(image, turned: 1, photo), fits(image, turned: photo.orientation, photo)
     )
     guard isUpright || isStored else { throw aspectFault(image, url, photo) }
     if !isUpright { mask.orientation = photo.orientation }
-    guard photo.orientation != 1 else { return Found(mask: mask) }
+    guard photo.orientation != 1 else { return ValidatedMask(mask: mask) }
     return isUpright && isStored
-      ? Found(mask: mask, otherOrientation: photo.orientation)
-      : Found(mask: mask, isAsStored: isStored)
+      ? ValidatedMask(mask: mask, otherOrientation: photo.orientation)
+      : ValidatedMask(mask: mask, isAsStored: isStored)
   }
 
   /// Reads the mask from the alpha channel of a photo; nil without one, or if nothing is
   /// transparent. Throws if it is unusable.
-  func alpha(_ bytes: [UInt8], of photo: Stored) throws(MaskFault) -> Found? {
+  func alpha(_ bytes: [UInt8], of photo: StoredPhoto) throws(MaskFault) -> ValidatedMask? {
     let image: RasterImage?
     do throws(ImageError) {
       image = try MaskImage.alpha(bytes)
@@ -77,12 +80,13 @@ struct MaskInspection: Sendable {
     let coverage = try coverage(image, "The alpha channel of \(photo.name)", photo)
     return coverage == 1
       ? nil
-      : Found(mask: PhotoMask(file: nil, orientation: photo.orientation, coverage: coverage))
+      : ValidatedMask(
+        mask: PhotoMask(file: nil, orientation: photo.orientation, coverage: coverage))
   }
 
   /// The fraction of marked pixels, above 0; throws if nothing is marked.
   private func coverage(
-    _ image: RasterImage, _ name: String, _ photo: Stored
+    _ image: RasterImage, _ name: String, _ photo: StoredPhoto
   ) throws(MaskFault) -> Double {
     let marked = image.pixels.reduce(0) { $0 + ($1 == 0 ? 0 : 1) }
     guard marked > 0 else { throw MaskFault(name, photo.name, "no pixel is marked") }
@@ -90,7 +94,7 @@ struct MaskInspection: Sendable {
   }
 
   /// Whether the mask, rotated by `orientation`, has the aspect ratio of the upright photo.
-  private func fits(_ mask: RasterImage, turned orientation: Int, _ photo: Stored) -> Bool {
+  private func fits(_ mask: RasterImage, turned orientation: Int, _ photo: StoredPhoto) -> Bool {
     let (width, height) = Self.size(mask.width, mask.height, turned: orientation)
     let (w, h) = Self.size(photo.width, photo.height, turned: photo.orientation)
     let expected = Double(width) * Double(h) / Double(w)
@@ -103,7 +107,7 @@ struct MaskInspection: Sendable {
     orientation >= 5 ? (height, width) : (width, height)
   }
 
-  private func aspectFault(_ mask: RasterImage, _ url: URL, _ photo: Stored) -> MaskFault {
+  private func aspectFault(_ mask: RasterImage, _ url: URL, _ photo: StoredPhoto) -> MaskFault {
     let (width, height) = Self.size(photo.width, photo.height, turned: photo.orientation)
     return MaskFault(
       url.lastPathComponent, photo.name,

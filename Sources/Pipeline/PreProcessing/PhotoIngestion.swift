@@ -82,10 +82,10 @@ package struct PhotoIngestion: Sendable {
       refusal($0.0, .blurred, "it is blurred; take it again with a steady, focused camera")
     }
     candidates = zip(candidates, isBlurred).filter { !$0.1 }.map(\.0)
-    settleOrientations(&candidates)
+    resolveMaskOrientations(&candidates)
     var result = assemble(candidates, refused.sorted { $0.sampleID < $1.sampleID }, files)
     if options.inspection.usesMasks {
-      result.refusedMasks += masks.strays.map {
+      result.refusedMasks += masks.masksWithoutPhoto.map {
         RefusedMask(
           name: $0.lastPathComponent,
           reason: "\($0.lastPathComponent) is a mask without a photo; it is not used.")
@@ -94,7 +94,7 @@ package struct PhotoIngestion: Sendable {
     for photo in candidates {
       var problems: [String] = []
       result.readings[photo.sampleID] = sensors.reading(
-        beside: photo.url, orientation: photo.metadata.sensorOrientation, &problems)
+        nextTo: photo.url, orientation: photo.metadata.sensorOrientation, &problems)
       problems.forEach(context.notes.warn)
     }
     report(result, candidates, context.notes)
@@ -170,9 +170,11 @@ package struct PhotoIngestion: Sendable {
 
   /// Resolves the orientation of masks for photos whose stored and upright sizes are equal: the
   /// majority of the other masks decides, since one program wrote them all.
-  private func settleOrientations(_ photos: inout [InspectedPhoto]) {
-    let told = photos.compactMap { $0.mask?.isAsStored }
-    guard told.count(where: { $0 }) > told.count(where: { !$0 }) else { return }
+  private func resolveMaskOrientations(_ photos: inout [InspectedPhoto]) {
+    let orientationVotes = photos.compactMap { $0.mask?.isAsStored }
+    guard orientationVotes.count(where: { $0 }) > orientationVotes.count(where: { !$0 }) else {
+      return
+    }
     for index in photos.indices {
       if let other = photos[index].mask?.otherOrientation {
         photos[index].mask?.mask.orientation = other
@@ -204,23 +206,23 @@ package struct PhotoIngestion: Sendable {
   private func report(
     _ result: IngestedPhotos, _ accepted: [InspectedPhoto], _ notes: StageNotes
   ) {
-    notes.count("files", Double(result.files.count))
-    notes.count("photos", Double(result.photos.count))
-    notes.count("refused", Double(result.refused.count))
-    notes.count("cameras", Double(result.cameras.count))
+    notes.record("files", Double(result.files.count))
+    notes.record("photos", Double(result.photos.count))
+    notes.record("refused", Double(result.refused.count))
+    notes.record("cameras", Double(result.cameras.count))
     let masked = result.photos.compactMap(\.mask)
-    notes.count("masks", Double(masked.count))
-    notes.count("refusedMasks", Double(result.refusedMasks.count))
+    notes.record("masks", Double(masked.count))
+    notes.record("refusedMasks", Double(result.refusedMasks.count))
     if !masked.isEmpty {
       let coverage = masked.reduce(0) { $0 + $1.coverage } / Double(masked.count)
-      notes.count("meanMaskCoverage", coverage)
-      notes.tell("\(masked.count) of \(result.photos.count) photos have a mask.")
+      notes.record("meanMaskCoverage", coverage)
+      notes.log("\(masked.count) of \(result.photos.count) photos have a mask.")
     }
     result.refusedMasks.forEach { notes.warn($0.reason) }
-    notes.count(
+    notes.record(
       "megapixels", result.photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6)
     if !accepted.isEmpty {
-      notes.count("medianSharpness", accepted.map(\.sharpness).sorted()[accepted.count / 2])
+      notes.record("medianSharpness", accepted.map(\.sharpness).sorted()[accepted.count / 2])
     }
   }
 }

@@ -5,7 +5,7 @@ import SceneModel
 
 /// What is kept of a photo after decoding it once: enough to compare it with the others.
 package struct InspectedPhoto: Sendable {
-/// Index among all files of the folder.
+  /// Index among all files of the folder.
   package var sampleID: Int
   package var url: URL
   /// Size in pixels, upright.
@@ -20,7 +20,7 @@ package struct InspectedPhoto: Sendable {
   /// side.
   package var thumbnail: RasterImage
   /// The mask of the photo, if it has one.
-  var mask: MaskInspection.Found?
+  var mask: MaskInspection.ValidatedMask?
   /// The photo's mask if it is unusable.
   var refusedMask: RefusedMask?
 }
@@ -97,7 +97,7 @@ extension InspectedPhoto {
   /// `bytes`.
   fileprivate mutating func findMask(_ file: URL?, _ bytes: [UInt8]) {
     let isTurned = metadata.orientation >= 5
-    let stored = MaskInspection.Stored(
+    let stored = MaskInspection.StoredPhoto(
       name: url.lastPathComponent, width: isTurned ? height : width,
       height: isTurned ? width : height, orientation: metadata.orientation)
     do throws(MaskFault) {

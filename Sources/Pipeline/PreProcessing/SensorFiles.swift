@@ -33,7 +33,7 @@ struct SensorFiles {
   /// The readings stored next to a photo whose sensor pixels are rotated upright by `orientation`;
   /// nil if there are none. `problems` are messages about unusable files.
   func reading(
-    beside photo: URL, orientation: Int, _ problems: inout [String]
+    nextTo photo: URL, orientation: Int, _ problems: inout [String]
   ) -> SensorReading? {
     let name = Self.name(photo)
     var reading = SensorReading()

@@ -12,7 +12,7 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var refinesSurface: Bool = false
   /// The faces of model files, where the format has a choice.
   package var meshPrimitive = MeshPrimitive.triangle
-  /// The photos are in the order of capture, and neighbours overlap.
+  /// The photos are in the order of capture, and neighbors overlap.
   package var isSequential: Bool = false
   /// Look harder for features on objects of low texture.
   package var isHighSensitivity: Bool = false

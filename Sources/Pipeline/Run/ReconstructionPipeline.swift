@@ -167,8 +167,8 @@ package final class ReconstructionPipeline {
     var options = ImageAlignment.Options()
     options.isSequential = configuration.isSequential
     options.isHighSensitivity = configuration.isHighSensitivity
-    options.framing.knownDistances = configuration.knownDistances
-    options.framing.readings = readings(ingested)
+    options.worldAlignment.knownDistances = configuration.knownDistances
+    options.worldAlignment.readings = readings(ingested)
     options.mapping.method = configuration.mappingMethod
     return try MaskedAlignment(ImageAlignment(options))
       .run(

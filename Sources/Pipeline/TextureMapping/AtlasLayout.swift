@@ -70,7 +70,7 @@ struct AtlasPacking: Sendable {
       side: side, atlases: map.charts.map { placements[Int($0)].atlas },
       count: 1 + (placements.map(\.atlas).max() ?? 0), corners: texels,
       magnification: magnification)
-    note(layout, context.notes)
+    record(layout, context.notes)
     return layout
   }
 
@@ -90,21 +90,21 @@ struct AtlasPacking: Sendable {
   }
 
   /// Records the texture size, and logs why it isn't larger.
-  private func note(_ layout: AtlasLayout, _ notes: StageNotes) {
-    notes.count("textureSide", Double(layout.side))
-    notes.count("textures", Double(layout.count))
-    notes.count("texelsPerPixel", Double(layout.magnification))
+  private func record(_ layout: AtlasLayout, _ notes: StageNotes) {
+    notes.record("textureSide", Double(layout.side))
+    notes.record("textures", Double(layout.count))
+    notes.record("texelsPerPixel", Double(layout.magnification))
     let isFilled =
       layout.side == options.maximumSide && layout.count == options.maximumAtlases
     let texels = Double((100 * layout.magnification).rounded()) / 100
     func name(_ count: Int, _ side: Int) -> String { "\(count == 1 ? "" : "\(count) × ")\(side)²" }
     if !isFilled {
-      notes.tell(
+      notes.log(
         "The texture size is \(name(layout.count, layout.side)), not "
           + "\(name(options.maximumAtlases, options.maximumSide)) as the detail level allows: it "
           + "has \(texels) texels per photo pixel (linear), which preserves all detail.")
     } else if layout.magnification < 1 {
-      notes.tell(
+      notes.log(
         "The photos have more detail than the detail level's texture: it has \(texels) "
           + "texels per photo pixel (linear).")
     }

@@ -40,14 +40,14 @@ struct Charting: Sendable {
     for (face, chart) in charts.enumerated() { facesByChart[Int(chart)].append(face) }
     for (chart, faces) in facesByChart.enumerated() {
       if chart % 64 == 0 { try context.control.step(1) }
-      lay(faces, of: mesh, along: axes[chart], into: &result.corners)
+      flatten(faces, of: mesh, along: axes[chart], into: &result.corners)
     }
-    context.notes.count("charts", Double(axes.count))
+    context.notes.record("charts", Double(axes.count))
     return result
   }
 
   /// Projects triangles along the axis, rotated to a small bounding rectangle.
-  private func lay(
+  private func flatten(
     _ faces: [Int], of mesh: Mesh, along axis: SIMD3<Float>, into corners: inout [SIMD2<Float>]
   ) {
     let helper: SIMD3<Float> = abs(axis.y) < 0.9 ? [0, 1, 0] : [1, 0, 0]
@@ -61,14 +61,14 @@ struct Charting: Sendable {
     }
     guard faces.count > 2 else { return }
     let points = faces.flatMap { [corners[3 * $0], corners[3 * $0 + 1], corners[3 * $0 + 2]] }
-    let turn = Self.smallestTurn(of: points)
+    let turn = Self.smallestBoxRotation(of: points)
     for face in faces {
       for index in 3 * face..<3 * face + 3 { corners[index] = Self.rotate(corners[index], turn) }
     }
   }
 
   /// The rotation, out of 30 within a quarter turn, with the smallest bounding rectangle.
-  private static func smallestTurn(of points: [SIMD2<Float>]) -> (cos: Float, sin: Float) {
+  private static func smallestBoxRotation(of points: [SIMD2<Float>]) -> (cos: Float, sin: Float) {
     var best: (area: Float, turn: (cos: Float, sin: Float)) = (.infinity, (1, 0))
     for step in 0..<30 {
       let angle = Float(step) / 30 * Float.pi / 2

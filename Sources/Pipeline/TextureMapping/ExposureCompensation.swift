@@ -59,7 +59,7 @@ struct ExposureCompensation: Sendable {
       // Near black and white the sensor response isn't linear.
       guard entry.cosine >= options.minimumCosine, value > 6, value < 246 else { continue }
       items.append(
-        (Int(entry.view), log(Double(value + ExposureGain.foot)), Double(entry.cosine)))
+        (Int(entry.view), log(Double(value + ExposureGain.encodingOffset)), Double(entry.cosine)))
     }
     guard items.count >= 2 else { return }
     let corrected = items.map { $0.log + gains[$0.view][channel] }.sorted()

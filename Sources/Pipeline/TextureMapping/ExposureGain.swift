@@ -6,7 +6,7 @@ import SceneModel
 /// constant, so a gain acts on the stored value plus that constant.
 struct ExposureGain: Hashable, Sendable {
   /// The constant, IEC 61966-2-1: 0.055 of 255.
-  static let foot: Float = 0.055 * 255
+  static let encodingOffset: Float = 0.055 * 255
 
   /// Gains of red, green and blue.
   var factors: SIMD3<Float>
@@ -14,7 +14,7 @@ struct ExposureGain: Hashable, Sendable {
   static let none = ExposureGain(factors: .one)
 
   /// Added to a color times the factors.
-  var offset: SIMD3<Float> { Self.foot * (factors - .one) }
+  var offset: SIMD3<Float> { Self.encodingOffset * (factors - .one) }
 
   /// A photo color, 0…255, at the mean exposure.
   func apply(_ color: SIMD3<Float>) -> SIMD3<Float> { color * factors + offset }

@@ -15,7 +15,7 @@ package struct TextureMapping: Sendable {
     package var maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
 
     /// Minimum area of a transient occluder, as a share of a photo.
-    var thingShare: Float = 0.001
+    var minimumRegionShare: Float = 0.001
     /// Maximum triangles of the cropped-away surface that is kept as an occluder.
     var occluderTriangles = 100_000
     var observation = ViewObservation.Options()
@@ -71,8 +71,8 @@ package struct TextureMapping: Sendable {
     let gains = try ExposureCompensation(options: options.exposure)
       .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
     var candidates = options.candidates
-    candidates.outliers.thingArea = max(
-      candidates.outliers.thingArea, options.thingShare * source.pixelsPerPhoto)
+    candidates.outliers.minimumRegionPixels = max(
+      candidates.outliers.minimumRegionPixels, options.minimumRegionShare * source.pixelsPerPhoto)
     let rated = try ViewCandidates(options: candidates)
       .run(seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
     let labels = try ViewSelection(options: options.selection)
@@ -141,7 +141,7 @@ package struct TextureMapping: Sendable {
       }
       return maps
     }
-    context.notes.count("textureUsage", usage)
+    context.notes.record("textureUsage", usage)
     return images
   }
 

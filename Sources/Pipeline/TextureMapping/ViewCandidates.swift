@@ -7,7 +7,7 @@ import SceneModel
 /// something else.
 struct ViewCandidates: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    var outliers = OutlierViews.Options()
+    var outliers = TransientOccluders.Options()
     /// Exponent of the cosine in the quality, in addition to its effect on the area.
     var cosinePower = 1
     /// Factor on the quality next to an occluding edge or the object's outline, and for
@@ -37,9 +37,9 @@ struct ViewCandidates: Sendable {
       let entry = views.entries[index]
       views.entries[index].color = gains[Int(entry.view)].apply(entry.color)
     }
-    let isOutlier = try OutlierViews(options: options.outliers)
+    let isOutlier = try TransientOccluders(options: options.outliers)
       .run(views, topology: topology, context)
-    context.notes.count("outlierViews", Double(isOutlier.count { $0 }))
+    context.notes.record("outlierViews", Double(isOutlier.count { $0 }))
     views.filter { !isOutlier[$0] }
     var rated = RatedViews(
       views: views, qualities: Array(repeating: 0, count: views.entries.count),

@@ -38,7 +38,7 @@ struct ViewSelection: Sendable {
           UInt32(edge.first), UInt32(edge.second), weight: options.smoothness * relative))
     }
     let labels = try selection.run(iterations: options.iterations, context.control)
-    context.notes.count("unseenTriangles", Double(labels.count { $0 < 0 }))
+    context.notes.record("unseenTriangles", Double(labels.count { $0 < 0 }))
     return labels
   }
 }

@@ -13,21 +13,21 @@ struct ExifWriter {
   /// Fields by tag: of the image, Exif and GPS directories.
   var image: [UInt16: Value] = [:]
   var camera: [UInt16: Value] = [:]
-  var place: [UInt16: Value] = [:]
+  var gps: [UInt16: Value] = [:]
 
   /// The structure in big-endian byte order.
   var bytes: [UInt8] {
     // The image directory points to the other two, so their offsets are computed first.
-    let pointers = (camera.isEmpty ? 0 : 1) + (place.isEmpty ? 0 : 1)
+    let pointers = (camera.isEmpty ? 0 : 1) + (gps.isEmpty ? 0 : 1)
     let cameraOffset = 8 + size(image, extra: pointers)
-    let placeOffset = cameraOffset + (camera.isEmpty ? 0 : size(camera))
+    let gpsOffset = cameraOffset + (camera.isEmpty ? 0 : size(camera))
     var links: [(UInt16, Int)] = []
     if !camera.isEmpty { links.append((34665, cameraOffset)) }
-    if !place.isEmpty { links.append((34853, placeOffset)) }
+    if !gps.isEmpty { links.append((34853, gpsOffset)) }
     var result: [UInt8] = Array("MM".utf8) + big16(42) + big32(8)
     result += directory(image, links, at: 8)
     if !camera.isEmpty { result += directory(camera, [], at: cameraOffset) }
-    if !place.isEmpty { result += directory(place, [], at: placeOffset) }
+    if !gps.isEmpty { result += directory(gps, [], at: gpsOffset) }
     return result
   }
 
@@ -42,19 +42,19 @@ struct ExifWriter {
     var entries = fields.map { (tag: $0, type: $1.type, count: $1.count, payload: $1.payload) }
     entries += links.map { (tag: $0, type: 4, count: 1, payload: big32($1)) }
     entries.sort { $0.tag < $1.tag }
-    var head = big16(entries.count)
+    var entryBytes = big16(entries.count)
     var data: [UInt8] = []
     let dataOffset = offset + 6 + 12 * entries.count
     for entry in entries {
-      head += big16(Int(entry.tag)) + big16(entry.type) + big32(entry.count)
+      entryBytes += big16(Int(entry.tag)) + big16(entry.type) + big32(entry.count)
       if entry.payload.count > 4 {
-        head += big32(dataOffset + data.count)
+        entryBytes += big32(dataOffset + data.count)
         data += entry.payload
       } else {
-        head += entry.payload + Array(repeating: 0, count: 4 - entry.payload.count)
+        entryBytes += entry.payload + Array(repeating: 0, count: 4 - entry.payload.count)
       }
     }
-    return head + big32(0) + data
+    return entryBytes + big32(0) + data
   }
 
   /// Inserts the data into a PNG file as an `eXIf` chunk before the pixels.

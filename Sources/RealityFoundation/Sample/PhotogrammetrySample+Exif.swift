@@ -13,7 +13,7 @@ extension PhotogrammetrySample {
     let lengths = focalLengths(camera)
     exif.camera[37386] = lengths.exact.map { .rationals([$0]) }
     exif.camera[41989] = lengths.film.map { .short(UInt16(clamping: Int($0.rounded()))) }
-    exif.place = place(section("{GPS}"))
+    exif.gps = gps(section("{GPS}"))
     return exif
   }
 
@@ -35,7 +35,7 @@ extension PhotogrammetrySample {
     return (number(camera["FocalLength"]), number(camera["FocalLenIn35mmFilm"]))
   }
 
-  private func place(_ gps: [String: Any]) -> [UInt16: ExifWriter.Value] {
+  private func gps(_ gps: [String: Any]) -> [UInt16: ExifWriter.Value] {
     guard let latitude = number(gps["Latitude"]), let longitude = number(gps["Longitude"]) else {
       return [:]
     }

@@ -179,7 +179,7 @@
       case .filter:
         options.filter.minimumAgreeingViews = 0
         options.filter.contradictionThreshold = 1e9
-        options.filter.fringePasses = 0
+        options.filter.depthEdgePasses = 0
         options.filter.minimumIsland = 0
       }
     }

@@ -71,7 +71,7 @@
       guard ingested.photos.count >= Self.neededPhotos else {
         throw CommandFailure.run(
           "\(ingested.photos.count) usable photos are too few for a reconstruction. Take 20 or "
-            + "more all around the object, each overlapping its neighbours by 70 %.")
+            + "more all around the object, each overlapping its neighbors by 70 %.")
       }
     }
   }

@@ -11,7 +11,7 @@ struct Reconstruct: AsyncParsableCommand {
       photogrammetry-cli <input-folder> <output> [options]
       """,
     discussion: """
-      Take 20 to 200 sharp photos all around the object, each overlapping its neighbours by 70 % or \
+      Take 20 to 200 sharp photos all around the object, each overlapping its neighbors by 70 % or \
       more, with the object still and the light even.
 
       EXAMPLES

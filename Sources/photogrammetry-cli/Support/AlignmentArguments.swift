@@ -5,7 +5,7 @@ import RealityKit
 struct AlignmentArguments: ParsableArguments {
   @Option(
     name: [.customShort("o"), .long],
-    help: "Whether neighbours in the order of file names show the same part.")
+    help: "Whether neighbors in the order of file names show the same part.")
   var sampleOrdering = OrderingArgument.unordered
 
   @Option(

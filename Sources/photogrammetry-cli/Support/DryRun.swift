@@ -55,7 +55,7 @@
       if report.used.count < Inspect.neededPhotos {
         faults.append(
           "\(report.used.count) usable photos are too few for a reconstruction. Take 20 or more all "
-            + "around the object, each overlapping its neighbours by 70 %.")
+            + "around the object, each overlapping its neighbors by 70 %.")
       }
       if let free = space.free, free < space.needed {
         faults.append(

@@ -70,7 +70,7 @@
         Reconstruction(
           cameras: named.map(\.camera), photos: photos, poses: named.map(\.cameraFromWorld),
           points: []),
-        sizeless: Set(named.indices.filter { !named[$0].isSizeKnown }.map { ID($0) }))
+        photosOfUnknownSize: Set(named.indices.filter { !named[$0].isSizeKnown }.map { ID($0) }))
     }
 
     /// Where the scale comes from.

@@ -12,7 +12,7 @@ import Testing
     return camera
   }()
 
-  @Test func derivativesAgreeWithDifferences() throws {
+  @Test func jacobiansMatchFiniteDifferences() throws {
     let pose = RigidTransform(
       rotation: Quaternion(angle: 0.7, axis: [1, -2, 0.5]), translation: [0.2, -0.1, 5])
     let (point, pixel) = (SIMD3(0.4, -0.7, 0.9), SIMD2(700.0, 500.0))
@@ -115,7 +115,7 @@ import Testing
     #expect(isSame)
   }
 
-  @Test func constantPartsStay() throws {
+  @Test func constantParametersAreUnchanged() throws {
     let scene = SyntheticScene()
     var problem = perturbed(scene)
     problem.cameraFreedom[0] = []
@@ -134,7 +134,7 @@ import Testing
     #expect(problem.photos.poses[5] != before.photos.poses[5])
   }
 
-  @Test func cancelledAdjustmentThrowsAndLeavesTheProblem() {
+  @Test func canceledAdjustmentThrowsAndKeepsTheProblem() {
     var problem = perturbed(SyntheticScene())
     let before = problem.points
     let flag = CancellationFlag()
@@ -146,7 +146,7 @@ import Testing
     #expect(isUnchanged)
   }
 
-  @Test func wrongIndicesAreRefused() {
+  @Test func invalidIndicesAreRejected() {
     var problem = perturbed(SyntheticScene())
     problem.observations[0].point = 1_000_000
     #expect(throws: KernelError.self) { try BundleAdjustment().run(&problem) }

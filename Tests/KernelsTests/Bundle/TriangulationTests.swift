@@ -19,7 +19,7 @@ import Testing
   }
 
   @Test(arguments: [0.0, 0.5, 1.0])
-  func pointsAreFound(pixels noise: Double) throws {
+  func pointsAreTriangulated(pixels noise: Double) throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = noise
     let scene = SyntheticScene(options)
@@ -34,7 +34,7 @@ import Testing
     #expect(Double(found) > 0.98 * Double(tracks.count))
   }
 
-  @Test func wrongObservationsAreLeftOut() throws {
+  @Test func outlierObservationsAreRejected() throws {
     let scene = SyntheticScene()
     var (tracks, photos) = tracks(scene)
     let long = (0..<tracks.count).filter { tracks.range($0).count >= 4 }
@@ -51,7 +51,7 @@ import Testing
     }
   }
 
-  @Test func narrowAnglesAndPointsBehindAreRefused() throws {
+  @Test func narrowAnglesAndPointsBehindAreRejected() throws {
     let camera = Camera(width: 1000, height: 1000, focalLength: [1000, 1000])
     let poses: [RigidTransform?] = [
       .identity, .init(rotation: .identity, translation: [-0.1, 0, 0]),
@@ -75,7 +75,7 @@ import Testing
     #expect(result.positions.map { $0 != nil } == [true, false, false, false])
   }
 
-  @Test func measuredErrorsAreThoseOfTheScene() throws {
+  @Test func measuredErrorsMatchTheScene() throws {
     let scene = SyntheticScene()
     var (tracks, photos) = tracks(scene)
     tracks.observations[0].pixel += [3, 4]

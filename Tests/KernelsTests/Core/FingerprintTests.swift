@@ -7,7 +7,7 @@ import Testing
   }
 
   /// The values of the reference program `xxhsum -H64`.
-  @Test func hashesAreThoseOfTheReference() {
+  @Test func hashesMatchTheReference() {
     #expect(hash("") == 0xEF46_DB37_51D8_E999)
     #expect(hash("a") == 0xD24E_C4F1_A98C_6E5B)
     #expect(hash("abc") == 0x44BC_2CF5_AD77_0999)
@@ -16,7 +16,7 @@ import Testing
     #expect(bytes.withUnsafeBytes { XXHash64.hash($0) } == 0xF341_BD52_CE7A_62E3)
   }
 
-  @Test func everyBitCounts() {
+  @Test func everyBitChangesTheHash() {
     let bytes = (0..<77).map { UInt8($0 * 3) }
     var seen: Set<UInt64> = [bytes.withUnsafeBytes { XXHash64.hash($0) }]
     for bit in 0..<8 * bytes.count {
@@ -28,7 +28,7 @@ import Testing
     #expect(hash("abc", seed: 1) != hash("abc"))
   }
 
-  @Test func sequencesKeepTheirEnds() {
+  @Test func sequenceBoundariesChangeTheFingerprint() {
     var (a, b) = (Fingerprint(), Fingerprint())
     a.add([1, 2] as [UInt8])
     a.add([3] as [UInt8])

@@ -67,7 +67,7 @@ import Testing
 
   @Test(
     arguments: supported, [(0, 5), (1, 1), (1, 40), (40, 1), (33, 70), (200, 161)])
-  func equalsTheObviousWay(
+  func matchesBruteForce(
     instructions: Instructions, counts: (Int, Int)
   ) throws {
     let a = Self.descriptors(counts.0, seed: 3)
@@ -82,7 +82,7 @@ import Testing
   }
 
   @Test(arguments: supported)
-  func allInstructionsGiveTheSame(instructions: Instructions) throws {
+  func allInstructionSetsGiveTheSameResult(instructions: Instructions) throws {
     // More than one block of rows, and not a multiple of any vector width.
     let a = Self.descriptors(4200, seed: 1)
     let b = Self.noisyCopy(of: a, 517, seed: 2)
@@ -108,7 +108,7 @@ import Testing
     #expect(matches.count == 64 && matches.allSatisfy { $0.first == $0.second })
   }
 
-  @Test func twinsAreAmbiguous() throws {
+  @Test func duplicateDescriptorsAreAmbiguous() throws {
     let a = Self.descriptors(10, seed: 5)
     let twins = a + a[0..<128]
     let matches = try DescriptorMatching().matches(Self.set(a), Self.set(twins), KernelControl())

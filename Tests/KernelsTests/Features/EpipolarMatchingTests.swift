@@ -26,14 +26,14 @@ import Testing
       KernelControl())
   }
 
-  @Test func whatLooksAlikeElsewhereIsNoRival() throws {
+  @Test func ratioTestIgnoresFeaturesOffTheLine() throws {
     let (first, second, points) = repetitive()
     #expect(try DescriptorMatching().matches(first, second, KernelControl()).isEmpty)
     let found = try matches(first, second, points)
     #expect(Set(found) == Set((0..<60).map { FeatureMatch(first: $0, second: $0) }))
   }
 
-  @Test func takenFeaturesStayOut() throws {
+  @Test func takenFeaturesAreExcluded() throws {
     let (first, second, points) = repetitive()
     let found = try matches(first, second, points, except: [0, 7, 59])
     #expect(found.count == 57)
@@ -49,7 +49,7 @@ import Testing
     #expect(found.isEmpty)
   }
 
-  @Test func emptySetsAreFine() throws {
+  @Test func emptySetsHaveNoMatches() throws {
     let (first, _, points) = repetitive()
     #expect(try matches(FeatureSet(), first, points).isEmpty)
     #expect(try matches(first, FeatureSet(), points).isEmpty)

@@ -54,7 +54,7 @@ import Testing
   ]
 
   @Test(arguments: blobCases)
-  func blobIsFoundWhereItIs(center: SIMD2<Double>, deviation: Double, isDoubled: Bool) throws {
+  func blobIsDetectedAtItsCenter(center: SIMD2<Double>, deviation: Double, isDoubled: Bool) throws {
     let image = Self.blobs([(center, deviation)])
     var detection = FeatureDetection()
     detection.doublesPhoto = isDoubled
@@ -70,7 +70,7 @@ import Testing
 
   /// The mean error over many offsets reveals a bias that a single offset may hide.
   @Test(arguments: [true, false])
-  func positionsHaveNoBias(isDoubled: Bool) throws {
+  func positionsAreUnbiased(isDoubled: Bool) throws {
     var detection = FeatureDetection()
     detection.doublesPhoto = isDoubled
     var random = SeededGenerator(seed: 3)
@@ -139,7 +139,7 @@ import Testing
     #expect(set.orientations.allSatisfy { (0...Float.pi * 2 + 1e-5).contains($0) })
   }
 
-  @Test func limitKeepsFeaturesEverywhere() throws {
+  @Test func featureLimitKeepsCoverage() throws {
     let image = Self.texture(width: 480, height: 360)
     var detection = FeatureDetection()
     detection.gridCells = 4
@@ -151,7 +151,7 @@ import Testing
     #expect(cells.allSatisfy { (5...15).contains($0) })
   }
 
-  @Test func lowerThresholdFindsMore() throws {
+  @Test func lowerThresholdDetectsMore() throws {
     let image = Self.texture(width: 320, height: 240)
     var detection = FeatureDetection()
     detection.sufficientFeatures = 0
@@ -174,7 +174,7 @@ import Testing
   }
 
   @Test(arguments: [(8, 2000), (2500, 9), (17, 16), (33, 31), (60, 1500)])
-  func oddShapesAreSearched(width: Int, height: Int) throws {
+  func extremeAspectRatiosAreSupported(width: Int, height: Int) throws {
     let image = Self.texture(width: width, height: height)
     for isDoubled in [true, false] {
       var detection = FeatureDetection()
@@ -189,7 +189,7 @@ import Testing
     }
   }
 
-  @Test func grayAndAlphaAreRead() throws {
+  @Test func grayAndAlphaAreSupported() throws {
     let image = Self.texture(width: 200, height: 160)
     let gray = RasterImage(
       width: 200, height: 160, channels: 1,
@@ -229,7 +229,7 @@ import Testing
   }
 
   @Test(arguments: [true, false])
-  func allInstructionsAgree(isDoubled: Bool) throws {
+  func allInstructionSetsAgree(isDoubled: Bool) throws {
     let image = Self.texture(width: 333, height: 251)
     var detection = FeatureDetection()
     detection.doublesPhoto = isDoubled
@@ -255,7 +255,7 @@ import Testing
     }
   }
 
-  @Test func missingInstructionsAreRefused() throws {
+  @Test func unsupportedInstructionSetsAreRejected() throws {
     var detection = FeatureDetection()
     let image = Self.texture(width: 64, height: 64)
     for instructions in Instructions.allCases where !instructions.isSupported {
@@ -266,7 +266,7 @@ import Testing
     }
   }
 
-  @Test func theSameImageGivesTheSameBytes() throws {
+  @Test func detectionIsDeterministic() throws {
     let image = Self.texture(width: 320, height: 240)
     let sets = try KernelControl(threadCount: 2).parallelMap(4) { _ in
       try FeatureDetection().features(in: image, KernelControl())
@@ -343,7 +343,7 @@ import Testing
     #expect(errors.sorted()[errors.count / 2] < 0.22 * max(1, scale))
   }
 
-  @Test func turnedPhotoMatchesItself() throws {
+  @Test func rotatedPhotoMatchesItself() throws {
     let image = Self.texture(width: 320, height: 240)
     var turned = RasterImage(width: 240, height: 320, channels: 3)
     for y in 0..<240 {
@@ -363,7 +363,7 @@ import Testing
     #expect(errors.sorted()[errors.count / 2] < 0.05)
   }
 
-  @Test func cancelledDetectionThrows() throws {
+  @Test func canceledDetectionThrows() throws {
     let flag = CancellationFlag()
     flag.cancel()
     let image = Self.texture(width: 64, height: 64)

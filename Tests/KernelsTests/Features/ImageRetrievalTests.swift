@@ -33,7 +33,7 @@ import Testing
     #expect(empty.allSatisfy { $0 == 0 })
   }
 
-  @Test func vocabularyIsNoLargerThanItsDescriptors() throws {
+  @Test func vocabularyIsLimitedByItsDescriptors() throws {
     let few = try VisualVocabulary(
       count: 8, descriptors: Self.descriptors(3, kinds: 3), KernelControl())
     #expect(few.count == 3)

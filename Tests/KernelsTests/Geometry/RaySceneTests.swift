@@ -15,7 +15,7 @@ import Testing
         rotation: rotation, translation: -(rotation * SIMD3<Double>(0, 0, distance))))
   }
 
-  @Test func aCameraSeesTheSideOfACubeThatFacesIt() throws {
+  @Test func aCameraSeesTheFacingSideOfACube() throws {
     let mesh = SyntheticMesh.cube(cells: 4)
     let scene = try RayScene(mesh, KernelControl())
     let seen = try scene.observations(in: view(distance: 5), KernelControl())
@@ -30,7 +30,7 @@ import Testing
     #expect(seen.allSatisfy { $0.color == SIMD3(repeating: 100) && $0.cosine > 0.9 })
   }
 
-  @Test func whatIsInFrontHidesAndItsSurroundingsAreUncertain() throws {
+  @Test func occludersHideAndTheirEdgesAreUncertain() throws {
     let wall = SyntheticMesh.grid(cells: 20, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
     var mesh = wall
     SyntheticMesh.append(
@@ -54,7 +54,7 @@ import Testing
     #expect(onWall.count > 400)
   }
 
-  @Test func wavesOutsideTheImageAreNotSeen() throws {
+  @Test func trianglesOutsideTheImageAreNotSeen() throws {
     let mesh = SyntheticMesh.grid(cells: 20, origin: [-9, -9, 0], u: [18, 0, 0], v: [0, 18, 0])
     let scene = try RayScene(mesh, KernelControl())
     let seen = try scene.observations(in: view(distance: 5), KernelControl())
@@ -62,7 +62,7 @@ import Testing
     #expect(seen.count == 2 * 4 * 4)
   }
 
-  @Test func badMeshesAreRefused() {
+  @Test func invalidMeshesAreRejected() {
     #expect(throws: KernelError.self) { try RayScene(Mesh(), KernelControl()) }
     let missing = Mesh(positions: [.zero], triangles: [.init(0, 1, 2)])
     #expect(throws: KernelError.self) { try RayScene(missing, KernelControl()) }

@@ -37,7 +37,7 @@ import Testing
     return zip(found, truth).map { ($0 * ($1 * shift).conjugate).angle }.max() ?? .infinity
   }
 
-  @Test(arguments: [0, 0.1, 0.25]) func wrongPairsDoNotCount(wrongShare: Double) throws {
+  @Test(arguments: [0, 0.1, 0.25]) func outlierPairsAreRejected(wrongShare: Double) throws {
     var generator = SeededGenerator(seed: 5)
     let truth = (0..<40).map { _ in random(&generator, upTo: .pi) }
     let (pairs, isWrong) = pairs(
@@ -60,7 +60,7 @@ import Testing
     #expect(largestError(result.rotations, truth) < 1e-6)
   }
 
-  @Test func badInputIsAnError() {
+  @Test func invalidInputIsAnError() {
     let start = [Quaternion](repeating: .identity, count: 4)
     let pair = RelativeRotation(first: 0, second: 1, rotation: .identity)
     let stray = RelativeRotation(first: 1, second: 9, rotation: .identity)
@@ -101,7 +101,7 @@ import Testing
   }
 
   @Test(arguments: SyntheticScene.Layout.allCases, [1, 2, 3] as [UInt64])
-  func exactDirectionsGiveExactCentres(layout: SyntheticScene.Layout, seed: UInt64) throws {
+  func exactDirectionsGiveExactCenters(layout: SyntheticScene.Layout, seed: UInt64) throws {
     var options = SyntheticScene.Options()
     options.layout = layout
     options.pointCount = 300
@@ -110,7 +110,7 @@ import Testing
     #expect(poses.maximumCenterError < 1e-3)
   }
 
-  @Test func wrongDirectionsDoLittle() throws {
+  @Test func outlierDirectionsHaveLittleEffect() throws {
     var options = SyntheticScene.Options()
     options.pointCount = 400
     options.photoCount = 20
@@ -119,7 +119,7 @@ import Testing
     #expect(poses.maximumCenterError < 0.05)
   }
 
-  @Test func badInputIsAnError() {
+  @Test func invalidInputIsAnError() {
     let places = [SIMD3<Double>](repeating: .zero, count: 2)
     let stray = PointDirection(photo: 5, point: 0, direction: [0, 0, 1])
     #expect(throws: KernelError.self) {

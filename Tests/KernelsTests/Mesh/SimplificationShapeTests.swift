@@ -30,15 +30,15 @@ import Testing
     #expect(abs(volume(of: simple) / volume(of: mesh) - 1) < 1.25 / Double(budget))
   }
 
-  @Test(arguments: [600, 200]) func aTubeKeepsItsOutline(budget: Int) throws {
+  @Test(arguments: [600, 200]) func aTubeKeepsItsBoundary(budget: Int) throws {
     let mesh = tube(segments: 160, rings: 80)
     let simple = try mesh.simplified(maximumTriangles: budget, KernelControl())
     #expect(simple.triangles.count <= budget)
     let edges = edgeCounts(of: simple)
-    let rim = edges.filter { $0.value == 1 }.keys
+    let boundary = edges.filter { $0.value == 1 }.keys
     #expect(edges.values.allSatisfy { $0 <= 2 })
     for sign in [Float(-1), 1] {
-      let ends = rim.filter { simple.positions[Int($0.x)].y * sign > 0 }
+      let ends = boundary.filter { simple.positions[Int($0.x)].y * sign > 0 }
       #expect(ends.count >= 16)
       // A closed polygon has as many corners as sides.
       #expect(Set(ends.flatMap { [$0.x, $0.y] }).count == ends.count)
@@ -55,7 +55,7 @@ import Testing
   }
 
   /// A torus with ripples and noise, which an error limit alone would fold.
-  @Test(arguments: [2000, 300]) func aTorusStaysOne(budget: Int) throws {
+  @Test(arguments: [2000, 300]) func aTorusStaysATorus(budget: Int) throws {
     let simple = try torus(segments: 96, rings: 48)
       .simplified(maximumTriangles: budget, KernelControl())
     #expect(simple.triangles.count <= budget)
@@ -71,7 +71,7 @@ import Testing
     }
   }
 
-  @Test func sheetsThatMeetAtAnEdgeStayTogether() throws {
+  @Test func surfacesSharingAnEdgeStayConnected() throws {
     var mesh = Mesh()
     for u in [SIMD3<Float>(1, 0, 0), [-1, 0, 0.5], [0, 0, -1]] {
       SyntheticMesh.append(
@@ -90,7 +90,7 @@ import Testing
     #expect(abs(length - 1) < 1e-3)
   }
 
-  @Test func theUnitOfLengthDoesNotMatter() throws {
+  @Test func resultIsScaleInvariant() throws {
     let mesh = torus(segments: 64, rings: 32)
     var large = mesh
     large.positions = mesh.positions.map { $0 * 1024 }

@@ -32,7 +32,7 @@ import Testing
     }
   }
 
-  @Test func aPlaneKeepsItsOutline() throws {
+  @Test func aPlaneKeepsItsBoundary() throws {
     let mesh = SyntheticMesh.grid(cells: 30, origin: .zero, u: [3, 0, 0], v: [0, 2, 0])
     let simple = try mesh.simplified(maximumTriangles: 40, KernelControl())
     #expect(simple.triangles.count <= 40)
@@ -45,7 +45,7 @@ import Testing
     #expect(simple.positions.allSatisfy { abs($0.z) < 1e-5 })
   }
 
-  @Test func duplicatesAndDegenerateTrianglesGo() throws {
+  @Test func duplicateAndDegenerateTrianglesAreRemoved() throws {
     var mesh = SyntheticMesh.cube(cells: 1)
     mesh.triangles += [mesh.triangles[0], .init(0, 0, 1)]
     mesh.positions.append([9, 9, 9])
@@ -55,7 +55,7 @@ import Testing
     #expect(isClosed(simple))
   }
 
-  @Test func manySmallPiecesStillMeetTheBudget() throws {
+  @Test func manySmallComponentsMeetTheBudget() throws {
     var mesh = SyntheticMesh.sphere(subdivisions: 3)
     for index in 0..<20 {
       var small = SyntheticMesh.sphere(radius: 0.05, subdivisions: 0)
@@ -67,7 +67,7 @@ import Testing
     #expect(simple.positions.contains { abs($0.length - 1) < 0.2 })
   }
 
-  @Test func twiceIsTheSame() throws {
+  @Test func simplificationIsDeterministic() throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 4)
     let first = try mesh.simplified(maximumTriangles: 300, KernelControl())
     let second = try mesh.simplified(
@@ -76,7 +76,7 @@ import Testing
     #expect(first.triangles == second.triangles)
   }
 
-  @Test func cancelStops() {
+  @Test func cancellationStops() {
     let flag = CancellationFlag()
     flag.cancel()
     #expect(throws: CancellationError.self) {

@@ -14,8 +14,8 @@ import Testing
     noise: Float? = nil, isHalved: Bool = false, seeds perturb: (PatchSeed) -> PatchSeed = { $0 },
     control: KernelControl = KernelControl()
   ) throws -> [PatchMap] {
-    let wholes = scene.views.map { PatchView($0, noise: noise) }
-    let views = isHalved ? wholes.map { $0.halved() } : wholes
+    let fullViews = scene.views.map { PatchView($0, noise: noise) }
+    let views = isHalved ? fullViews.map { $0.halved() } : fullViews
     return try views.indices.map { index in
       let map = PatchMap(view: views[index])
       let seeds = scene.reconstruction.points.compactMap { point -> PatchSeed? in
@@ -52,7 +52,7 @@ import Testing
     )
   }
 
-  @Test func depthsAreRight() throws {
+  @Test func depthsAreAccurate() throws {
     let maps = try Self.maps(Self.scene)
     for view in maps.indices {
       let error = Self.depthError(maps[view], Self.scene, view: view)
@@ -81,7 +81,7 @@ import Testing
   }
 
   @Test(arguments: Instructions.allCases.filter(\.isSupported))
-  func instructionsAgree(_ instructions: Instructions) throws {
+  func instructionSetsAgree(_ instructions: Instructions) throws {
     var options = PatchStereo.Options()
     // In untextured areas rounding decides.
     options.instructions = .portable
@@ -106,12 +106,12 @@ import Testing
     for index in maps.indices {
       try PatchStereo.filter(
         maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
-        tellsVisibility: true, control: KernelControl())
+        recordsVisibility: true, control: KernelControl())
     }
     return maps
   }
 
-  @Test func refinedPatchesAreRight() throws {
+  @Test func refinedPatchesAreAccurate() throws {
     let coarse = try Self.coarseMaps(Self.scene)
     let views = Self.scene.views.map { PatchView($0) }
     for index in views.indices {
@@ -125,12 +125,12 @@ import Testing
     }
   }
 
-  @Test func refiningNeedsHalfTheResolution() throws {
+  @Test func refinementRequiresHalfResolution() throws {
     let views = Self.scene.views.map { PatchView($0) }
     let whole = PatchMap(view: views[0])
     try PatchStereo.filter(
       whole, neighbors: [PatchMap(view: views[1])], options: PatchStereo.FilterOptions(),
-      tellsVisibility: true, control: KernelControl())
+      recordsVisibility: true, control: KernelControl())
     #expect(throws: KernelError.self) {
       try PatchStereo.refine(
         PatchMap(view: views[0]), from: whole, sources: [views[1]],
@@ -138,7 +138,7 @@ import Testing
     }
   }
 
-  @Test func aViewWithoutPatchesTakesThoseOfOthers() throws {
+  @Test func viewWithoutPatchesIsFilledFromOthers() throws {
     let maps = try Self.maps(Self.scene)
     let empty = PatchMap(view: maps[2].view)
     try Self.filter(maps)
@@ -165,7 +165,7 @@ import Testing
     return (maps[2], completed)
   }
 
-  @Test func completionMovesAcceptedPatchesLittle() throws {
+  @Test func completionBarelyMovesAcceptedPatches() throws {
     let (map, completed) = try Self.completed()
     var (accepted, moved, rejected, changed) = (0, 0, 0, 0)
     for y in 0..<120 {
@@ -185,7 +185,7 @@ import Testing
   }
 
   /// Next to the outline of the ball, where a patch sees both the ball and the floor behind it.
-  @Test func completionMakesEdgesSharper() throws {
+  @Test func completionSharpensDepthEdges() throws {
     let (map, completed) = try Self.completed()
     let edges = Self.edgePixels(Self.scene, view: 2)
     #expect(edges.count > 200)
@@ -243,7 +243,7 @@ import Testing
     #expect(angles.sorted()[angles.count / 2] < 10)
   }
 
-  @Test func aFloaterGoes() throws {
+  @Test func floatersAreRemoved() throws {
     let maps = try Self.maps(Self.scene)
     // A confident patch of 20 × 20 pixels halfway to the ball, in one view only and in two.
     let region = (60..<80, 50..<70)
@@ -262,7 +262,7 @@ import Testing
     #expect(maps[1].acceptedCount > 2000)
   }
 
-  @Test func nothingComesOfNoTexture() throws {
+  @Test func untexturedScenesHaveNoPoints() throws {
     var options = RaycastScene.Options()
     options.isUniform = true
     let scene = RaycastScene(options)
@@ -270,7 +270,7 @@ import Testing
     #expect(cloud.count < 200)  // The outline of the ball against the floor is all there is.
   }
 
-  @Test func cancellingStops() throws {
+  @Test func cancellationStops() throws {
     let flag = CancellationFlag()
     let control = KernelControl(flag: flag) { if $0 > 0.1 { flag.cancel() } }
     #expect(throws: CancellationError.self) { try Self.maps(Self.scene, control: control) }

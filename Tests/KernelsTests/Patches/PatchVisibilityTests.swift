@@ -41,7 +41,7 @@ import Testing
       ], cost: 0.05)
   }
 
-  @Test func exactPatchesAreKeptWhereThreeViewsSeeThem() throws {
+  @Test func exactPatchesVisibleInThreeViewsAreKept() throws {
     let maps = Self.exactMaps()
     try PatchStereoTests.filter(maps)
     var (seen, kept) = (0, 0)
@@ -60,7 +60,7 @@ import Testing
         })
   }
 
-  @Test func fusedPointsLieExactlyOnTheSurface() throws {
+  @Test func fusedPointsLieOnTheSurface() throws {
     let cloud = try PatchStereoTests.fused(Self.exactMaps())
     #expect(cloud.count > 5000)
     let distances = cloud.positions.map { Self.scene.distance(to: SIMD3<Double>($0)) }.sorted()
@@ -75,7 +75,7 @@ import Testing
     #expect(errors.sorted()[cloud.count * 9 / 10] < 1)
   }
 
-  @Test func aPieceOfSurfaceComesOnce() throws {
+  @Test func surfaceElementsAreFusedOnce() throws {
     let maps = Self.exactMaps()
     let cloud = try PatchStereoTests.fused(maps)
     // Five views from about the same distance show nearly the same surface: one point per view
@@ -85,7 +85,7 @@ import Testing
     #expect(cloud.count >= largest / 2)
   }
 
-  @Test func theOrderOfNeighborsChangesNothing() throws {
+  @Test func neighborOrderDoesNotMatter() throws {
     let maps = Self.exactMaps()
     try PatchStereoTests.filter(maps)
     let options = PatchStereo.FilterOptions()
@@ -102,7 +102,7 @@ import Testing
   }
 
   @Test(arguments: Instructions.allCases.filter(\.isSupported))
-  func instructionsAgree(_ instructions: Instructions) throws {
+  func instructionSetsAgree(_ instructions: Instructions) throws {
     func accepted(_ instructions: Instructions) throws -> [Bool] {
       let maps = Self.exactMaps()
       var options = PatchStereo.FilterOptions()

@@ -31,33 +31,33 @@ import Testing
     try TemplateMatching.templates(of: [.init(center: center, step: step)], in: picture())
   }
 
-  @Test(arguments: [1.0, 1.5, 2, 3]) func shiftIsFound(step: Double) throws {
+  @Test(arguments: [1.0, 1.5, 2, 3]) func shiftIsRecovered(step: Double) throws {
     let templates = try templates(step: step)
     #expect(templates.isValid == [true])
     for shift in [SIMD2(0.37, -0.81), SIMD2(1.6, 1.2), SIMD2(-0.05, 0.5)] {
-      let found = try TemplateMatching().finds(
+      let found = try TemplateMatching().matches(
         [.init(template: 0, step: step, warp: [1, 0, 0, 1], expected: center)], of: templates,
         in: picture(shift: shift))
-      let find = try #require(found[0])
-      #expect((find.center - center - shift).length < 0.03 * step)
-      #expect(find.zncc > 0.995)
+      let match = try #require(found[0])
+      #expect((match.center - center - shift).length < 0.03 * step)
+      #expect(match.zncc > 0.995)
     }
   }
 
-  @Test func warpAndBrightnessAreAllowedFor() throws {
+  @Test func warpAndBrightnessAreCompensated() throws {
     // The other photo is rotated by 20° and magnified by 1.3.
     let (c, s) = (1.3 * cos(0.35), 1.3 * sin(0.35))
     let inverse = SIMD4(c, s, -s, c) / (1.3 * 1.3)
     let shift = SIMD2(30.0, -10.0)
     let expected = SIMD2(c * center.x - s * center.y, s * center.x + c * center.y) + shift
-    let found = try TemplateMatching().finds(
+    let found = try TemplateMatching().matches(
       [.init(template: 0, step: 1, warp: [c, -s, s, c], expected: expected + [0.8, -0.6])],
       of: templates(), in: picture(shift: shift, inverse: inverse, gain: 0.7, offset: 40))
-    let find = try #require(found[0])
-    #expect((find.center - expected).length < 0.03)
+    let match = try #require(found[0])
+    #expect((match.center - expected).length < 0.03)
   }
 
-  @Test func whatCannotBeLocatedIsInvalid() throws {
+  @Test func unlocatableTemplatesAreInvalid() throws {
     let flat = RasterImage(width: 40, height: 40, channels: 1, filledWith: 90)
     var stripes = flat
     for index in stripes.pixels.indices {
@@ -70,21 +70,21 @@ import Testing
     #expect(try TemplateMatching.templates(of: [corner], in: picture()).isValid == [false])
   }
 
-  @Test func searchesThatLeaveAreGivenUp() throws {
+  @Test func searchesLeavingTheirAreaFail() throws {
     let templates = try templates()
-    func find(_ expected: SIMD2<Double>, _ image: RasterImage) throws -> TemplateMatching.Find? {
-      try TemplateMatching().finds(
+    func match(_ expected: SIMD2<Double>, _ image: RasterImage) throws -> TemplateMatching.Match? {
+      try TemplateMatching().matches(
         [.init(template: 0, step: 1, warp: [1, 0, 0, 1], expected: expected)], of: templates,
         in: image)[0]
     }
-    #expect(try find([2, 2], picture()) == nil)
-    #expect(try find(center, picture(shift: [4.5, 0])) == nil)
-    let degenerate = try TemplateMatching().finds(
+    #expect(try match([2, 2], picture()) == nil)
+    #expect(try match(center, picture(shift: [4.5, 0])) == nil)
+    let degenerate = try TemplateMatching().matches(
       [.init(template: 0, step: 1, warp: [1, 1, 1, 1], expected: center)], of: templates,
       in: picture())
     #expect(degenerate == [nil])
     #expect(throws: KernelError.self) {
-      try TemplateMatching().finds(
+      try TemplateMatching().matches(
         [.init(template: 5, step: 1, warp: [1, 0, 0, 1], expected: center)], of: templates,
         in: picture())
     }

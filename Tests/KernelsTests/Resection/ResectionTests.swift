@@ -89,7 +89,7 @@ import Testing
     }
   }
 
-  @Test func cancelledSearchThrows() {
+  @Test func canceledSearchThrows() {
     let scene = SyntheticScene()
     let flag = CancellationFlag()
     flag.cancel()

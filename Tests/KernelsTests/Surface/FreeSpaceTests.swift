@@ -28,7 +28,7 @@ import Testing
     #expect(space.photos(at: [-2, 0.05, 0.05]) == 0)
   }
 
-  @Test func photosCountOnceACell() throws {
+  @Test func photosCountOncePerCell() throws {
     let centers: [SIMD3<Float>] = [[-3, 0, 0], [3, 0.01, 0], [0, -3, 0.01]]
     let points: [SIMD3<Float>] = [[0.9, 0, 0], [0.9, 0.01, 0.01], [-0.9, 0, 0], [0, 0.9, 0]]
     let space = try freeSpace(
@@ -57,7 +57,7 @@ import Testing
     }
   }
 
-  @Test func pointsThatAreNoNumbersCrossNothing() throws {
+  @Test func nonFinitePointsAreIgnored() throws {
     let space = try freeSpace(
       centers: [[-3, 0, 0], [.nan, 0, 0]], points: [[.nan, 0, 0], [0, .infinity, 0], [0, 0, 0]],
       photos: [[0], [0], [1]])

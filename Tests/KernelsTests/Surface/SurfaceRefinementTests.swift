@@ -48,7 +48,7 @@ import Testing
     mesh.positions.reduce(0) { $0 + abs($1.length - 1) } / Float(mesh.positions.count)
   }
 
-  @Test func photosTellTheShape() throws {
+  @Test func photosDetermineTheShape() throws {
     let start = wavy
     let (mesh, moved) = try refined(start, by: Self.textured)
     #expect(error(mesh) < 0.5 * error(start))
@@ -56,20 +56,20 @@ import Testing
     #expect(mesh.triangles == start.triangles)
   }
 
-  @Test func theNumberOfThreadsChangesNothing() throws {
+  @Test func threadCountDoesNotMatter() throws {
     let one = try refined(wavy, by: Self.textured, threads: 1)
     let three = try refined(wavy, by: Self.textured, threads: 3)
     #expect(one.mesh.positions == three.mesh.positions)
     #expect(one.moved == three.moved)
   }
 
-  @Test func withoutTextureNothingMoves() throws {
+  @Test func untexturedSurfaceDoesNotMove() throws {
     let (mesh, moved) = try refined(wavy, by: Self.plain)
     #expect(mesh.positions == wavy.positions)
     #expect(moved == 0)
   }
 
-  @Test func whatNoPhotoSeesStays() throws {
+  @Test func unseenVerticesDoNotMove() throws {
     let start = wavy
     let (mesh, moved) = try refined(
       start, by: Self.textured, isUsed: { $0.cameraFromWorld.center.y > 1 })
@@ -80,7 +80,7 @@ import Testing
     #expect(moved > start.positions.count / 4)
   }
 
-  @Test func whatMasksLeaveOutIsNotCompared() throws {
+  @Test func maskedPixelsAreNotCompared() throws {
     let size = Self.textured.images[0].width
     let mask = RasterImage(width: size, height: size, channels: 1, filledWith: 0)
     let (mesh, moved) = try refined(wavy, by: Self.textured, mask: mask)
@@ -88,7 +88,7 @@ import Testing
     #expect(moved == 0)
   }
 
-  @Test func bordersStay() throws {
+  @Test func boundariesDoNotMove() throws {
     var start = wavy
     start.triangles.removeAll { t in
       [t.a, t.b, t.c].contains { start.positions[Int($0)].y > 0.5 }
@@ -106,7 +106,7 @@ import Testing
     #expect(moved > start.positions.count / 3)
   }
 
-  @Test func badInputIsRefused() throws {
+  @Test func invalidInputIsRejected() throws {
     var mesh = SyntheticMesh.sphere(subdivisions: 1)
     #expect(throws: KernelError.self) { try SurfaceRefinement(Mesh(), KernelControl()) }
     mesh.positions[0].x = .nan

@@ -59,7 +59,7 @@ import Testing
     #expect(abs(Float(pixel(heights, 44, 20)[0]) - (127.5 + 127.5 * 0.3)) < 3)
   }
 
-  @Test func withoutADenseSurfaceNearbyTheMapIsFlat() throws {
+  @Test func missingDenseSurfaceGivesAFlatMap() throws {
     var dense = plane
     dense.positions = plane.positions.map { $0 + [0, 0, 3] }
     let baked = try canvas().bake(source(dense: dense), displacement: false, KernelControl())
@@ -67,13 +67,13 @@ import Testing
     #expect(baked.displacement == nil)
   }
 
-  @Test func nothingIsAboveAPlane() throws {
+  @Test func aPlaneIsUnoccluded() throws {
     let open = try canvas().occlusion(
       source(dense: plane), raysPerTexel: 4, maximumDistance: 10, KernelControl())
     #expect(open.pixels.allSatisfy { $0 == 255 })
   }
 
-  @Test func aLongWallTakesItsFormFactorFromTheSky() throws {
+  @Test func aLongWallOccludesItsFormFactor() throws {
     var dense = plane
     SyntheticMesh.append(
       SyntheticMesh.grid(cells: 4, origin: [1, -40, 0], u: [0, 0, 1], v: [0, 80, 0]), to: &dense)
@@ -88,7 +88,7 @@ import Testing
     }
   }
 
-  @Test func weightsOffsetsAndGainsAddUp() throws {
+  @Test func weightsOffsetsAndGainsAreApplied() throws {
     let canvas = try canvas()
     #expect(abs(canvas.usage - 48 * 48 / Double(64 * 64)) < 0.02)
     let image = RasterImage(width: 100, height: 100, channels: 3, filledWith: 80)
@@ -113,7 +113,7 @@ import Testing
     }
   }
 
-  @Test func aPhotoLandsTheRightWayUp() throws {
+  @Test func photosArePaintedUpright() throws {
     // Red increases to the right of the photo, green downward.
     var image = RasterImage(width: 120, height: 120, channels: 3)
     for index in 0..<120 * 120 {

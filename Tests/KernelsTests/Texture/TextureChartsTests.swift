@@ -34,7 +34,7 @@ import Testing
     }
   }
 
-  @Test func chartsOfASphereLieFlatWithinTheAngle() throws {
+  @Test func chartsOfASphereRespectTheAngleLimit() throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 4)
     let (charts, axes) = try ChartClustering().run(mesh, KernelControl())
     #expect(axes.count >= 4 && axes.count < 30)
@@ -78,7 +78,7 @@ import Testing
     #expect(placements.dropFirst().allSatisfy { $0.scale == 7 })
   }
 
-  @Test func trianglesThatWouldLieOnOthersGetTheirOwnChart() throws {
+  @Test func overlappingTrianglesGetSeparateCharts() throws {
     // Two and a half turns of a spiral staircase: similar normals, overlapping floors.
     var mesh = Mesh()
     let steps = 60
@@ -112,13 +112,13 @@ import Testing
     for chart in 0..<count {
       let size = Float.random(in: 0.02...1, using: &random)
       let squeeze: SIMD2<Float> = chart % 8 == 0 ? [1, 0.03] : [1, 0.7]
-      let rim = (0..<11).map { step in
+      let boundary = (0..<11).map { step in
         let angle = Float(step) / 11 * 2 * .pi
         return size * Float.random(in: 0.6...1, using: &random) * squeeze
           * SIMD2(cos(angle), sin(angle))
       }
-      for step in rim.indices {
-        result.corners += [.zero, rim[step], rim[(step + 1) % rim.count]]
+      for step in boundary.indices {
+        result.corners += [.zero, boundary[step], boundary[(step + 1) % boundary.count]]
         result.charts.append(Int32(chart))
       }
       result.density.append(Float.random(in: 0.5...2, using: &random))
@@ -154,7 +154,7 @@ import Testing
   }
 
   @Test(arguments: [(256, 2, 1), (512, 3, 2), (512, 0, 3), (1024, 4, 4)])
-  func thePaddingIsKept(side: Int, padding: Int, seed: UInt64) throws {
+  func paddingIsRespected(side: Int, padding: Int, seed: UInt64) throws {
     let (corners, charts, density) = randomCharts(120, seed: seed)
     let packing = ChartPacking(side: side, padding: padding, maximumScale: 1e9)
     let placements = try packing.run(
@@ -182,7 +182,7 @@ import Testing
     #expect(again == placements)
   }
 
-  @Test(arguments: [3, 5]) func chartsHangTogether(subdivisions: Int) throws {
+  @Test(arguments: [3, 5]) func chartsAreConnected(subdivisions: Int) throws {
     var mesh = SyntheticMesh.sphere(subdivisions: subdivisions)
     mesh.positions = mesh.positions.map { p in
       (1 + 0.2 * sin(5 * p.x) * sin(7 * p.y) * sin(6 * p.z)) * p
@@ -235,7 +235,7 @@ import Testing
     #expect(charts.allSatisfy { $0 == 0 })
   }
 
-  @Test func cancelStopsThePacker() throws {
+  @Test func cancellationStopsThePacker() throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 3)
     let (charts, axes) = try ChartClustering().run(mesh, KernelControl())
     let flag = CancellationFlag()

@@ -13,7 +13,7 @@ import Testing
     return selection
   }
 
-  @Test func withoutSmoothnessEveryNodeTakesItsBest() throws {
+  @Test func withoutSmoothnessEveryNodeTakesItsBestLabel() throws {
     var costs: [[(label: Int32, cost: Float)]] = []
     for node in 0..<10 {
       costs.append(
@@ -53,7 +53,7 @@ import Testing
     #expect(abs(energy - (best.min() ?? 0)) < 1e-3)
   }
 
-  @Test func nodesWithoutCandidatesStayEmptyAndDoNotCouple() throws {
+  @Test func nodesWithoutCandidatesStayUnlabeled() throws {
     let labels = try chain(
       [[(label: 3, cost: 0), (label: 9, cost: 0.1)], [], [(label: 9, cost: 0)]], weight: 5
     ).run(iterations: 10, KernelControl())

@@ -73,7 +73,7 @@ import Testing
     return min(norm(1), norm(-1))
   }
 
-  @Test func fivePointsGiveTheTruth() throws {
+  @Test func fivePointSolverFindsTheTrueMatrix() throws {
     var errors: [Double] = []
     for seed in 0..<300 {
       let world = World(5, seed: UInt64(seed))
@@ -93,7 +93,7 @@ import Testing
   }
 
   @Test(arguments: 0..<100)
-  func sevenPointsGiveTheTruth(seed: Int) throws {
+  func sevenPointSolverFindsTheTrueMatrix(seed: Int) throws {
     let world = World(7, seed: UInt64(seed) + 1000)
     let solutions = try TwoViewEstimation.fundamentalMatrices(world.first, world.second)
     #expect((1...3).contains(solutions.count))
@@ -102,7 +102,7 @@ import Testing
   }
 
   @Test(arguments: [true, false], [0.0, 0.3, 0.5])
-  func wrongMatchesAreFound(isCalibrated: Bool, share: Double) throws {
+  func outlierMatchesAreDetected(isCalibrated: Bool, share: Double) throws {
     var world = World(400, seed: 11, noise: 2e-4)
     world.spoil(share, seed: 12)
     var estimation = TwoViewEstimation()
@@ -118,7 +118,7 @@ import Testing
     #expect(geometry.homographyInlierCount < right / 2)
   }
 
-  @Test func refinementReachesTheNoise() throws {
+  @Test func refinementReachesTheNoiseLevel() throws {
     let world = World(1000, seed: 21, noise: 2e-4)
     let geometry = try #require(
       try TwoViewEstimation().geometry(world.first, world.second, KernelControl()))
@@ -127,14 +127,14 @@ import Testing
     #expect(geometry.medianAngle > 0.05)
   }
 
-  @Test func planesAreRecognised() throws {
+  @Test func planesAreDetected() throws {
     let world = World(300, seed: 31, noise: 1e-4, isPlanar: true)
     let geometry = try #require(
       try TwoViewEstimation().geometry(world.first, world.second, KernelControl()))
     #expect(geometry.homographyInlierCount > 290)
   }
 
-  @Test func rotationsHaveNoAngle() throws {
+  @Test func pureRotationsHaveZeroAngle() throws {
     let world = World(300, seed: 32, noise: 1e-5, baseline: 0)
     let geometry = try #require(
       try TwoViewEstimation().geometry(world.first, world.second, KernelControl()))
@@ -143,7 +143,7 @@ import Testing
   }
 
   @Test(arguments: [true, false])
-  func degenerateMatchesDoNoHarm(isCalibrated: Bool) throws {
+  func degenerateMatchesAreHandled(isCalibrated: Bool) throws {
     var estimation = TwoViewEstimation()
     estimation.isCalibrated = isCalibrated
     let control = KernelControl()
@@ -160,7 +160,7 @@ import Testing
     #expect(throws: KernelError.self) { _ = try estimation.geometry(line, [], control) }
   }
 
-  @Test func seedsDecideTheResult() throws {
+  @Test func seedsDetermineTheResult() throws {
     var world = World(200, seed: 41, noise: 3e-4)
     world.spoil(0.5, seed: 42)
     var estimation = TwoViewEstimation()
@@ -170,7 +170,7 @@ import Testing
     #expect(a.matrix == b.matrix && a.inliers == b.inliers && a.iterations == b.iterations)
   }
 
-  @Test func cancelledEstimationThrows() throws {
+  @Test func canceledEstimationThrows() throws {
     let flag = CancellationFlag()
     flag.cancel()
     let world = World(100, seed: 51)

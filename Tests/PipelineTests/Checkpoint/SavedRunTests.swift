@@ -101,7 +101,7 @@ private struct FinishedRun {
     return try Data(contentsOf: url)
   }
 
-  @Test func masksAreThoseOfTheRun() throws {
+  @Test func masksOfTheRunAreUsed() throws {
     var mask = RasterImage(width: 320, height: 320, channels: 1)
     mask.pixels.replaceSubrange(0..<6400, with: [UInt8](repeating: 255, count: 6400))
     let run = try FinishedRun(mask: mask)
@@ -126,7 +126,7 @@ private struct FinishedRun {
     }
   }
 
-  @Test func theModelIsTheOneThatTheRunMakes() throws {
+  @Test func exportReproducesTheModelOfTheRun() throws {
     let run = try FinishedRun()
     let images = ImageStore(
       photos: run.ingested.photos, processingPixels: run.ingested.processingPixels)
@@ -185,7 +185,7 @@ private struct FinishedRun {
     #expect(!model.mesh.triangles.isEmpty)
   }
 
-  @Test func whatIsMissingIsNamed() throws {
+  @Test func missingFilesAreReported() throws {
     let run = try FinishedRun()
     let path = run.checkpoint.path
     try run.remove(run.photos.appendingPathComponent("p3.jpg"))
@@ -203,7 +203,7 @@ private struct FinishedRun {
     #expect(run.fault() == .noDirectory(path: path))
   }
 
-  @Test func photosThatHaveChangedAreNamed() throws {
+  @Test func changedPhotosAreReported() throws {
     let run = try FinishedRun()
     let other = try ImageCodec.encodeJPEG(
       TexturePattern.image(width: 320, height: 320, seed: 3), quality: 0.9)

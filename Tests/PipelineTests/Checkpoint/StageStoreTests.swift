@@ -18,15 +18,15 @@ import Testing
     try SealedFile.write(payload, madeFrom: 7, to: url)
   }
 
-  @Test func contentComesBack() {
+  @Test func contentRoundTrips() {
     #expect(SealedFile.read(url, madeFrom: 7) == payload)
   }
 
-  @Test func whatIsMadeFromSomethingElseIsMissing() {
+  @Test func filesFromOtherInputsCountAsMissing() {
     #expect(SealedFile.read(url, madeFrom: 8) == nil)
   }
 
-  @Test func anyChangedByteIsSeen() throws {
+  @Test func anyChangedByteIsDetected() throws {
     let whole = try Data(contentsOf: url)
     for index in whole.indices {
       var damaged = whole
@@ -36,7 +36,7 @@ import Testing
     }
   }
 
-  @Test func anyCutIsSeen() throws {
+  @Test func anyTruncationIsDetected() throws {
     let whole = try Data(contentsOf: url)
     for count in 0..<whole.count {
       try whole.prefix(count).write(to: url)
@@ -81,9 +81,9 @@ import Testing
       inputs: try RunInputs(ingested ?? self.ingested, configuration, readings: readings))
   }
 
-  @Test func alignmentComesBackBitForBit() throws {
+  @Test func alignmentRoundTripsBitForBit() throws {
     let notes = StageNotes()
-    notes.count("pairs", 12)
+    notes.record("pairs", 12)
     notes.warn("A sentence.")
     try store().save(reconstruction, notes)
     let replayed = StageNotes()
@@ -149,7 +149,7 @@ import Testing
     withExtendedLifetime(lock) {}
   }
 
-  @Test func lockEndsWithItsOwner() throws {
+  @Test func lockIsReleasedWithItsOwner() throws {
     do { _ = try DirectoryLock(folder.url, isShared: false) }
     _ = try DirectoryLock(folder.url, isShared: false)
   }

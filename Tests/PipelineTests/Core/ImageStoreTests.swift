@@ -26,7 +26,7 @@ import Testing
     #expect(ImageStore.size(width: 400, height: 300, maximumPixels: 30_000) == (200, 150))
   }
 
-  @Test func theBudgetDoesNotChangeImages() throws {
+  @Test func memoryBudgetDoesNotChangeImages() throws {
     let folder = try TemporaryFolder()
     for index in 0..<4 {
       try folder.write(
@@ -46,7 +46,7 @@ import Testing
     #expect(throws: KernelError.self) { try stores[0].image(ID(4)) }
   }
 
-  @Test func changedFilesGiveASentence() throws {
+  @Test func changedFilesAreReported() throws {
     let folder = try TemporaryFolder()
     try folder.write(
       ImageCodec.encodeJPEG(TexturePattern.image(width: 400, height: 300, seed: 0), quality: 0.9),
@@ -62,7 +62,7 @@ import Testing
     SIMD4<Double>(-0.3, 0.1, 0, 0), [0.25, -0.05, 0, 0], [-0.1, 0, 0.003, -0.004],
     [-0.6, 0, 0, 0], [2, -4, 0.1, 0.1],
   ])
-  func everyPixelOfAPinholeViewHasASource(distortion: SIMD4<Double>) throws {
+  func everyPinholePixelHasASourcePixel(distortion: SIMD4<Double>) throws {
     var camera = distorted
     camera.distortion = distortion
     let pinhole = camera.undistortedPinhole(maximumPixels: 1_000_000)
@@ -78,7 +78,7 @@ import Testing
     #expect(camera.undistortedPinhole(maximumPixels: 10_000).width <= 140)
   }
 
-  @Test func pinholeViewsShowWhatTheCameraSees() throws {
+  @Test func pinholeViewsAreUndistortedCorrectly() throws {
     var camera = distorted
     camera.distortion = [-0.2, 0.05, 0.001, 0]
     // Red encodes the column: it identifies the source of each pixel of the view.
@@ -109,7 +109,7 @@ import Testing
   /// Orientation 6 rotates by 90 degrees, 405 is not divisible by two, and 800 / 250 is between a
   /// quarter and a half.
   @Test(arguments: [(800, 600, 1), (800, 600, 6), (405, 300, 1), (803, 601, 1)])
-  func smallCopiesOfJPEGsAreThoseOfTheWhole(
+  func scaledJPEGDecodingMatchesReduction(
     width: Int, height: Int, orientation: Int
   ) throws {
     let folder = try TemporaryFolder()

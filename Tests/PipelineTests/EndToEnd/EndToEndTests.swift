@@ -42,7 +42,7 @@ import Testing
       #expect(FileManager.default.fileExists(atPath: file.path), "\(name) is missing")
     }
     #expect(try Data(contentsOf: output).prefix(4) == Data([0x50, 0x4b, 3, 4]))
-    try theSavedRunGivesTheSameModel(folder.url, output)
+    try savedRunProducesTheSameModel(folder.url, output)
     let other = ReconstructionPipeline(
       folder: Fixtures.images(of: "orbit"), configuration: configuration)
     #expect(throws: CheckpointError.self) { try other.ingest() }
@@ -51,7 +51,7 @@ import Testing
     #expect(throws: CheckpointError.self) { try pipeline.ingest() }
   }
 
-  @Test func whatIsLeftOfARunIsTakenUp() throws {
+  @Test func resultsOfAnEarlierRunAreReused() throws {
     let folder = try TemporaryFolder()
     var configuration = PipelineConfiguration()
     configuration.checkpointDirectory = folder.url.appendingPathComponent("checkpoint")
@@ -78,7 +78,7 @@ import Testing
     #expect(third.report.stages.map(\.name).contains("pointCloudGeneration"))
   }
 
-  private func theSavedRunGivesTheSameModel(_ folder: URL, _ output: URL) throws {
+  private func savedRunProducesTheSameModel(_ folder: URL, _ output: URL) throws {
     let saved = try SavedRun(checkpoint: folder.appendingPathComponent("checkpoint"))
     let pipeline = ReconstructionPipeline(saved, configuration: PipelineConfiguration())
     let again = folder.appendingPathComponent("again.usdz")

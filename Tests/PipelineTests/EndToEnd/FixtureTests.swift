@@ -7,7 +7,7 @@ import Testing
 @testable import Pipeline
 
 @Suite struct FixtureTests {
-  @Test func badFilesAreRefusedByNameAndTheRestIsUsed() throws {
+  @Test func unusableFilesAreRejectedAndTheOthersUsed() throws {
     let result = try PhotoIngestion().run(folder: Fixtures.folder("bad"), StageContext())
     let faults = Dictionary(uniqueKeysWithValues: result.refused.map { ($0.name, $0.fault) })
     #expect(

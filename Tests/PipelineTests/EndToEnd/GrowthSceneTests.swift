@@ -14,7 +14,7 @@ import Testing
   }
 
   @Test(arguments: GrowthScene.Layout.allCases)
-  func photosShowWhatTheirNeighboursShow(layout: GrowthScene.Layout) throws {
+  func neighboringPhotosOverlap(layout: GrowthScene.Layout) throws {
     let scene = try Self.scene(layout, photos: 40)
     for (set, points) in zip(scene.features, scene.pointOfFeature) {
       #expect((300...600).contains(set.count) && points.count == set.count)

@@ -34,7 +34,7 @@ import Testing
     #expect(try FileManager.default.contentsOfDirectory(atPath: folder.url.path).count == 1)
   }
 
-  @Test func otherNamesGiveAFolder() throws {
+  @Test func otherExtensionsGiveAFolder() throws {
     let folder = try TemporaryFolder()
     let url = folder.url.appendingPathComponent("model", isDirectory: true)
     try ModelExport(options: .init(textureFormat: .jpeg(quality: 0.8)))
@@ -105,7 +105,7 @@ import Testing
 
   /// Names with special meaning to file systems, URLs or shells.
   @Test(arguments: ["a b", "ü 模型", "%41#?&", "...", "-x", "it's \"it\"", "a\nb", "~", "*"])
-  func namesStayAsTheyAre(_ name: String) throws {
+  func unusualFileNamesAreKept(_ name: String) throws {
     let folder = try TemporaryFolder()
     let suffixes = ModelFormat.allCases.map { $0 == .folder ? "" : ".\($0.rawValue)" }
     for suffix in suffixes {
@@ -119,7 +119,7 @@ import Testing
   }
 
   @Test(arguments: ["usdz", "glb"])
-  func theSameModelGivesTheSameBytes(_ suffix: String) throws {
+  func exportIsDeterministic(_ suffix: String) throws {
     let folder = try TemporaryFolder()
     let contents = try (1...2).map { threads in
       let url = folder.url.appendingPathComponent("\(threads).\(suffix)")
@@ -130,7 +130,7 @@ import Testing
     #expect(contents[0] == contents[1])
   }
 
-  @Test func whatCannotBeWrittenLeavesNothing() throws {
+  @Test func failedExportLeavesNoFiles() throws {
     let folder = try TemporaryFolder()
     let url = folder.url.appendingPathComponent("missing/model.usdz")
     #expect(throws: OutputError.self) { try ModelExport().run(model(), to: url, StageContext()) }

@@ -61,7 +61,7 @@ import Testing
     return sum
   }
 
-  @Test func texturesAreSeenInPerspective() throws {
+  @Test func texturesAreRenderedInPerspective() throws {
     let texture = TexturePattern.image(width: 12, height: 12, seed: 3)
     // A floor that extends far away from the viewer.
     let mesh = SyntheticMesh.grid(
@@ -75,7 +75,7 @@ import Testing
     (options.samplesPerSide, options.shading) = (1, 0)
     let model = textured(mesh, texture)
     let image = ModelPicture(options: options, model: model, textures: [try MipMap(texture)])
-      .drawn(by: camera, from: pose)
+      .rendered(by: camera, from: pose)
     let caster = RayCaster(
       mesh.triangles.map {
         (mesh.positions[Int($0.a)], mesh.positions[Int($0.b)], mesh.positions[Int($0.c)])
@@ -103,7 +103,7 @@ import Testing
   }
 
   /// A texture much finer than the pixels appears as its mean.
-  @Test func fineTexturesDoNotFlicker() throws {
+  @Test func fineTexturesAreFiltered() throws {
     let side = 512
     let texture = RasterImage(
       width: side, height: side, channels: 3,
@@ -120,7 +120,7 @@ import Testing
   }
 
   /// Boxes, plates, needles and triangle soups of any position and size.
-  @Test func allOfTheModelIsInEachPicture() throws {
+  @Test func eachPictureContainsTheWholeModel() throws {
     var generator = SeededGenerator(seed: 5)
     let side = 40
     for round in 0..<20 {
@@ -156,19 +156,19 @@ import Testing
       // As large as possible.
       #expect((high - low).max() > 0.9 * Double(side) && size.max() == Double(side))
 
-      let sheet = try ModelPreview(options).run(textured(mesh, nil), cameras: [], StageContext())
+      let overview = try ModelPreview(options).run(textured(mesh, nil), cameras: [], StageContext())
       let (width, height) = (view.camera.width, view.camera.height)
-      #expect(sheet.width == 4 * width && sheet.height == 2 * height)
-      for y in 0..<sheet.height {
-        for x in 0..<sheet.width where x % width == 0 || y % height == 0 {
-          #expect(pixel(sheet, x, y) == background)
-          #expect(pixel(sheet, x / width * width + width - 1, y) == background)
+      #expect(overview.width == 4 * width && overview.height == 2 * height)
+      for y in 0..<overview.height {
+        for x in 0..<overview.width where x % width == 0 || y % height == 0 {
+          #expect(pixel(overview, x, y) == background)
+          #expect(pixel(overview, x / width * width + width - 1, y) == background)
         }
       }
     }
   }
 
-  @Test func whatIsRightAndUpIsSeenThere() throws {
+  @Test func directionsAreNotMirrored() throws {
     let turntable = Turntable()
     let points = SyntheticMesh.sphere(subdivisions: 1).positions
     let poses = try turntable.viewpoints(
@@ -182,7 +182,7 @@ import Testing
     #expect((poses[2] * SIMD3(0, 0, 1)).x < 0)
   }
 
-  @Test func holesShowTheirInside() throws {
+  @Test func holesShowBackFaces() throws {
     // The lower half of a ball, seen from above.
     var bowl = SyntheticMesh.sphere(subdivisions: 4)
     bowl.triangles.removeAll { bowl.positions[Int($0.a)].y > 0.01 }
@@ -200,7 +200,7 @@ import Testing
     #expect(inside + outside + colors.count { $0 == background } == colors.count)
   }
 
-  @Test func theNearerSurfaceIsSeen() throws {
+  @Test func nearerSurfaceIsVisible() throws {
     // A red plate in front of a larger green one.
     var mesh = SyntheticMesh.grid(cells: 1, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
     let near = SyntheticMesh.grid(
@@ -237,9 +237,9 @@ import Testing
     }
   }
 
-  @Test func thePictureIsWrittenAsPNG() throws {
+  @Test func overviewIsWrittenAsPNG() throws {
     let folder = try TemporaryFolder()
-    let file = folder.url.appendingPathComponent("sheet.png")
+    let file = folder.url.appendingPathComponent("overview.png")
     let model = textured(SyntheticMesh.sphere(subdivisions: 1), nil)
     try ModelPreview(options(tileSide: 16)).write(model, cameras: [], to: file, StageContext())
     let image = try ImageCodec.decode([UInt8](try Data(contentsOf: file)))
@@ -261,7 +261,7 @@ import Testing
     directions.map { $0.azimuth * 180 / .pi }
   }
 
-  @Test func photosFromAllAroundGiveAFullTurn() {
+  @Test func surroundingPhotosGiveAFullTurn() {
     let directions = Turntable().directions(
       cameras(azimuths: Array(stride(from: 3, to: 360, by: 17)), elevation: 33))
     #expect(degrees(directions).map { $0.rounded() } == [0, 45, 90, 135, 180, 225, 270, 315])
@@ -272,7 +272,7 @@ import Testing
     #expect(degrees(most).last?.rounded() == 315)
   }
 
-  @Test func photosOfOneSideShowThatSide() {
+  @Test func oneSidedPhotosShowThatSide() {
     // One photo of the back among many of the front.
     let directions = Turntable().directions(
       cameras(azimuths: Array(stride(from: 140, through: 260, by: 5)) + [10], elevation: -5))
@@ -286,7 +286,7 @@ import Testing
     #expect(abs((narrow.min() ?? 0) - 50) < 1 && abs((narrow.max() ?? 0) - 130) < 1)
   }
 
-  @Test func photosFromAboveGiveAFullTurn() {
+  @Test func overheadPhotosGiveAFullTurn() {
     let down = [-1.0, 0, 1].map { x in
       RigidTransform(
         rotation: Quaternion(Matrix3(rows: [1, 0, 0], [0, 0, 1], [0, -1, 0])),

@@ -52,7 +52,7 @@ import Testing
   private let grid = SyntheticMesh.grid(
     cells: 8, origin: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0])
 
-  @Test func aGridBecomesItsSquares() throws {
+  @Test func aGridBecomesSquares() throws {
     let model = try paired(textured(grid))
     let all = try quads(model)
     #expect(all.count == 64 && model.mesh.triangles.count == 128)

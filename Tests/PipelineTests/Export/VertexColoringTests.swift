@@ -27,7 +27,7 @@ import Testing
     try VertexColoring().run(model, StageContext()).colors
   }
 
-  @Test func coloursAreReadBetweenTexels() throws {
+  @Test func colorsAreInterpolatedBetweenTexels() throws {
     #expect(try colors(model()) == [[20, 40, 0], [75, 115, 0], [150, 150, 0]])
   }
 
@@ -53,13 +53,13 @@ import Testing
     #expect(Array(last) == [[33, 33, 33], [33, 33, 33], [33, 33, 33]])
   }
 
-  @Test func coloursOfTheMeshStay() throws {
+  @Test func meshColorsAreKept() throws {
     var model = model()
     model.mesh.colors = [[1, 2, 3], [4, 5, 6], [7, 8, 9]]
     #expect(try colors(model) == model.mesh.colors)
   }
 
-  @Test func withoutAColourMapThereAreNone() throws {
+  @Test func withoutAColorMapThereAreNoColors() throws {
     var model = model()
     model.atlases[0].maps = [:]
     #expect(try colors(model).isEmpty)

@@ -26,7 +26,7 @@ import Testing
     return buffer.triangles.map { $0 == 7 }
   }
 
-  @Test func aTriangleCoversTheCentresInsideIt() {
+  @Test func aTriangleCoversTheSampleCentersInside() {
     var generator = SeededGenerator(seed: 1)
     for _ in 0..<300 {
       let corners = (0..<3).map { _ in place(&generator) }
@@ -49,7 +49,7 @@ import Testing
   }
 
   /// Detects both overlaps and cracks: a mesh over the whole picture.
-  @Test func neighboursShareNoSampleAndLeaveNone() {
+  @Test func adjacentTrianglesNeitherOverlapNorLeaveCracks() {
     var generator = SeededGenerator(seed: 2)
     for isExact in [true, false] {
       let cells = 4
@@ -81,7 +81,7 @@ import Testing
     }
   }
 
-  @Test func theNearerTriangleIsSeen() {
+  @Test func nearerTriangleIsVisible() {
     for nearFirst in [true, false] {
       var buffer = VisibilityBuffer(width: side, height: side)
       for index in 0..<2 {
@@ -110,7 +110,7 @@ import Testing
     }
   }
 
-  @Test func trianglesWithoutAreaCoverNothing() {
+  @Test func degenerateTrianglesCoverNothing() {
     #expect(!covered(vertex(0, 0), vertex(1000, 1000), vertex(3000, 3000)).contains(true))
     #expect(!covered(vertex(128, 128), vertex(128, 128), vertex(128, 128)).contains(true))
   }

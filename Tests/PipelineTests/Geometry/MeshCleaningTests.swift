@@ -28,39 +28,39 @@ import Testing
     sides(mesh).values.allSatisfy { $0 == [1, 1] }
   }
 
-  @Test func sheetsThatTouchAlongAnEdgeArePartedAndStayClosed() {
+  @Test func surfacesTouchingAtAnEdgeAreSeparatedAndStayClosed() {
     let mesh = Mesh(
       positions: [[0, 0, 0], [0, 0, 1], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0]],
       triangles: tetrahedron(0, 1, 2, 3) + tetrahedron(0, 1, 4, 5))
     #expect(!isClosedManifold(mesh))
-    let parted = mesh.splitIntoManifold()
-    #expect(parted.triangles.count == 8)
-    #expect(parted.positions.count == 8)
-    #expect(isClosedManifold(parted))
-    for (before, after) in zip(mesh.triangles, parted.triangles) {
-      #expect(mesh.corners(of: before) == parted.corners(of: after))
+    let separated = mesh.splitIntoManifold()
+    #expect(separated.triangles.count == 8)
+    #expect(separated.positions.count == 8)
+    #expect(isClosedManifold(separated))
+    for (before, after) in zip(mesh.triangles, separated.triangles) {
+      #expect(mesh.corners(of: before) == separated.corners(of: after))
     }
   }
 
-  @Test func fansThatTouchInAVertexAreParted() {
+  @Test func fansTouchingAtAVertexAreSeparated() {
     let mesh = Mesh(
       positions: [
         [0, 0, 0], [0, 0, 1], [1, 0, 0], [1, 1, 0], [-1, 0, 0], [-1, -1, 0], [-1, 0, 1],
       ],
       triangles: tetrahedron(0, 1, 2, 3) + tetrahedron(0, 4, 5, 6))
-    let parted = mesh.splitIntoManifold()
-    #expect(parted.positions.count == 8)
-    #expect(isClosedManifold(parted))
+    let separated = mesh.splitIntoManifold()
+    #expect(separated.positions.count == 8)
+    #expect(isClosedManifold(separated))
   }
 
-  @Test func manifoldsStayAsTheyAre() {
+  @Test func manifoldsAreUnchanged() {
     let sphere = SyntheticMesh.sphere(subdivisions: 2)
     let same = sphere.splitIntoManifold()
     #expect(same.triangles == sphere.triangles)
     #expect(same.positions == sphere.positions)
   }
 
-  @Test func edgesWithoutLengthLeaveNoHole() throws {
+  @Test func degenerateEdgesLeaveNoHole() throws {
     // A closed strip around two poles, each a fan; the upper pole is duplicated, and two degenerate
     // faces join both copies.
     let ring = (0..<6).map { index -> SIMD3<Float> in

@@ -13,7 +13,7 @@ struct AlignedScene {
   var warnings: [String] { notes.warnings }
 
   /// Renders, writes, reads and aligns the photos of a scene, together with unrelated photos.
-  init(_ scene: RenderedScene, strangers: Int = 0, hasMetadata: Bool = true) throws {
+  init(_ scene: RenderedScene, unrelatedPhotos: Int = 0, hasMetadata: Bool = true) throws {
     var scene = scene
     scene.samplesPerSide = 1
     let folder = try TemporaryFolder()
@@ -21,11 +21,11 @@ struct AlignedScene {
     try folder.write(
       try scene.photos(control), focalLength: hasMetadata ? scene.camera.focalLength.x : nil)
     let (width, height) = (scene.camera.width, scene.camera.height)
-    for index in 0..<strangers {
-      let stranger = TexturePattern.image(
+    for index in 0..<unrelatedPhotos {
+      let unrelatedPhoto = TexturePattern.image(
         width: width, height: height, seed: UInt32(7919 * index + 5))
       try folder.write(
-        [stranger], focalLength: scene.camera.focalLength.x, first: index, prefix: "x_")
+        [unrelatedPhoto], focalLength: scene.camera.focalLength.x, first: index, prefix: "x_")
     }
     notes = StageNotes()
     let context = StageContext(control: control, notes: notes)

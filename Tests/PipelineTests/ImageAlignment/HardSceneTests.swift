@@ -8,7 +8,7 @@ import Testing
 /// Photos that are hard to align: results are correct, and unusable photos are reported by name.
 @Suite(.serialized) struct HardSceneTests {
   /// Checks that every photo has a pose or a reason that contains its name.
-  private func expectAccounts(_ result: Reconstruction) {
+  private func expectEveryPhotoIsReported(_ result: Reconstruction) {
     let missing = Set(result.unregistered.map(\.name))
     #expect(missing.count == result.photos.count - result.registered.count)
     for photo in result.unregistered {
@@ -17,10 +17,10 @@ import Testing
     #expect(result.registered.allSatisfy { !missing.contains(result.photos[$0.index].name) })
   }
 
-  @Test func strangersAreLeftOut() throws {
+  @Test func unrelatedPhotosAreExcluded() throws {
     let outcome = try AlignedScene(
-      .statue(photoCount: 12, upperCount: 4, width: 400, height: 300), strangers: 4)
-    expectAccounts(outcome.reconstruction)
+      .statue(photoCount: 12, upperCount: 4, width: 400, height: 300), unrelatedPhotos: 4)
+    expectEveryPhotoIsReported(outcome.reconstruction)
     #expect(outcome.poses.count == 12)
     #expect(outcome.poses.maximumCenterError < 0.01)
     #expect(outcome.reconstruction.unregistered.count == 4)
@@ -28,7 +28,7 @@ import Testing
     #expect(outcome.reconstruction.unregistered.allSatisfy { $0.reason.contains("no matches") })
   }
 
-  @Test(arguments: [true, false]) func turningOnTheSpotGivesNoModel(hasMetadata: Bool) throws {
+  @Test(arguments: [true, false]) func pureRotationIsRejected(hasMetadata: Bool) throws {
     let poses = (0..<6).map { index in
       let angle = 0.9 * (Double(index) / 5 - 0.5)
       return SyntheticScene.lookingAt(

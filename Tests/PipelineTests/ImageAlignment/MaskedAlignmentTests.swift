@@ -7,7 +7,7 @@ import Testing
 
 /// Alignment of photos with masks.
 @Suite(.serialized) struct MaskedAlignmentTests {
-  @Test func featuresAreOfTheObject() throws {
+  @Test func featuresAreInsideTheMask() throws {
     let image = TexturePattern.image(width: 640, height: 480, seed: 3)
     var mask = RasterImage(width: 640, height: 480, channels: 1)
     for y in 100..<300 { for x in 200..<400 { mask.pixels[y * 640 + x] = 255 } }

@@ -35,7 +35,7 @@ import Testing
     }
   }
 
-  @Test func modelIsWhatMasksKeepAtAnyThreadCount() throws {
+  @Test func modelMatchesTheMasksAtAnyThreadCount() throws {
     let masked = try Masked()
     let (scene, limit) = (masked.scene, Self.limit)
     let notes = StageNotes()
@@ -67,7 +67,7 @@ import Testing
         photos[index].pixels.replaceSubrange(3 * pixel..<3 * pixel + 3, with: [255, 0, 255])
       }
     }
-    func strayTexels(_ masks: [RasterImage?]) throws -> Int {
+    func backgroundTexels(_ masks: [RasterImage?]) throws -> Int {
       var options = TextureMapping.Options(textureSide: 256, maps: [.diffuseColor])
       // Without masks, nothing else may exclude these areas.
       if masks.isEmpty { options.candidates.outliers.colorTolerance = .infinity }
@@ -82,13 +82,13 @@ import Testing
     }
     let black = RasterImage(width: 240, height: 180, channels: 1)
     let masks = masked.masks.map { $0 ?? black }
-    let (stray, without) = (try strayTexels(masks), try strayTexels([]))
+    let (background, without) = (try backgroundTexels(masks), try backgroundTexels([]))
     // Texels at the very edge are interpolated.
     #expect(without > 100)
-    #expect(20 * stray < without, "\(stray) of \(without)")
+    #expect(20 * background < without, "\(background) of \(without)")
   }
 
-  @Test func undersidesAreClosedWhereNoPhotoShowsThem() {
+  @Test func unseenUndersidesAreFilled() {
     var ball = PointCloud()
     for index in 0..<4000 {
       let y = 1 - 2 * (Float(index) + 0.5) / 4000

@@ -68,7 +68,7 @@ import Testing
     return .pi * h * h * (0.5 - h / 3)
   }
 
-  @Test func ballIsRoundClosedAndFacesOut() throws {
+  @Test func ballIsRoundClosedAndOrientedOutward() throws {
     let (cloud, _) = ball()
     let mesh = try PoissonSurface().run(cloud, spacing: 0.02, StageContext()).mesh
     let errors = mesh.positions.map { abs($0.length - 0.5) }
@@ -77,7 +77,7 @@ import Testing
     #expect(abs(volume(mesh) / (4 / 3 * .pi * 0.125) - 1) < 0.01)
   }
 
-  @Test func meshHasNormalsAndColoursOfItsPatches() throws {
+  @Test func meshHasNormalsAndColorsOfItsPatches() throws {
     let (cloud, reconstruction) = ball()
     let context = StageContext()
     let mesh = try MeshGeneration().run(cloud, reconstruction, context)
@@ -109,15 +109,15 @@ import Testing
   }
 
   func trimmed(
-    _ closed: Mesh, _ cloud: PointCloud, _ reconstruction: Reconstruction, closesLarge: Bool = true
+    _ closed: Mesh, _ cloud: PointCloud, _ reconstruction: Reconstruction, fillsLarge: Bool = true
   ) throws -> Mesh {
     var trimming = SurfaceTrimming()
-    trimming.options.closing.closesLarge = closesLarge
+    trimming.options.holeFilling.fillsLarge = fillsLarge
     return try trimming.run(
       closed, samples: cloud, scene: cloud, spacing: 0.02, reconstruction, StageContext())
   }
 
-  @Test func largeGapIsClosedTaut() throws {
+  @Test func largeHoleIsFilledWithAMembrane() throws {
     // The upper third is missing.
     let (cloud, reconstruction) = ball { $0.y < 0.17 }
     let balloon = try PoissonSurface().run(cloud, spacing: 0.02, StageContext()).mesh
@@ -129,10 +129,10 @@ import Testing
     // Surface within 2.5 spacings of a sample is supported.
     #expect(volume(closed) > 0.99 * volumeOfBall(under: 0.17))
     #expect(volume(closed) < 1.01 * volumeOfBall(under: 0.17 + 2.5 * 0.02))
-    #expect(openEdges(try trimmed(balloon, cloud, reconstruction, closesLarge: false)) > 10)
+    #expect(openEdges(try trimmed(balloon, cloud, reconstruction, fillsLarge: false)) > 10)
   }
 
-  @Test func closureThatPhotosLookThroughGoes() throws {
+  @Test func fillInFreeSpaceIsRemoved() throws {
     // A pipe: photos see the ground through it.
     let (pipe, reconstruction) = ball { abs($0.y) < 0.25 }
     var ground = IsolationScene()
@@ -152,7 +152,7 @@ import Testing
     #expect(openEdges(open) > 10)
   }
 
-  @Test func floatersGo() throws {
+  @Test func floatingPartsAreRemoved() throws {
     var (cloud, reconstruction) = ball()
     let count = cloud.count
     for index in stride(from: 0, to: count, by: 30) {
@@ -163,7 +163,7 @@ import Testing
     #expect(mesh.positions.allSatisfy { abs($0.length - 0.5) < 0.02 })
   }
 
-  @Test func baseOfABallOnATableIsClosed() throws {
+  @Test func baseOfABallOnATableIsFilled() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()
     let centers = reconstruction.poses.compactMap { $0?.center }
@@ -179,7 +179,7 @@ import Testing
     #expect(mesh.positions.allSatisfy { $0.y > -0.03 && $0.y < 0.88 })
   }
 
-  @Test func cancellingStopsAtOnce() throws {
+  @Test func cancellationStopsImmediately() throws {
     let (cloud, reconstruction) = ball()
     let flag = CancellationFlag()
     let control = KernelControl(flag: flag) { if $0 > 0.4 { flag.cancel() } }
@@ -196,7 +196,7 @@ import Testing
     }
   }
 
-  @Test func pointsThatAreNotFiniteAreLeftOut() throws {
+  @Test func nonFinitePointsAreDropped() throws {
     var (cloud, reconstruction) = ball()
     for index in stride(from: 0, to: cloud.count, by: 50) {
       cloud.positions[index] = [.nan, .infinity, 0]
@@ -226,7 +226,7 @@ import Testing
     #expect(mesh.positions.allSatisfy { $0.y > -0.1 })
   }
 
-  @Test func cleaningDropsImproperFaces() throws {
+  @Test func cleaningDropsDegenerateFaces() throws {
     var mesh = Mesh(positions: [
       [0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [9, 9, 9], [.nan, 0, 0], [2, 0, 0],
     ])

@@ -35,7 +35,7 @@ import Testing
     return Double(members.filter { result.isKept[$0] }.count) / Double(max(1, members.count))
   }
 
-  @Test(arguments: [0, 0.1, 0.3]) func objectStaysAndSupportGoes(tilt: Double) throws {
+  @Test(arguments: [0, 0.1, 0.3]) func objectIsKeptAndSupportRemoved(tilt: Double) throws {
     let (scene, reconstruction) = ballOnTable(tilt: tilt)
     let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
     #expect(result.failure == nil)
@@ -44,7 +44,7 @@ import Testing
     #expect(keptShare(result, scene, label: 2) <= 0.01)
   }
 
-  @Test func supportIsFoundWhereItIs() throws {
+  @Test func supportPlaneIsDetected() throws {
     let (scene, reconstruction) = ballOnTable(tilt: 0.2)
     let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
     let support = try #require(result.support)
@@ -53,7 +53,7 @@ import Testing
     #expect(abs(support.offset) < 0.005)
   }
 
-  @Test func objectInTheAirNeedsNoSupport() throws {
+  @Test func objectWithoutSupportIsIsolated() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()
     let centers = reconstruction.poses.compactMap { $0?.center }
@@ -78,7 +78,7 @@ import Testing
     #expect(keptShare(result, scene, label: 0) <= 0.01)
   }
 
-  @Test func bareTableIsNoObject() throws {
+  @Test func bareTableIsNotAnObject() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()
     let centers = reconstruction.poses.compactMap { $0?.center }
@@ -88,7 +88,7 @@ import Testing
     #expect(result.isKept.allSatisfy { $0 })
   }
 
-  @Test func boundsOfSparsePointsAreThoseOfTheObject() throws {
+  @Test func sparsePointsGiveTheObjectBounds() throws {
     let (scene, empty) = ballOnTable()
     var reconstruction = empty
     for index in stride(from: 0, to: scene.cloud.count, by: 7) {
@@ -104,7 +104,7 @@ import Testing
     #expect((box.min - SIMD3<Float>(-0.5, 0, -0.5)).length < 0.15)
   }
 
-  @Test func boundsOfNothingAreNil() throws {
+  @Test func emptyCloudHasNoBounds() throws {
     let reconstruction = IsolationScene().reconstruction()
     #expect(try MeshGeneration().bounds(nil, reconstruction, StageContext()) == nil)
   }

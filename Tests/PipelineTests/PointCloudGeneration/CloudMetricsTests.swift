@@ -24,7 +24,7 @@ import Testing
       worldFrame: WorldFrame(scale: scale))
   }
 
-  @Test func figuresOfABlock() throws {
+  @Test func metricsOfABlock() throws {
     // On a point, within three footprints of one, and beyond.
     let sparse: [SIMD3<Double>] = [[0.5, 0.5, 0.2], [0.5, -0.29, 0.2], [0.5, -0.31, 0.2]]
     let notes = StageNotes()
@@ -51,7 +51,7 @@ import Testing
     CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
   }
 
-  @Test func pointsThatAreNoPlaceAreLeftOut() {
+  @Test func nonFinitePointsAreSkipped() {
     var broken = cloud
     broken.positions[0] = [.nan, .infinity, 0]
     broken.positions[1] = [-1e30, 0, 0]

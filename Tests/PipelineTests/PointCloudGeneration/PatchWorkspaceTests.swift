@@ -29,7 +29,7 @@ import Testing
     try FileManager.default.contentsOfDirectory(atPath: folder.path).sorted()
   }
 
-  @Test func aWholeWorkspaceIsTakenOver() throws {
+  @Test func completeWorkspaceIsReused() throws {
     let folder = try TemporaryFolder()
     let first = try run(in: folder.url).encoded()
     #expect(try run(in: nil).encoded() == first)
@@ -43,7 +43,7 @@ import Testing
     #expect(notes.details.contains { $0.contains("4 of 4 views") })
   }
 
-  @Test func whatIsDamagedIsMadeAnew() throws {
+  @Test func damagedFilesAreRecomputed() throws {
     let folder = try TemporaryFolder()
     let first = try run(in: folder.url).encoded()
     func content(_ name: String) throws -> [UInt8] {
@@ -66,7 +66,7 @@ import Testing
     #expect(reused(notes) == 1)
   }
 
-  @Test func damagedCompletionIsMadeAnew() throws {
+  @Test func damagedCompletionIsRecomputed() throws {
     let folder = try TemporaryFolder()
     let first = try run(in: folder.url).encoded()
     for name in try names(folder.url) where name.hasSuffix(".cloud") {
@@ -83,7 +83,7 @@ import Testing
     #expect(reused(notes) == 4)
   }
 
-  @Test func finishedCloudsNeedNothingElse() throws {
+  @Test func finishedCloudsNeedNoOtherFiles() throws {
     let folder = try TemporaryFolder()
     let first = try run(in: folder.url).encoded()
     for name in try names(folder.url) where !name.hasSuffix(".cloud") {
@@ -106,7 +106,7 @@ import Testing
     #expect(try run(in: nil, options: options).encoded() == changed)
   }
 
-  @Test func otherPatchOptionsAndPointsMakePatchesAnew() throws {
+  @Test func changedPatchOptionsAndPointsRecomputePatches() throws {
     let folder = try TemporaryFolder()
     _ = try run(in: folder.url)
     var options = PointCloudGeneration.Options()
@@ -125,7 +125,7 @@ import Testing
   }
 
   /// Views far apart along the arc have no sources in common.
-  @Test func aMovedCameraTouchesItsNeighboursOnly() throws {
+  @Test func movedCameraAffectsOnlyItsNeighbors() throws {
     let folder = try TemporaryFolder()
     var reconstruction = Self.scene.reconstruction
     // Points of two photos each: 0 with 1, and 2 with 3.
@@ -141,7 +141,7 @@ import Testing
     #expect(try run(Self.scene, reconstruction, in: nil).encoded() == moved.encoded())
   }
 
-  @Test func anotherScenesFilesAreNotUsed() throws {
+  @Test func filesOfAnotherSceneAreIgnored() throws {
     let folder = try TemporaryFolder()
     var options = Self.scene.options
     options.floor = -1.1
@@ -159,7 +159,7 @@ import Testing
     #expect(reused(again) == 0)
   }
 
-  @Test(arguments: [0.03, 0.5, 0.93, 0.97]) func aStoppedRunGoesOn(stop: Double) throws {
+  @Test(arguments: [0.03, 0.5, 0.93, 0.97]) func stoppedRunIsResumed(stop: Double) throws {
     let folder = try TemporaryFolder()
     let flag = CancellationFlag()
     let control = KernelControl(threadCount: 2, flag: flag) { if $0 > stop { flag.cancel() } }
@@ -168,7 +168,7 @@ import Testing
     #expect(try run(in: folder.url).encoded() == run(in: nil).encoded())
   }
 
-  @Test(arguments: [0.5, 2]) func temporaryFoldersGoAway(stop: Double) throws {
+  @Test(arguments: [0.5, 2]) func temporaryFoldersAreRemoved(stop: Double) throws {
     let parent = try TemporaryFolder()
     let flag = CancellationFlag()
     let control = KernelControl(flag: flag) { if $0 > stop { flag.cancel() } }
@@ -183,7 +183,7 @@ import Testing
     #expect(try names(parent.url) == [])
   }
 
-  @Test func remainsOfKilledRunsAreRemoved() throws {
+  @Test func filesOfKilledRunsAreRemoved() throws {
     let folder = try TemporaryFolder()
     let old = try folder.write([1], as: ".0000.view.A.partial")
     try folder.write([1], as: ".0001.view.B.partial")
@@ -193,7 +193,7 @@ import Testing
     #expect(try names(folder.url) == [".0001.view.B.partial"])
   }
 
-  @Test func sharesAddUp() throws {
+  @Test func sharesCombineToTheWholeResult() throws {
     let folder = try TemporaryFolder()
     let images = ImageStore(images: Self.scene.views.map(\.image))
     for index in [2, 0, 1] {
@@ -214,7 +214,7 @@ import Testing
   }
 
   /// Two concurrent jobs, and one that finds all inputs from other views finished.
-  @Test func jobsShareTheWork() throws {
+  @Test func concurrentJobsShareTheWork() throws {
     let folder = try TemporaryFolder()
     let url = folder.url
     let images = ImageStore(images: Self.scene.views.map(\.image))
@@ -239,7 +239,7 @@ import Testing
     #expect(reused(notes) == 4)
   }
 
-  @Test func progressOnlyGrows() throws {
+  @Test func progressIsMonotonic() throws {
     let folder = try TemporaryFolder()
     for expected in [40, 2] {
       let fractions = Locked<[Double]>([])
@@ -259,7 +259,7 @@ import Testing
     options.stepDegrees = 3
     let scene = RaycastScene(options)
     var stage = PointCloudGeneration.Options()
-    stage.keptBytes = 0
+    stage.cacheBytes = 0
     let notes = StageNotes()
     _ = try run(
       scene, in: nil, options: stage, notes: notes, control: KernelControl(threadCount: threads))
@@ -272,7 +272,7 @@ import Testing
     }
   }
 
-  @Test func fullDisksHaveASentence() throws {
+  @Test func fullDiskHasAMessage() throws {
     let folder = try TemporaryFolder()
     let workspace = try PatchWorkspace(folder: folder.url)
     try workspace.checkSpace(1)
@@ -283,7 +283,7 @@ import Testing
     #expect(throws: WorkspaceError.self) { try PatchWorkspace(folder: file) }
   }
 
-  @Test func cloudsKeepTheirBytes() throws {
+  @Test func cloudSerializationRoundTrips() throws {
     let cloud = try run(in: nil)
     let bytes = cloud.encoded()
     var twice = PointCloud()

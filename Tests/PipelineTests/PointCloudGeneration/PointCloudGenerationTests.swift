@@ -17,7 +17,7 @@ import Testing
       context)
   }
 
-  @Test func threadsChangeNothing() throws {
+  @Test func threadCountDoesNotChangeTheCloud() throws {
     let scene = RaycastScene()
     let notes = StageNotes()
     let one = try Self.run(scene, threads: 1, notes: notes)
@@ -43,7 +43,7 @@ import Testing
     #expect(distances[distances.count * 9 / 10] < 0.06)
   }
 
-  @Test func aPhotoThatIsNotRegisteredIsLeftOut() throws {
+  @Test func unregisteredPhotosAreSkipped() throws {
     let scene = RaycastScene()
     var reconstruction = scene.reconstruction
     reconstruction.poses[4] = nil
@@ -52,14 +52,14 @@ import Testing
     #expect(!cloud.photoIndices.contains(4))
   }
 
-  @Test func photosWithoutCommonPointsAreNoSurface() throws {
+  @Test func photosWithoutCommonPointsHaveNoSurface() throws {
     let scene = RaycastScene()
     var reconstruction = scene.reconstruction
     reconstruction.points = []
     #expect(throws: PipelineError.self) { try Self.run(scene, reconstruction) }
   }
 
-  @Test func aUniformSurfaceIsNoSurface() throws {
+  @Test func untexturedSurfaceIsAnError() throws {
     var options = RaycastScene.Options()
     options.isUniform = true
     options.hasBall = false
@@ -68,7 +68,7 @@ import Testing
     #expect(throws: PipelineError.self) { try Self.run(scene) }
   }
 
-  @Test func brokenPosesAndPointsDoNoHarm() throws {
+  @Test func invalidPosesAndPointsAreIgnored() throws {
     let scene = RaycastScene()
     var reconstruction = scene.reconstruction
     reconstruction.poses[0]?.translation = SIMD3(repeating: .nan)
@@ -78,7 +78,7 @@ import Testing
     #expect(cloud.positions.allSatisfy { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite })
   }
 
-  @Test func cancellingStops() throws {
+  @Test func cancellationStops() throws {
     let flag = CancellationFlag()
     flag.cancel()
     #expect(throws: CancellationError.self) { try Self.run(RaycastScene(), flag: flag) }

@@ -13,7 +13,7 @@ import Testing
       })
   }
 
-  @Test func masksBesidePhotosAreNoPhotos() {
+  @Test func masksNextToPhotosAreNotPhotos() {
     let files = MaskFiles(
       files: urls([
         "A.JPG", "a_mask.png", "b.png", "b.mask.PNG", "c.tif", "c.tif.mask.tif", "d.jpg",
@@ -26,7 +26,7 @@ import Testing
       ])
     #expect(
       pairs(files) == ["A.JPG": "a_mask.png", "b.png": "b.mask.PNG", "c.tif": "c.tif.mask.tif"])
-    #expect(files.strays.map(\.lastPathComponent) == ["e_MASK.jpg"])
+    #expect(files.masksWithoutPhoto.map(\.lastPathComponent) == ["e_MASK.jpg"])
   }
 
   /// Without a matching photo the name is no evidence: photos may depict masks.
@@ -34,10 +34,10 @@ import Testing
     let names = ["african_mask.jpg", "golden_mask.jpg", "_mask.jpg"]
     let files = MaskFiles(files: urls(names), maskFiles: [])
     #expect(files.photos.map(\.lastPathComponent) == names)
-    #expect(files.strays.isEmpty)
+    #expect(files.masksWithoutPhoto.isEmpty)
   }
 
-  @Test func foldersOfMasksTakeMoreNames() {
+  @Test func maskFoldersAcceptMoreNames() {
     let files = MaskFiles(
       files: urls(["a.jpg", "b.jpg", "c.jpg", "d.jpg", "e.jpg", "e_mask.png"]),
       maskFiles: urls([
@@ -50,10 +50,10 @@ import Testing
         "e.jpg": "e.png",
       ])
     #expect(files.photos.count == 5)
-    #expect(files.strays.map(\.lastPathComponent) == ["f.png"])
+    #expect(files.masksWithoutPhoto.map(\.lastPathComponent) == ["f.png"])
   }
 
-  @Test func folderOfPhotosIsNoFolderOfMasks() throws {
+  @Test func photoFolderIsNotAMaskFolder() throws {
     let folder = FileManager.default.temporaryDirectory
       .appendingPathComponent("masks-\(UUID().uuidString)", isDirectory: true)
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)

@@ -49,7 +49,7 @@ import Testing
   }
 
   /// One photo per case, so that the reasons can be distinguished.
-  @Test func masksAreUsedOrNamed() throws {
+  @Test func masksAreUsedOrReported() throws {
     let folder = try TemporaryFolder()
     for number in 0..<7 {
       try folder.write(ImageCodec.encodePNG(photo(number)), as: "\(number).png")
@@ -102,7 +102,7 @@ import Testing
     #expect(result.refused.isEmpty && result.refusedMasks.isEmpty)
   }
 
-  @Test func foldersComeBeforeFilesAndAlpha() throws {
+  @Test func foldersTakePrecedenceOverFilesAndAlpha() throws {
     let folder = try TemporaryFolder()
     var cut = RasterImage(width: Self.width, height: Self.height, channels: 4, filledWith: 0)
     let colors = photo()

@@ -25,7 +25,7 @@ import Testing
       small.resized(width: image.width, height: image.height), quality: 0.9)
   }
 
-  @Test func everyFileIsUsedOrNamed() throws {
+  @Test func everyFileIsUsedOrReported() throws {
     let folder = try TemporaryFolder()
     let good = try photos(6)
     for (index, bytes) in good.enumerated() { try folder.write(bytes, as: "IMG_\(index + 7).jpg") }
@@ -67,7 +67,7 @@ import Testing
     #expect(!result.isDownsampled)
   }
 
-  @Test func contentCountsNotTheExtension() throws {
+  @Test func formatIsDetectedFromContent() throws {
     let folder = try TemporaryFolder()
     let image = TexturePattern.image(width: 400, height: 300, seed: 3)
     try folder.write(ImageCodec.encodePNG(image), as: "a.jpg")
@@ -79,7 +79,7 @@ import Testing
   }
 
   /// The photos of a slow turntable differ little; all of them must be kept.
-  @Test func neighboursAreNoDuplicates() throws {
+  @Test func consecutivePhotosAreNotDuplicates() throws {
     let folder = try TemporaryFolder()
     for (index, bytes) in try photos(12, step: 1.5).enumerated() {
       try folder.write(bytes, as: "\(index).jpg")
@@ -124,7 +124,7 @@ import Testing
     #expect(result.cameras.map(\.calibration) == [.exif, .exif, .assumed])
   }
 
-  @Test func limitsRefuseTheExcess() throws {
+  @Test func excessPhotosAreRejected() throws {
     let folder = try TemporaryFolder()
     for (index, bytes) in try photos(5).enumerated() {
       try folder.write(bytes, as: "\(index).jpg")
@@ -171,7 +171,7 @@ import Testing
     }
   }
 
-  @Test func foldersThatCannotBeListedAreNamed() throws {
+  @Test func unreadableFoldersAreReported() throws {
     let folder = try TemporaryFolder()
     let file = try folder.write([1], as: "file")
     #expect(throws: PipelineError.self) {

@@ -67,7 +67,7 @@ import Testing
     #expect(!notes.warnings.contains { $0.contains("JPEG") })
   }
 
-  @Test func namesAloneMakeNoReading() {
+  @Test func namesWithoutPhotosAreNotReadings() {
     let names = [
       "a_depth.tif", "b.jpg", "b_depth.jpg", "b_gravity.tif", "B_DEPTH.TIFF", "_depth.tif",
     ]

@@ -30,7 +30,7 @@ import Testing
     #expect(outside.min.x > 0.1 && outside.max.x == 1 && area(parts.outside) < 4 + 4 * 2 * 0.9)
   }
 
-  @Test func aTurnedBoxCutsAtItsFaces() throws {
+  @Test func aRotatedBoxClipsAtItsFaces() throws {
     let sphere = SyntheticMesh.sphere(subdivisions: 5)
     let turn = Quaternion(angle: .pi / 4, axis: [0, 0, 1])
     let box = OrientedBox(center: [0.2, 0, 0], halfExtents: [0.5, 0.7, 3], rotation: turn)
@@ -46,7 +46,7 @@ import Testing
     }
   }
 
-  @Test func coloursGoOnToTheCut() {
+  @Test func colorsAreInterpolatedAtTheCut() {
     var mesh = SyntheticMesh.grid(cells: 1, origin: [0, 0, 0], u: [1, 0, 0], v: [0, 1, 0])
     mesh.colors = mesh.positions.map { [UInt8(200 * $0.x), 10, 0] }
     let box = OrientedBox(min: [-1, -1, -1], max: [0.25, 2, 1])
@@ -58,7 +58,7 @@ import Testing
     #expect(inside.triangles.allSatisfy { $0.vertices.max() ?? 9 < inside.positions.count })
   }
 
-  @Test func whatIsAllInsideOrAllOutsideIsNotCut() {
+  @Test func meshesEntirelyInsideOrOutsideAreNotClipped() {
     let sphere = SyntheticMesh.sphere(subdivisions: 2)
     let all = MeshCropping(box: OrientedBox(min: [-1, -1, -1], max: [1, 1, 1])).run(sphere)
     #expect(all.inside.triangles == sphere.triangles && all.inside.positions == sphere.positions)
@@ -68,7 +68,7 @@ import Testing
     #expect(none.outside.triangles.count == sphere.triangles.count)
   }
 
-  @Test func verticesOnAFaceOfTheBoxMakeNoSlivers() {
+  @Test func verticesOnABoxFaceCreateNoSlivers() {
     // The box ends at vertices of the cube's grid.
     let cube = SyntheticMesh.cube(cells: 4)
     let inside = MeshCropping(box: OrientedBox(min: [-2, -2, -2], max: [0.5, 0.5, 2])).run(cube)
@@ -99,7 +99,7 @@ import Testing
     AffineMap(x: [-1, 0, 0], y: [0, 3, 0], z: [0, 0, 1]),
     AffineMap(x: [0, 0, -1], y: [0, 1, 0], z: [2, 0, 0]),
   ])
-  func normalsStayAtRightAngles(_ transform: AffineMap) {
+  func normalsStayPerpendicular(_ transform: AffineMap) {
     let (before, after) = (sphere(), sphere().transformed(by: transform))
     let factor = abs(transform.x.dot(transform.y.cross(transform.z)))
     #expect(abs(volume(after.mesh) / volume(before.mesh) - factor) < 1e-3)
@@ -110,7 +110,7 @@ import Testing
     for (t, uv) in zip(after.mesh.triangles, after.textureTriangles) { #expect(t == uv) }
   }
 
-  @Test func theIdentityChangesNoBit() {
+  @Test func identityTransformIsExact() {
     let before = sphere()
     let after = before.transformed(by: .identity)
     #expect(after.mesh.positions == before.mesh.positions)

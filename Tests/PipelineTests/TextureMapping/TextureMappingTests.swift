@@ -55,7 +55,7 @@ import Testing
     }
   }
 
-  @Test func theTextureShowsTheSphere() throws {
+  @Test func textureMatchesTheSphere() throws {
     let model = try texture(SphereScene(viewCount: 12, color: Self.color))
     #expect(model.textureTriangles.count == mesh.triangles.count)
     #expect(model.textureCoordinates.allSatisfy { $0.min() >= 0 && $0.max() <= 1 })
@@ -65,7 +65,7 @@ import Testing
     }
   }
 
-  @Test func exposureDifferencesAreLevelled() throws {
+  @Test func exposureDifferencesAreCompensated() throws {
     let scene = SphereScene(viewCount: 14, gains: [0.85, 1.1], color: Self.color)
     let model = try texture(scene)
     // One gain for the whole model is arbitrary.
@@ -78,7 +78,7 @@ import Testing
     #expect(ratio > 0.85 && ratio < 1.1)
   }
 
-  @Test func photosDontSeeThroughWhatIsCutOff() throws {
+  @Test func croppedSurfaceStillOccludes() throws {
     let scene = SphereScene(viewCount: 12, color: Self.color)
     // A cap that occludes the upper part of the sphere in all photos.
     var cap = SyntheticMesh.sphere(radius: 1.2, subdivisions: 4)
@@ -95,7 +95,7 @@ import Testing
     #expect(mean(errors.filter { $0.y > 0.6 }.map(\.error)) > 20)
   }
 
-  @Test func whatNoPhotoSeesIsFilledFromItsSurroundings() throws {
+  @Test func unseenSurfaceIsFilledFromItsSurroundings() throws {
     var scene = SphereScene(viewCount: 12, color: Self.color)
     // Only the upper cameras remain.
     for index in 6..<12 { scene.reconstruction.poses[index] = nil }
@@ -105,7 +105,7 @@ import Testing
     #expect(!below.isEmpty)
   }
 
-  @Test func aPhotoWithAStrangerInItIsNotUsedThere() throws {
+  @Test func occludedPartsOfAPhotoAreNotUsed() throws {
     var scene = SphereScene(viewCount: 30, color: Self.color)
     // A magenta block in the middle of one photo.
     for y in 80..<120 {
@@ -139,7 +139,7 @@ import Testing
     #expect(maps[.roughness]?.pixels.allSatisfy { $0 == 230 } == true)
   }
 
-  @Test func theResultDoesNotDependOnThreads() throws {
+  @Test func textureDoesNotDependOnThreads() throws {
     let scene = SphereScene(viewCount: 8, color: Self.color)
     let maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
     let one = try texture(scene, maps: maps, threads: 1)
@@ -149,7 +149,7 @@ import Testing
     #expect(one.atlases[0].maps == two.atlases[0].maps)
   }
 
-  @Test func whatOneTextureCannotHoldGoesIntoSeveral() throws {
+  @Test func excessDetailGoesIntoSeveralTextures() throws {
     let scene = SphereScene(viewCount: 12, color: Self.color)
     let maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
     let model = try texture(scene, side: 128, maps: maps) { $0.maximumAtlases = 3 }
@@ -177,12 +177,12 @@ import Testing
     #expect(try #require(model.atlases[0].maps[.diffuseColor]).width <= 1024)
   }
 
-  @Test func aModelWithoutTrianglesGivesASentence() {
+  @Test func emptyMeshHasAnErrorMessage() {
     let scene = SphereScene(viewCount: 3, imageSize: 20, color: Self.color)
     #expect(throws: PipelineError.self) { try texture(scene, mesh: Mesh()) }
   }
 
-  @Test func cancelStops() throws {
+  @Test func cancellationStops() throws {
     let scene = SphereScene(viewCount: 4, imageSize: 60, color: Self.color)
     let flag = CancellationFlag()
     flag.cancel()

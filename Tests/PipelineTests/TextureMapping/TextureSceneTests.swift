@@ -71,7 +71,7 @@ import Testing
     return top * (1 - f.y) + bottom * f.y
   }
 
-  @Test func exposuresAndAnIntruderCostLessThanADecibel() throws {
+  @Test func exposureAndOccluderCostLessThanADecibel() throws {
     let clean = try ratio(of: .clean)
     #expect(clean > 24)
     #expect(try ratio(of: .exposure) > clean - 1)

@@ -28,7 +28,7 @@ import Testing
       StageContext())
   }
 
-  @Test func frontalLargeAndClearViewsAreBetter() throws {
+  @Test func frontalLargeAndUnoccludedViewsAreBetter() throws {
     let rated = try rate([
       observation(), observation(cosine: 0.5), observation(area: 50),
       observation(isClear: false),
@@ -37,7 +37,7 @@ import Testing
     for other in 1..<4 { #expect(rated.qualities[0] > rated.qualities[other]) }
   }
 
-  @Test func aStrangeColourIsLeftOut() throws {
+  @Test func outlierColorIsRejected() throws {
     let rated = try rate([
       observation(), observation(color: [102, 99, 101]), observation(color: [180, 100, 100]),
       observation(color: [98, 101, 100]), observation(color: [101, 100, 97]),
@@ -47,12 +47,12 @@ import Testing
     #expect((color - SIMD3(repeating: 100)).length < 3)
   }
 
-  @Test func twoViewsThatDifferBothStay() throws {
+  @Test func twoDifferingViewsAreBothKept() throws {
     let rated = try rate([observation(), observation(color: [10, 200, 30])])
     #expect(rated.views.entries.count == 2)
   }
 
-  @Test func anOverexposedViewIsWorse() throws {
+  @Test func overexposedViewsRankLower() throws {
     let bright = SIMD3<Float>(245, 240, 230)
     let rated = try ViewCandidates().run(
       views([observation(color: bright), observation(color: bright * 0.8)]),
@@ -62,7 +62,7 @@ import Testing
   }
 
   /// A strip of a grid is hidden by an occluder whose middle has the color of the surface.
-  @Test func aThingIsLeftOutWithItsRimAndWhatLooksAlike() throws {
+  @Test func occluderIsRejectedWithItsBoundaryAndSimilarParts() throws {
     let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     let gray = SIMD3<Float>(repeating: 100)
     let byView = (0..<4).map { view in
@@ -71,14 +71,14 @@ import Testing
         let distance = abs(middle.x - 0.5)
         let isHidden = view == 1 && distance < 0.2
         // 9 gray levels are within the tolerance.
-        let stranger: SIMD3<Float> = distance < 0.1 ? gray + 9 : [180, 60, 60]
+        let occluder: SIMD3<Float> = distance < 0.1 ? gray + 9 : [180, 60, 60]
         return FaceObservation(
           face: Int32(face), area: 10, cosine: 0.8, gradient: 1,
-          color: isHidden ? stranger : gray)
+          color: isHidden ? occluder : gray)
       }
     }
     let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
-    let isOutlier = try OutlierViews().run(
+    let isOutlier = try TransientOccluders().run(
       views, topology: MeshTopology(mesh), StageContext())
     for (entry, isOutlier) in zip(views.entries, isOutlier) {
       let triangle = mesh.triangles[Int(entry.face)]
@@ -90,7 +90,7 @@ import Testing
   }
 
   /// The same strip; one photo sees its lower end, and two see the part above it.
-  @Test func aThingIsFollowedWhereFewPhotosSeeTheSurface() throws {
+  @Test func occluderIsFollowedWhereFewPhotosSeeTheSurface() throws {
     let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     func middle(_ face: Int) -> SIMD3<Float> {
       mesh.triangles[face].vertices.reduce(.zero) { $0 + mesh.positions[$1] } / 3
@@ -107,20 +107,21 @@ import Testing
       }
     }
     let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
-    let isOutlier = try OutlierViews().run(views, topology: MeshTopology(mesh), StageContext())
+    let isOutlier = try TransientOccluders().run(
+      views, topology: MeshTopology(mesh), StageContext())
     for (entry, isOutlier) in zip(views.entries, isOutlier) {
       let distance = abs(middle(Int(entry.face)).x - 0.5)
       if entry.view != 1 || distance > 0.3 { #expect(!isOutlier) }
       if entry.view == 1, distance < 0.2 { #expect(isOutlier) }
     }
     // Next to the occluder, the only view stays.
-    let beside = zip(views.entries, isOutlier).filter {
+    let adjacent = zip(views.entries, isOutlier).filter {
       middle(Int($0.0.face)).y < 0.2 && abs(middle(Int($0.0.face)).x - 0.5) > 0.2
     }
-    #expect(beside.allSatisfy { !$0.1 })
+    #expect(adjacent.allSatisfy { !$0.1 })
   }
 
-  @Test func aSpeckDoesNotSpread() throws {
+  @Test func smallOutliersDoNotSpread() throws {
     let mesh = SyntheticMesh.grid(cells: 20, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     let byView = (0..<4).map { view in
       mesh.triangles.indices.map {
@@ -130,11 +131,12 @@ import Testing
       }
     }
     let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
-    let isOutlier = try OutlierViews().run(views, topology: MeshTopology(mesh), StageContext())
+    let isOutlier = try TransientOccluders().run(
+      views, topology: MeshTopology(mesh), StageContext())
     #expect(isOutlier.count { $0 } == 1)
   }
 
-  @Test func gainsOfPhotosAreFound() throws {
+  @Test func exposureGainsAreRecovered() throws {
     // Three photos see 300 triangles; the second is darker, the third has stronger red.
     let truth: [SIMD3<Float>] = [.one, .init(repeating: 0.8), [1.25, 1, 1]]
     var generator = SeededGenerator(seed: 1)
@@ -146,7 +148,7 @@ import Testing
         // As exposure affects the values stored in sRGB.
         FaceObservation(
           face: Int32(face), area: 10, cosine: 0.8, gradient: 1,
-          color: (color + ExposureGain.foot) * gain - ExposureGain.foot)
+          color: (color + ExposureGain.encodingOffset) * gain - ExposureGain.encodingOffset)
       }
     }
     let gains = try ExposureCompensation().run(
@@ -157,7 +159,7 @@ import Testing
     }
   }
 
-  @Test func sharesOfACornerAddUpToOne() throws {
+  @Test func cornerWeightsSumToOne() throws {
     let mesh = SyntheticMesh.grid(cells: 6, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     let count = mesh.triangles.count
     let byView = (0..<2).map { _ in
@@ -179,7 +181,7 @@ import Testing
     #expect((0..<3 * count).contains { weights.shares(of: $0).count == 2 })
   }
 
-  @Test func edgesOfATopologyHaveTheirTriangles() {
+  @Test func topologyEdgesReferenceTheirTriangles() {
     let mesh = SyntheticMesh.cube(cells: 3)
     let topology = MeshTopology(mesh)
     #expect(topology.edges.count == mesh.triangles.count * 3 / 2)

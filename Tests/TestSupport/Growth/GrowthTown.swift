@@ -25,10 +25,10 @@ struct GrowthTown: Sendable {
 
   /// A town whose streets are as long as a drive of `photoCount` photos.
   init(photoCount: Int) {
-    let wanted = Double(photoCount) * Self.step
+    let targetLength = Double(photoCount) * Self.step
     let sizes = 1...100
     size =
-      sizes.min { abs(Self.length($0) - wanted) < abs(Self.length($1) - wanted) } ?? 1
+      sizes.min { abs(Self.length($0) - targetLength) < abs(Self.length($1) - targetLength) } ?? 1
   }
 
   private static func length(_ size: Int) -> Double { Double(2 * (size + 1) * size) * spacing }
@@ -58,11 +58,11 @@ struct GrowthTown: Sendable {
     let streetLength = Double(size) * Self.spacing
     let step = Self.length(size) / Double(max(1, photoCount))
     return (0..<photoCount).map { index in
-      let travelled = (Double(index) + 0.5) * step
-      let street = min(2 * size + 1, Int(travelled / streetLength))
+      let traveled = (Double(index) + 0.5) * step
+      let street = min(2 * size + 1, Int(traveled / streetLength))
       let (number, isCrossing) = (street % (size + 1), street > size)
       let isReturning = number % 2 == 1
-      let along = travelled - Double(street) * streetLength
+      let along = traveled - Double(street) * streetLength
       let place = isReturning ? streetLength - along : along
       let side = Double(number) * Self.spacing + random.uniform() - 0.5
       let eye = isCrossing ? SIMD3(side, 1.7, place) : SIMD3(place, 1.7, side)

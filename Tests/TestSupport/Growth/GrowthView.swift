@@ -29,8 +29,8 @@ struct GrowthView {
   func features(
     _ descriptors: GrowthDescriptors, _ random: inout SeededGenerator
   ) -> (features: FeatureSet, points: [Int32]) {
-    let wanted = Int(Double(options.featuresPerPhoto) * (1 - options.clutterRatio))
-    let strongest = sightings(&random).sorted { $0.strength > $1.strength }.prefix(wanted)
+    let targetCount = Int(Double(options.featuresPerPhoto) * (1 - options.clutterRatio))
+    let strongest = sightings(&random).sorted { $0.strength > $1.strength }.prefix(targetCount)
     let clutter = clutter(
       Int(Double(strongest.count) * options.clutterRatio / (1 - options.clutterRatio)), &random)
     let all = (strongest + clutter).sorted { $0.scale > $1.scale }

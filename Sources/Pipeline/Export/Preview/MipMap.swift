@@ -12,7 +12,7 @@ struct MipMap: Sendable {
   }
 
   private let levels: [Level]
-  private let finest: [UInt8]
+  private let base: [UInt8]
   /// All levels except the full-size one, concatenated.
   private let coarser: [UInt8]
   /// Texels of the full-size level.
@@ -21,7 +21,7 @@ struct MipMap: Sendable {
   /// Accepts RGB or gray.
   init(_ image: RasterImage) throws {
     var image = image.channels == 3 ? image : Self.rgb(image)
-    finest = image.pixels
+    base = image.pixels
     texelCount = Float(image.width) * Float(image.height)
     var levels = [Level(width: image.width, height: image.height, offset: 0)]
     var coarser: [UInt8] = []
@@ -70,7 +70,7 @@ struct MipMap: Sendable {
 
   private func texel(_ level: Int, _ place: Int) -> SIMD3<Float> {
     level == 0
-      ? SIMD3(Float(finest[place]), Float(finest[place + 1]), Float(finest[place + 2]))
+      ? SIMD3(Float(base[place]), Float(base[place + 1]), Float(base[place + 2]))
       : SIMD3(Float(coarser[place]), Float(coarser[place + 1]), Float(coarser[place + 2]))
   }
 }

@@ -27,7 +27,7 @@ struct ModelPicture: Sendable {
 
   /// The model as seen by a camera without distortion; it must lie in front of the camera and
   /// within the picture.
-  func drawn(by camera: Camera, from pose: RigidTransform) -> RasterImage {
+  func rendered(by camera: Camera, from pose: RigidTransform) -> RasterImage {
     let samples = camera.resized(
       width: camera.width * options.samplesPerSide, height: camera.height * options.samplesPerSide)
     let vertices = projected(samples, pose)
@@ -37,9 +37,9 @@ struct ModelPicture: Sendable {
     }
     // Sums of colors and, in the last component, sample counts.
     var sums = [SIMD4<Float>](repeating: .zero, count: camera.width * camera.height)
-    let eye = Eye(samples, pose)
+    let rays = ViewingRays(samples, pose)
     for (atlas, texture) in zip(model.atlases, textures) {
-      shade(atlas.triangles, texture, buffer, vertices, eye, &sums)
+      shade(atlas.triangles, texture, buffer, vertices, rays, &sums)
     }
     return picture(camera.width, camera.height, sums)
   }
@@ -74,7 +74,7 @@ struct ModelPicture: Sendable {
 }
 
 /// Viewing rays of a picture's samples.
-private struct Eye {
+private struct ViewingRays {
   let right: SIMD3<Float>
   let down: SIMD3<Float>
   let forward: SIMD3<Float>
@@ -138,7 +138,7 @@ extension ModelPicture {
   /// Accumulates the shaded samples of an atlas's triangles into the pixels.
   private func shade(
     _ range: Range<Int>, _ texture: MipMap?, _ buffer: VisibilityBuffer,
-    _ vertices: [ScreenVertex], _ eye: Eye, _ sums: inout [SIMD4<Float>]
+    _ vertices: [ScreenVertex], _ rays: ViewingRays, _ sums: inout [SIMD4<Float>]
   ) {
     let (width, perSide) = (buffer.width, options.samplesPerSide)
     let backFace = SIMD3<Float>(options.backFace)
@@ -153,7 +153,7 @@ extension ModelPicture {
         }
         guard let shading else { continue }
         let color =
-          shading.edges.isFront ? color(x, y, shading, texture, eye) : backFace
+          shading.edges.isFront ? color(x, y, shading, texture, rays) : backFace
         sums[y / perSide * (width / perSide) + x / perSide] += SIMD4(color, 1)
       }
     }
@@ -161,12 +161,12 @@ extension ModelPicture {
 
   /// The shaded color of a front face at a sample, 0…255.
   private func color(
-    _ x: Int, _ y: Int, _ triangle: TriangleShading, _ texture: MipMap?, _ eye: Eye
+    _ x: Int, _ y: Int, _ triangle: TriangleShading, _ texture: MipMap?, _ rays: ViewingRays
   ) -> SIMD3<Float> {
     let (weights, inverseDepth) = triangle.weights(x, y)
     let (n, uv) = (triangle.normals, triangle.coordinates)
     let normal = (n.0 * weights.x + n.1 * weights.y + n.2 * weights.z).normalized
-    let facing = min(max(normal.dot(eye.direction(x, y)), 0), 1)
+    let facing = min(max(normal.dot(rays.direction(x, y)), 0), 1)
     guard let texture else {
       let light = 1 - options.untexturedShading * (1 - facing)
       return SIMD3<Float>(options.untextured) * light

@@ -109,10 +109,10 @@ struct Turntable: Sendable {
 
   /// Directions of the viewpoints as seen from the model.
   func directions(_ cameras: [RigidTransform]) -> [Direction] {
-    let sights = cameras.map { -($0.rotation.conjugate * SIMD3<Double>(0, 0, 1)) }
-    let elevation = medianElevation(sights)
+    let viewDirections = cameras.map { -($0.rotation.conjugate * SIMD3<Double>(0, 0, 1)) }
+    let elevation = medianElevation(viewDirections)
     let count = Double(options.viewCount)
-    if let side = seenSide(sights) {
+    if let side = seenSide(viewDirections) {
       let step = options.viewCount > 1 ? 2 * side.reach / (count - 1) : 0
       return (0..<options.viewCount).map {
         Direction(azimuth: side.azimuth - side.reach + Double($0) * step, elevation: elevation)
@@ -124,8 +124,8 @@ struct Turntable: Sendable {
   }
 
   /// The median elevation of the photos, within bounds.
-  private func medianElevation(_ sights: [SIMD3<Double>]) -> Double {
-    let elevations = sights.map { asin(min(max($0.y, -1), 1)) }.sorted()
+  private func medianElevation(_ viewDirections: [SIMD3<Double>]) -> Double {
+    let elevations = viewDirections.map { asin(min(max($0.y, -1), 1)) }.sorted()
     let middle = elevations.isEmpty ? nil : elevations[elevations.count / 2] * 180 / .pi
     let degrees = middle.map {
       min(max($0, options.minimumElevationDegrees), options.maximumElevationDegrees)
@@ -134,8 +134,8 @@ struct Turntable: Sendable {
   }
 
   /// The photographed side; nil if the photos surround the object or look down at it.
-  private func seenSide(_ sights: [SIMD3<Double>]) -> (azimuth: Double, reach: Double)? {
-    let flat = sights.map { SIMD2($0.x, $0.z) }
+  private func seenSide(_ viewDirections: [SIMD3<Double>]) -> (azimuth: Double, reach: Double)? {
+    let flat = viewDirections.map { SIMD2($0.x, $0.z) }
     let sum = flat.reduce(SIMD2<Double>.zero, +)
     let lengths = flat.reduce(0) { $0 + $1.length }
     // For photos from above, the horizontal part carries no information.

@@ -8,7 +8,7 @@ package struct CorrespondenceSearch {
     package var selection = PairSelection.Options()
     /// Maximum fraction of the sampled rejections that may turn out verifiable. Above it,
     /// preemptive matching is considered unreliable and all candidates are matched.
-    package var maximumWrongRejections = 0.03
+    package var maximumFalseRejectionRatio = 0.03
     package var expansion = PairExpansion.Options()
     package var matching = FeatureMatching.Options()
     package var verification = PairVerification.Options()
@@ -28,46 +28,50 @@ package struct CorrespondenceSearch {
     photos: [Photo], cameras: [Camera], features: [FeatureSet], isSequential: Bool,
     _ context: StageContext
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
-    var round = Round(options: options, photos: photos, cameras: cameras, features: features)
+    var matchedPairs = MatchedPairs(
+      options: options, photos: photos, cameras: cameras, features: features)
     var choice = try PairSelection(options.selection)
       .run(
         features, positions: photos.map(\.position), isSequential: isSequential,
         context.part(from: 0, to: 0.1))
-    try round.add(choice.pairs, context.part(from: 0.1, to: 0.5))
-    if isLookWrong(choice, round.graph) {
+    try matchedPairs.add(choice.pairs, context.part(from: 0.1, to: 0.5))
+    if isPreemptiveMatchingUnreliable(choice, matchedPairs.graph) {
       let known = Set(choice.pairs)
-      try round.add(
+      try matchedPairs.add(
         choice.candidates.filter { !known.contains($0) }, context.part(from: 0.5, to: 0.65))
       choice.pairs = choice.candidates
     }
     let more = try PairExpansion(options.expansion)
       .run(
-        choice, round.graph, features: features,
-        firstLook: FirstLook(options.selection.firstLook), context.part(from: 0.65, to: 0.7))
-    try round.add(more, context.part(from: 0.7, to: 0.9))
+        choice, matchedPairs.graph, features: features,
+        preemptiveMatching: PreemptiveMatching(options.selection.preemptiveMatching),
+        context.part(from: 0.65, to: 0.7))
+    try matchedPairs.add(more, context.part(from: 0.7, to: 0.9))
     let calibrated = try SelfCalibration(options.selfCalibration)
       .run(
-        round.graph, features: features, photos: photos, cameras: cameras,
+        matchedPairs.graph, features: features, photos: photos, cameras: cameras,
         context.part(from: 0.9, to: 0.95))
     if calibrated != cameras {
-      try round.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
+      try matchedPairs.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
     }
-    try round.guide(calibrated, context.part(from: 0.97, to: 1))
-    context.notes.count("candidatePairs", Double(Set(choice.candidates).union(more).count))
-    round.report(context.notes)
-    return (round.graph, calibrated)
+    try matchedPairs.guide(calibrated, context.part(from: 0.97, to: 1))
+    context.notes.record("candidatePairs", Double(Set(choice.candidates).union(more).count))
+    matchedPairs.report(context.notes)
+    return (matchedPairs.graph, calibrated)
   }
 
   /// Whether preemptive matching rejected too many pairs that turned out to be verifiable.
-  private func isLookWrong(_ choice: PairSelection.Choice, _ graph: ViewGraph) -> Bool {
+  private func isPreemptiveMatchingUnreliable(_ choice: PairSelection.Choice, _ graph: ViewGraph)
+    -> Bool
+  {
     let verified = Set(graph.pairs.map(\.pair))
     let wrong = choice.sample.count { verified.contains($0) }
-    return Double(wrong) > options.maximumWrongRejections * Double(choice.sample.count)
+    return Double(wrong) > options.maximumFalseRejectionRatio * Double(choice.sample.count)
   }
 }
 
 /// The pairs matched and verified so far.
-private struct Round {
+private struct MatchedPairs {
   let options: CorrespondenceSearch.Options
   let photos: [Photo]
   let cameras: [Camera]
@@ -119,10 +123,10 @@ private struct Round {
 
   /// Records the numbers of pairs and matches, and warns if no pair was verified.
   func report(_ notes: StageNotes) {
-    notes.count("pairs", Double(pairs.count))
-    notes.count("matches", Double(matches.reduce(0) { $0 + $1.count }))
-    notes.count("verifiedPairs", Double(graph.pairs.count))
-    notes.count("verifiedMatches", Double(graph.pairs.reduce(0) { $0 + $1.matches.count }))
+    notes.record("pairs", Double(pairs.count))
+    notes.record("matches", Double(matches.reduce(0) { $0 + $1.count }))
+    notes.record("verifiedPairs", Double(graph.pairs.count))
+    notes.record("verifiedMatches", Double(graph.pairs.reduce(0) { $0 + $1.matches.count }))
     if graph.pairs.isEmpty, graph.photoCount > 1 {
       notes.warn(
         "No two photos show the same surface; take photos that overlap by two thirds.")

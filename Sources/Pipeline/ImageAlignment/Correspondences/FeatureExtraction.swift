@@ -80,7 +80,7 @@ package struct FeatureExtraction {
     let sets = try context.control.parallelMap(photos.count) { [options] index in
       try Self.features(of: photos[index], images, options)
     }
-    context.notes.count("features", Double(sets.reduce(0) { $0 + $1.count }))
+    context.notes.record("features", Double(sets.reduce(0) { $0 + $1.count }))
     for (photo, set) in zip(photos, sets) where set.count < 100 {
       let part = photo.mask == nil ? "" : " inside its mask"
       context.notes.warn(

@@ -47,7 +47,7 @@ package struct GuidedMatching {
     for (index, pair) in zip(weak, better) { result.pairs[index] = pair }
     let found = result.pairs.reduce(0) { $0 + $1.matches.count }
     let known = graph.pairs.reduce(0) { $0 + $1.matches.count }
-    context.notes.count("guidedMatches", Double(found - known))
+    context.notes.record("guidedMatches", Double(found - known))
     return result
   }
 

@@ -14,9 +14,9 @@ package struct PairExpansion {
     package var commonPartners = 2
     /// A photo with fewer verified partners is matched with all its candidates, including the
     /// unpromising ones.
-    package var fewPartners = 4
+    package var minimumPartners = 4
     /// Number of most similar photos that such a photo is additionally matched with.
-    package var chances = 10
+    package var retryPartners = 10
 
     package init() {}
   }
@@ -28,16 +28,16 @@ package struct PairExpansion {
   /// Returns pairs that are not among those of `choice`, sorted.
   package func run(
     _ choice: PairSelection.Choice, _ graph: ViewGraph, features: [FeatureSet],
-    firstLook: FirstLook, _ context: StageContext
+    preemptiveMatching: PreemptiveMatching, _ context: StageContext
   ) throws -> [PhotoPair] {
     let partners = partners(graph)
     let matched = Set(choice.pairs)
-    var chosen = secondChances(choice, partners).subtracting(matched)
-    if !choice.alike.isEmpty {
+    var chosen = retries(choice, partners).subtracting(matched)
+    if !choice.mostSimilar.isEmpty {
       let count = choice.isSequential ? options.sequencePartners : options.partners
-      let common = commonPairs(partners, count, besides: Set(choice.candidates))
+      let common = commonPairs(partners, count, excluding: Set(choice.candidates))
         .subtracting(chosen)
-      chosen.formUnion(try firstLook.run(common.sorted(), features: features, context))
+      chosen.formUnion(try preemptiveMatching.run(common.sorted(), features: features, context))
     }
     return chosen.sorted()
   }
@@ -54,20 +54,21 @@ package struct PairExpansion {
 
   /// All candidates and the most similar photos of photos with few partners or outside the largest
   /// group.
-  private func secondChances(
+  private func retries(
     _ choice: PairSelection.Choice, _ partners: [[Int]]
   ) -> Set<PhotoPair> {
     let group = groups(partners)
     let sizes = group.reduce(into: [Int](repeating: 0, count: partners.count)) { $0[$1] += 1 }
     let largest = sizes.indices.max { (sizes[$0], $1) < (sizes[$1], $0) }
     func isWeak(_ photo: ID<Photo>) -> Bool {
-      partners[photo.index].count < options.fewPartners || group[photo.index] != largest
+      partners[photo.index].count < options.minimumPartners || group[photo.index] != largest
     }
-    var chances = Set(choice.candidates.filter { isWeak($0.first) || isWeak($0.second) })
-    for (photo, others) in choice.alike.enumerated() where isWeak(ID(photo)) {
-      chances.formUnion(others.prefix(options.chances).map { PhotoPair(ID(photo), ID($0)) })
+    var retryPartners = Set(choice.candidates.filter { isWeak($0.first) || isWeak($0.second) })
+    for (photo, others) in choice.mostSimilar.enumerated() where isWeak(ID(photo)) {
+      retryPartners.formUnion(
+        others.prefix(options.retryPartners).map { PhotoPair(ID(photo), ID($0)) })
     }
-    return chances
+    return retryPartners
   }
 
   /// The lowest photo index in each photo's connected component.
@@ -88,7 +89,7 @@ package struct PairExpansion {
 
   /// Pairs of each photo with those that share the most verified partners with it.
   private func commonPairs(
-    _ partners: [[Int]], _ count: Int, besides known: Set<PhotoPair>
+    _ partners: [[Int]], _ count: Int, excluding known: Set<PhotoPair>
   ) -> Set<PhotoPair> {
     var chosen: Set<PhotoPair> = []
     for photo in partners.indices {

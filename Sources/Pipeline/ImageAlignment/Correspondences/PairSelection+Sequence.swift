@@ -9,34 +9,37 @@ extension PairSelection {
   func sequence(
     _ photos: [Int], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Choice {
-    let sure = neighbours(photos, options.lookedSequenceSteps)
+    let guaranteed = neighbors(photos, options.preemptiveSequenceSteps)
     let others = photos.indices
       .flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
-      .filter { !sure.contains($0) }
-    let counts = try FirstLook(options.firstLook).counts(others, features: features, context)
-    let alike = ranked(others, counts, features)
-    let likely = retrieved(alike, options.sequencePartners, besides: sure)
-    let window = neighbours(photos, options.sequenceSteps)
+      .filter { !guaranteed.contains($0) }
+    let counts = try PreemptiveMatching(options.preemptiveMatching).counts(
+      others, features: features, context)
+    let mostSimilar = ranked(others, counts, features)
+    let likely = retrieved(mostSimilar, options.sequencePartners, excluding: guaranteed)
+    let window = neighbors(photos, options.sequenceSteps)
     return Choice(
-      pairs: sure.union(likely).sorted(), candidates: sure.union(likely).union(window).sorted(),
-      alike: alike, isSequential: true)
+      pairs: guaranteed.union(likely).sorted(),
+      candidates: guaranteed.union(likely).union(window).sorted(),
+      mostSimilar: mostSimilar, isSequential: true)
   }
 
   /// For each photo the others that share enough large-scale features, the most matches first.
   private func ranked(
     _ pairs: [PhotoPair], _ counts: [Int], _ features: [FeatureSet]
   ) -> [[Int]] {
-    let fewFeatures = options.firstLook.worthwhileFactor * options.firstLook.features
-    var alike = [[(photo: Int, matches: Int)]](repeating: [], count: features.count)
+    let fewFeatures =
+      options.preemptiveMatching.minimumFeatureFactor * options.preemptiveMatching.features
+    var mostSimilar = [[(photo: Int, matches: Int)]](repeating: [], count: features.count)
     for (pair, matches) in zip(pairs, counts) {
       let (first, second) = (pair.first.index, pair.second.index)
       // Photos with few features share few, and full matching is fast.
       let hasFew = min(features[first].count, features[second].count) < fewFeatures
       guard matches >= (hasFew ? 1 : options.sequenceMatches) else { continue }
-      alike[first].append((second, matches))
-      alike[second].append((first, matches))
+      mostSimilar[first].append((second, matches))
+      mostSimilar[second].append((first, matches))
     }
-    return alike.map {
+    return mostSimilar.map {
       $0.sorted { ($1.matches, $0.photo) < ($0.matches, $1.photo) }.map(\.photo)
     }
   }

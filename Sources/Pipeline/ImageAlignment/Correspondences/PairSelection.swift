@@ -15,10 +15,10 @@ package struct PairSelection {
     /// Up to this number of pairs, all pairs are candidates.
     package var exhaustivePairs = 1300
     /// From this number of pairs on, preemptive matching of all pairs pays off.
-    package var lookedPairs = 100
+    package var minimumPreemptivePairs = 100
     /// One in this number of pairs that preemptive matching rejects is matched anyway: rejection
     /// fails for pairs whose large-scale features differ, such as close-ups and fine texture.
-    package var sampledRejection = 4
+    package var rejectionSamplingInterval = 4
     /// Number of partners of a photo in large sets: the most similar ones.
     package var partners = 40
     /// Number of partners of a photo by GPS position.
@@ -30,11 +30,11 @@ package struct PairSelection {
     package var sequencePartners = 4
     /// Up to this number of pairs of a sequence, preemptive matching tests all of them, which is
     /// more informative than retrieval. Beyond about sixty photos it would cost more than it saves.
-    package var sequenceLookedPairs = 2000
+    package var maximumPreemptiveSequencePairs = 2000
     /// Distances in the order of capture at which photos of such a sequence are paired
     /// unconditionally; more distant neighbors compete with the others by their number of
     /// preemptive matches.
-    package var lookedSequenceSteps = [1, 2]
+    package var preemptiveSequenceSteps = [1, 2]
     /// Pairs of such a sequence with fewer preemptive matches are considered unrelated: one in a
     /// hundred of them is verifiable, and barely.
     package var sequenceMatches = 8
@@ -44,7 +44,7 @@ package struct PairSelection {
     /// Number of partners of a photo in a large set that turned out to be in order.
     package var orderedPartners = 20
     package var retrieval = PhotoRetrieval.Options()
-    package var firstLook = FirstLook.Options()
+    package var preemptiveMatching = PreemptiveMatching.Options()
 
     package init() {}
   }
@@ -55,18 +55,18 @@ package struct PairSelection {
     /// Considered pairs, sorted; those that aren't in `pairs` are unpromising.
     package var candidates: [PhotoPair]
     /// The photos most similar to each photo; empty if retrieval wasn't needed.
-    package var alike: [[Int]]
+    package var mostSimilar: [[Int]]
     /// Whether the photos are in order of capture.
     package var isSequential: Bool
     /// The unpromising pairs that are part of `pairs` to validate preemptive matching.
     package var sample: [PhotoPair]
 
     package init(
-      pairs: [PhotoPair], candidates: [PhotoPair], alike: [[Int]], isSequential: Bool,
+      pairs: [PhotoPair], candidates: [PhotoPair], mostSimilar: [[Int]], isSequential: Bool,
       sample: [PhotoPair] = []
     ) {
       (self.pairs, self.candidates, self.sample) = (pairs, candidates, sample)
-      (self.alike, self.isSequential) = (alike, isSequential)
+      (self.mostSimilar, self.isSequential) = (mostSimilar, isSequential)
     }
   }
 
@@ -84,22 +84,24 @@ package struct PairSelection {
       let all = photos.indices.flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
       return try exhaustive(all, features, context)
     }
-    if isSequential, photos.count * (photos.count - 1) / 2 <= options.sequenceLookedPairs {
+    if isSequential, photos.count * (photos.count - 1) / 2 <= options.maximumPreemptiveSequencePairs
+    {
       return try sequence(photos, features, context)
     }
-    let alike = try PhotoRetrieval(options.retrieval)
+    let mostSimilar = try PhotoRetrieval(options.retrieval)
       .run(features, partners: 2 * options.partners, context.part(from: 0, to: 0.5))
-    let isOrdered = isSequential || isInOrder(alike)
-    let sure = isOrdered ? neighbours(photos, options.sequenceSteps) : []
+    let isOrdered = isSequential || isInOrder(mostSimilar)
+    let guaranteed = isOrdered ? neighbors(photos, options.sequenceSteps) : []
     let count =
       isSequential
       ? options.sequencePartners : isOrdered ? options.orderedPartners : options.partners
-    var likely = retrieved(alike, count, besides: sure)
-    if !isSequential { likely.formUnion(nearest(positions, features).subtracting(sure)) }
-    let hopeful = try FirstLook(options.firstLook)
+    var likely = retrieved(mostSimilar, count, excluding: guaranteed)
+    if !isSequential { likely.formUnion(nearest(positions, features).subtracting(guaranteed)) }
+    let promising = try PreemptiveMatching(options.preemptiveMatching)
       .run(likely.sorted(), features: features, context.part(from: 0.5, to: 1))
     return Choice(
-      pairs: sure.union(hopeful).sorted(), candidates: sure.union(likely).sorted(), alike: alike,
+      pairs: guaranteed.union(promising).sorted(), candidates: guaranteed.union(likely).sorted(),
+      mostSimilar: mostSimilar,
       isSequential: isSequential)
   }
 
@@ -108,15 +110,16 @@ package struct PairSelection {
   private func exhaustive(
     _ all: [PhotoPair], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Choice {
-    guard all.count >= options.lookedPairs else {
-      return Choice(pairs: all, candidates: all, alike: [], isSequential: false)
+    guard all.count >= options.minimumPreemptivePairs else {
+      return Choice(pairs: all, candidates: all, mostSimilar: [], isSequential: false)
     }
-    let hopeful = try FirstLook(options.firstLook).run(all, features: features, context)
-    let rejected = Set(all).subtracting(hopeful).sorted()
-    let sample = stride(from: 0, to: rejected.count, by: max(1, options.sampledRejection))
+    let promising = try PreemptiveMatching(options.preemptiveMatching).run(
+      all, features: features, context)
+    let rejected = Set(all).subtracting(promising).sorted()
+    let sample = stride(from: 0, to: rejected.count, by: max(1, options.rejectionSamplingInterval))
       .map { rejected[$0] }
     return Choice(
-      pairs: (hopeful + sample).sorted(), candidates: all, alike: [], isSequential: false,
+      pairs: (promising + sample).sorted(), candidates: all, mostSimilar: [], isSequential: false,
       sample: sample)
   }
 
@@ -124,25 +127,25 @@ package struct PairSelection {
 
   /// Pairs of each photo with the `count` most similar photos that it isn't paired with already.
   func retrieved(
-    _ alike: [[Int]], _ count: Int, besides known: Set<PhotoPair>
+    _ mostSimilar: [[Int]], _ count: Int, excluding known: Set<PhotoPair>
   ) -> Set<PhotoPair> {
     Set(
-      alike.enumerated().flatMap { photo, others in
+      mostSimilar.enumerated().flatMap { photo, others in
         others.lazy.map { pair(photo, $0) }.filter { !known.contains($0) }.prefix(count)
       })
   }
 
   /// Whether most photos are most similar to one of the two preceding or following photos.
-  private func isInOrder(_ alike: [[Int]]) -> Bool {
-    let near = alike.enumerated().count { photo, others in
+  private func isInOrder(_ mostSimilar: [[Int]]) -> Bool {
+    let near = mostSimilar.enumerated().count { photo, others in
       others.first.map { abs($0 - photo) <= 2 } ?? false
     }
-    return Double(near) >= options.orderedShare * Double(alike.count)
+    return Double(near) >= options.orderedShare * Double(mostSimilar.count)
   }
 
   /// A window of neighbors among `photos`, and the two ends, where the path may close. Skipped
   /// photos in between, which have no features, don't interrupt the path.
-  func neighbours(_ photos: [Int], _ steps: [Int]) -> Set<PhotoPair> {
+  func neighbors(_ photos: [Int], _ steps: [Int]) -> Set<PhotoPair> {
     let count = photos.count
     var chosen: Set<PhotoPair> = []
     for first in 0..<count {
@@ -162,24 +165,24 @@ package struct PairSelection {
   private func nearest(
     _ positions: [GeographicPosition?], _ features: [FeatureSet]
   ) -> Set<PhotoPair> {
-    let metresPerDegree = 111_320.0
+    let metersPerDegree = 111_320.0
     let places = positions.enumerated().compactMap { photo, position in
       position.map { position in
         let narrowing = cos(position.latitudeDegrees * .pi / 180)
         return (
           photo: photo,
-          place: metresPerDegree
+          place: metersPerDegree
             * SIMD2(position.longitudeDegrees * narrowing, position.latitudeDegrees)
         )
       }
     }
     .filter { features[$0.photo].count > 0 }
     return Set(
-      places.flatMap { own in
-        places.filter { $0.photo != own.photo }
-          .map { (photo: $0.photo, distance: ($0.place - own.place).squaredLength) }
+      places.flatMap { origin in
+        places.filter { $0.photo != origin.photo }
+          .map { (photo: $0.photo, distance: ($0.place - origin.place).squaredLength) }
           .sorted { ($0.distance, $0.photo) < ($1.distance, $1.photo) }
-          .prefix(options.positionPartners).map { pair(own.photo, $0.photo) }
+          .prefix(options.positionPartners).map { pair(origin.photo, $0.photo) }
       })
   }
 }

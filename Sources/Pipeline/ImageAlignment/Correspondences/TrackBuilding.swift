@@ -79,22 +79,22 @@ package struct TrackBuilding: Sendable {
       offsets[Int(edge.1) + 1] += 1
     }
     for node in 0..<nodeCount { offsets[node + 1] += offsets[node] }
-    var neighbours = [Int32](repeating: 0, count: 2 * edges.count)
+    var neighbors = [Int32](repeating: 0, count: 2 * edges.count)
     var next = offsets
     for (a, b) in edges {
-      neighbours[next[Int(a)]] = b
+      neighbors[next[Int(a)]] = b
       next[Int(a)] += 1
-      neighbours[next[Int(b)]] = a
+      neighbors[next[Int(b)]] = a
       next[Int(b)] += 1
     }
-    for node in 0..<nodeCount { neighbours[offsets[node]..<offsets[node + 1]].sort() }
+    for node in 0..<nodeCount { neighbors[offsets[node]..<offsets[node + 1]].sort() }
     return edges.map { a, b in
       var (i, j) = (offsets[Int(a)], offsets[Int(b)])
       let (endI, endJ) = (offsets[Int(a) + 1], offsets[Int(b) + 1])
       var common: Int32 = 0
       while i < endI, j < endJ {
-        if neighbours[i] == neighbours[j] { common += 1 }
-        if neighbours[i] <= neighbours[j] { i += 1 } else { j += 1 }
+        if neighbors[i] == neighbors[j] { common += 1 }
+        if neighbors[i] <= neighbors[j] { i += 1 } else { j += 1 }
       }
       return common
     }

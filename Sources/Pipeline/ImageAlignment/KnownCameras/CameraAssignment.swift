@@ -32,7 +32,8 @@ package struct CameraAssignment: Sendable {
   ) throws -> Result {
     let files = Set(ingested.files.map(\.lastPathComponent))
     let names = PhotoNames(known.reconstruction.photos.map(\.name))
-    var assigned = Assigned(photos: ingested.photos, worldFrame: known.reconstruction.worldFrame)
+    var assigned = AssignmentBuilder(
+      photos: ingested.photos, worldFrame: known.reconstruction.worldFrame)
     for photo in ingested.photos {
       if let place = names.place(of: photo.name) {
         assigned.take(place, of: known, for: photo)
@@ -56,19 +57,19 @@ package struct CameraAssignment: Sendable {
   }
 
   /// Records metrics and logs which cameras are missing, scaled or rotated.
-  private func report(_ result: Result, _ assigned: Assigned, _ notes: StageNotes) {
-    notes.count("registered", Double(result.reconstruction.registered.count))
-    notes.count("camerasWithoutPhoto", Double(result.missing.count))
+  private func report(_ result: Result, _ assigned: AssignmentBuilder, _ notes: StageNotes) {
+    notes.record("registered", Double(result.reconstruction.registered.count))
+    notes.record("camerasWithoutPhoto", Double(result.missing.count))
     if !result.missing.isEmpty {
       notes.warn(
         "\(result.missing.count) cameras have no photo in the folder: \(list(result.missing)).")
     }
     if !assigned.scaled.isEmpty {
-      notes.tell(
+      notes.log(
         "Cameras were scaled to the size of these photos: \(list(assigned.scaled)).")
     }
     if !assigned.turned.isEmpty {
-      notes.tell(
+      notes.log(
         "Cameras of photos in stored orientation were rotated upright: "
           + "\(list(assigned.turned)).")
     }
@@ -104,7 +105,7 @@ private struct PhotoNames {
 }
 
 /// The photos that have been assigned a camera so far.
-private struct Assigned {
+private struct AssignmentBuilder {
   private(set) var reconstruction: Reconstruction
   private(set) var scaled: [String] = []
   private(set) var turned: [String] = []
@@ -120,12 +121,12 @@ private struct Assigned {
 
   /// Assigns camera and pose number `place` of `known` to `photo`.
   mutating func take(_ place: Int, of known: KnownCameras, for photo: Photo) {
-    let own = known.reconstruction.photos[place]
-    let camera = known.reconstruction.camera(of: own.id)
+    let knownPhoto = known.reconstruction.photos[place]
+    let camera = known.reconstruction.camera(of: knownPhoto.id)
     guard let pose = known.reconstruction.poses[place] else {
       return refuse(photo, because: "its camera has no pose")
     }
-    let isSizeKnown = !known.sizeless.contains(own.id)
+    let isSizeKnown = !known.photosOfUnknownSize.contains(knownPhoto.id)
     guard let fit = CameraFit(camera, to: photo, isSizeKnown: isSizeKnown) else {
       let center = camera.principalPoint
       let size =

@@ -9,9 +9,9 @@ package struct KnownCameras: Sendable {
   /// Only the names, cameras and poses of its photos are used, and its points, which may be empty.
   package var reconstruction: Reconstruction
   /// The photos whose cameras don't state an image size; it is taken from the photo.
-  package var sizeless: Set<ID<Photo>>
+  package var photosOfUnknownSize: Set<ID<Photo>>
 
-  package init(_ reconstruction: Reconstruction, sizeless: Set<ID<Photo>> = []) {
-    (self.reconstruction, self.sizeless) = (reconstruction, sizeless)
+  package init(_ reconstruction: Reconstruction, photosOfUnknownSize: Set<ID<Photo>> = []) {
+    (self.reconstruction, self.photosOfUnknownSize) = (reconstruction, photosOfUnknownSize)
   }
 }

@@ -23,19 +23,19 @@ struct KnownPoints: Sendable {
     let photos = reconstruction.registered.count
     let observations = reconstruction.points.reduce(0) { $0 + $1.track.count }
     let given = reconstruction.points.count
-    context.notes.count("givenPoints", Double(given))
+    context.notes.record("givenPoints", Double(given))
     var result = reconstruction
     if Double(observations) >= options.sufficientPoints * Double(max(1, photos)) {
       try check(reconstruction)
     } else {
       if given > 0 {
-        context.notes.tell(
+        context.notes.log(
           "The \(given) points given with the cameras are too few; new points are triangulated.")
       }
       result = try KnownPoseTriangulation(options.triangulation)
         .run(reconstruction, images: images, context)
     }
-    context.notes.count("points", Double(result.points.count))
+    context.notes.record("points", Double(result.points.count))
     try context.control.step(1)
     return result
   }

@@ -51,7 +51,7 @@ package struct KnownPoseTriangulation: Sendable {
       throw PipelineError.camerasDontFit(
         reason: "no point was found at which matching features of two photos meet.")
     }
-    context.notes.count("meanReprojectionError", result.meanReprojectionError)
+    context.notes.record("meanReprojectionError", result.meanReprojectionError)
     return result
   }
 
@@ -146,10 +146,10 @@ package struct KnownPoseTriangulation: Sendable {
     _ graph: ViewGraph, _ all: Int, agreeing: Int, _ notes: StageNotes
   ) throws {
     let verified = graph.pairs.reduce(0) { $0 + $1.matches.count }
-    notes.count("matches", Double(all))
-    notes.count("matchesThatAgree", Double(agreeing))
-    notes.count("verifiedPairs", Double(graph.pairs.count))
-    notes.count("verifiedMatches", Double(verified))
+    notes.record("matches", Double(all))
+    notes.record("consistentMatches", Double(agreeing))
+    notes.record("verifiedPairs", Double(graph.pairs.count))
+    notes.record("verifiedMatches", Double(verified))
     let agreement = Double(agreeing) / Double(max(1, all))
     let sentence =
       "only \(Int(100 * agreement)) % of the feature matches between two photos agree with the "

@@ -79,7 +79,7 @@ extension GlobalMapping {
 
   /// Fixes the gauge: moves the world frame to a photo of the pair with the best-conditioned
   /// points, which bundle adjustment holds constant, and scales the pair's baseline to unit length.
-  func anchor(_ map: inout SparseMap, _ graph: ViewGraph) {
+  func fixGauge(_ map: inout SparseMap, _ graph: ViewGraph) {
     let registered = Set(map.registered)
     let best = graph.pairs.enumerated().filter { _, pair in
       registered.contains(pair.pair.first.index) && registered.contains(pair.pair.second.index)

@@ -62,13 +62,13 @@ extension GlobalMapping {
           RelativeRotation(first: $0.first, second: $0.second, rotation: $0.rotation)
         },
         start: part.treeRotations(), control: context.control)
-      let isGood = averaged.errors.map { $0 <= options.rotationErrorDegrees * .pi / 180 }
-      if round == options.rotationRounds || !isGood.contains(false) {
+      let isConsistent = averaged.errors.map { $0 <= options.rotationErrorDegrees * .pi / 180 }
+      if round == options.rotationRounds || !isConsistent.contains(false) {
         var rotations = [Quaternion?](repeating: nil, count: graph.photoCount)
         for (photo, rotation) in zip(photos, averaged.rotations) { rotations[photo] = rotation }
         return rotations
       }
-      graph.pairs = zip(part.pairs, isGood).filter(\.1).map { pair, _ in
+      graph.pairs = zip(part.pairs, isConsistent).filter(\.1).map { pair, _ in
         var pair = pair
         (pair.first, pair.second) = (
           Int32(photos[Int(pair.first)]), Int32(photos[Int(pair.second)])

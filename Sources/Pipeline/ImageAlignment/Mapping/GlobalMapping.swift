@@ -64,10 +64,10 @@ package struct GlobalMapping: Sendable {
       }
       var map = empty
       guard try position(&map, rotations, context.part(from: 0.2, to: 0.6)) else { return nil }
-      anchor(&map, graph)
+      fixGauge(&map, graph)
       try refine(&map, context.part(from: 0.6, to: 1))
       // The photos that define the gauge may have been removed.
-      anchor(&map, graph)
+      fixGauge(&map, graph)
       return map.registered.count >= 3 ? map : nil
     } catch let error as KernelError where error != .outOfMemory {
       // The data doesn't determine one of the steps.

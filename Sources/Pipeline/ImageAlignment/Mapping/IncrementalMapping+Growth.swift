@@ -71,7 +71,7 @@ struct MapGrowth: Sendable {
   /// Registers photo after photo until none can be added, then runs the final adjustment.
   private func grown(_ start: SparseMap, _ isTaken: [Bool]) throws -> SparseMap {
     var map = start
-    var ranking = PhotoRanking(photos)
+    var ranking = NextBestViewRanking(photos)
     var failures = [Int](repeating: 0, count: photos.count)
     var (lastPhotos, lastPoints) = (map.registered.count, map.pointCount)
     var isRelaxed = false
@@ -83,7 +83,7 @@ struct MapGrowth: Sendable {
           guard try registerWithoutStructure(&map, isTaken, &failures) else { break }
           continue
         }
-        try settle(&map)
+        try adjustAndRetriangulate(&map)
         (isRelaxed, failures) = (true, failures.map { _ in 0 })
         continue
       }
@@ -91,7 +91,7 @@ struct MapGrowth: Sendable {
         Double(map.registered.count) >= options.globalGrowth * Double(lastPhotos)
         || Double(map.pointCount) >= options.globalGrowth * Double(lastPoints)
       if isGrown {
-        try settle(&map)
+        try adjustAndRetriangulate(&map)
         (lastPhotos, lastPoints) = (map.registered.count, map.pointCount)
       }
     }
@@ -101,7 +101,8 @@ struct MapGrowth: Sendable {
 
   /// Registers the next best photo; false if none can be registered.
   private func registerNext(
-    _ map: inout SparseMap, _ isTaken: [Bool], _ isRelaxed: Bool, _ ranking: inout PhotoRanking,
+    _ map: inout SparseMap, _ isTaken: [Bool], _ isRelaxed: Bool,
+    _ ranking: inout NextBestViewRanking,
     _ failures: inout [Int]
   ) throws -> Bool {
     ranking.update(&map)
@@ -158,7 +159,7 @@ struct MapGrowth: Sendable {
   }
 
   /// Runs a global bundle adjustment, then filters, completes and re-triangulates the points.
-  private func settle(_ map: inout SparseMap) throws {
+  private func adjustAndRetriangulate(_ map: inout SparseMap) throws {
     let all = Array(map.isTriangulated.indices)
     try adjustment.adjustGlobally(&map, control(map))
     try growthPoints.filter(all, in: &map, control(map))
@@ -169,7 +170,7 @@ struct MapGrowth: Sendable {
 
   /// Adjusts, splits tracks, completes and filters until little changes.
   private func finish(_ map: inout SparseMap) throws {
-    try settle(&map)
+    try adjustAndRetriangulate(&map)
     map.splitTracks()
     let all = Array(map.isTriangulated.indices)
     var strict = growthPoints

@@ -1,6 +1,6 @@
 extension MapGrowth {
   /// Failure count that marks a photo whose only trial was used.
-  private static let lastTrial = 100
+  private static let maximumFailures = 100
 
   /// Registers one photo by its pairs with registered photos only, without scene points; false if
   /// none can be registered. Each photo has one trial.
@@ -8,14 +8,14 @@ extension MapGrowth {
     _ map: inout SparseMap, _ isTaken: [Bool], _ failures: inout [Int]
   ) throws -> Bool {
     for photo in photos.indices
-    where !map.isRegistered(photo) && !isTaken[photo] && failures[photo] < Self.lastTrial {
+    where !map.isRegistered(photo) && !isTaken[photo] && failures[photo] < Self.maximumFailures {
       let pairs = graph.pairs.filter {
         $0.pair.first.index == photo || $0.pair.second.index == photo
       }
       guard let pose = StructurelessPose().run(photo, pairs: pairs, poses: map.photos.poses) else {
         continue
       }
-      failures[photo] = Self.lastTrial
+      failures[photo] = Self.maximumFailures
       map.register(photo, pose)
       // The pose is rough: its points may have large errors until it is adjusted.
       var roughPoints = growthPoints
@@ -24,8 +24,8 @@ extension MapGrowth {
       try roughPoints.complete(tracks, in: &map, control(map))
       try roughPoints.triangulate(tracks, in: &map, control(map))
       try adjustment.adjustLocally(around: photo, &map, control(map))
-      let isHeld = try addPoints(of: photo, &map)
-      if isHeld && map.activeCount(ofPhoto: photo) >= options.minimumInliers { return true }
+      let isSupported = try addPoints(of: photo, &map)
+      if isSupported && map.activeCount(ofPhoto: photo) >= options.minimumInliers { return true }
       map.remove(photo)
     }
     return false

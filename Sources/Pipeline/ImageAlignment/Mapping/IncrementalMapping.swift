@@ -70,7 +70,7 @@ package struct IncrementalMapping: Sendable {
     let growth = MapGrowth(
       mapping: self, graph: graph, photos: photos, empty: empty, context: context)
     let maps = try growth.run(from: start)
-    context.notes.count("components", Double(maps.count))
+    context.notes.record("components", Double(maps.count))
     var best = maps.first ?? growth.empty
     if best.registered.isEmpty { best = growth.empty }
     return reconstruction(best, others: Array(maps.dropFirst()), graph, features, photos)

@@ -10,19 +10,19 @@ extension MapAdjustment {
   /// is higher by less than `simplificationTolerance`. The decision is made on a subset of the
   /// points; the map isn't adjusted.
   mutating func simplifyCameras(_ map: inout SparseMap, _ control: KernelControl) throws {
-    guard withheld.isEmpty else { return }
+    guard fixedParameters.isEmpty else { return }
     var probe = map.thinned(toObservations: options.simplificationObservations)
     let limit = (1 + options.simplificationTolerance) * (try cost(of: &probe, control))
-    for withheld: BundleAdjustment.CameraFreedom in [
+    for fixedParameters: BundleAdjustment.CameraFreedom in [
       [.k2], [.k1, .k2], [.k1, .k2, .principalPoint],
     ] {
       var (trial, simpler) = (probe, self)
-      simpler.withheld = withheld
-      simpler.resetWithheld(&trial)
+      simpler.fixedParameters = fixedParameters
+      simpler.resetFixedParameters(&trial)
       guard try simpler.cost(of: &trial, control) <= limit else { break }
-      self.withheld = withheld
+      self.fixedParameters = fixedParameters
     }
-    resetWithheld(&map)
+    resetFixedParameters(&map)
   }
 
   /// Runs a global adjustment and returns the robust cost.
@@ -31,11 +31,11 @@ extension MapAdjustment {
   }
 
   /// Resets the excluded parameters to their initial values.
-  private func resetWithheld(_ map: inout SparseMap) {
+  private func resetFixedParameters(_ map: inout SparseMap) {
     for index in map.photos.cameras.indices {
-      if withheld.contains(.k1) { map.photos.cameras[index].distortion.x = 0 }
-      if withheld.contains(.k2) { map.photos.cameras[index].distortion.y = 0 }
-      if withheld.contains(.principalPoint) {
+      if fixedParameters.contains(.k1) { map.photos.cameras[index].distortion.x = 0 }
+      if fixedParameters.contains(.k2) { map.photos.cameras[index].distortion.y = 0 }
+      if fixedParameters.contains(.principalPoint) {
         map.photos.cameras[index].principalPoint = initialCameras[index].principalPoint
       }
     }

@@ -39,7 +39,7 @@ struct MapAdjustment: Sendable {
   /// The cameras before any adjustment, which the priors are centered on.
   var initialCameras: [Camera]
   /// Parameters that are held constant regardless of the number of photos.
-  var withheld: BundleAdjustment.CameraFreedom = []
+  var fixedParameters: BundleAdjustment.CameraFreedom = []
 
   /// Adjusts `photo`, the photos that share the most points with it, and the points it observes.
   /// The other points of these photos are constant and anchor them; intrinsics are constant.
@@ -55,14 +55,14 @@ struct MapAdjustment: Sendable {
     }
     guard points.count >= 3 else { return }
     // The first photo fixes the gauge: its pose is constant.
-    let neighbours = map.registered.dropFirst().filter { $0 != photo && shared[$0] > 0 }
+    let neighbors = map.registered.dropFirst().filter { $0 != photo && shared[$0] > 0 }
       .sorted { (-shared[$0], $0) < (-shared[$1], $1) }.prefix(options.localPhotoCount - 1)
     var poses = map.photos.poses.map { _ in BundleAdjustment.PoseFreedom.constant }
-    for index in [photo] + neighbours { poses[index] = .free }
+    for index in [photo] + neighbors { poses[index] = .free }
     let free = Set(points)
     var anchors = Set<Int>()
-    for neighbour in neighbours {
-      for index in map.tracks.observationsOfPhoto[neighbour] where map.isActive[Int(index)] {
+    for neighbor in neighbors {
+      for index in map.tracks.observationsOfPhoto[neighbor] where map.isActive[Int(index)] {
         let track = Int(map.tracks.trackOfObservation[Int(index)])
         if !free.contains(track) { anchors.insert(track) }
       }
@@ -108,7 +108,7 @@ struct MapAdjustment: Sendable {
       if count >= options.photosForK1 { freedom.insert(.k1) }
       if count >= options.photosForK2 { freedom.insert(.k2) }
       if count >= options.photosForPrincipalPoint { freedom.insert(.principalPoint) }
-      return freedom.subtracting(withheld)
+      return freedom.subtracting(fixedParameters)
     }
   }
 

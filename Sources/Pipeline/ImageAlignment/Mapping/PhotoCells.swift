@@ -41,31 +41,31 @@ struct DepthGrid: Sendable {
   }
 
   /// The smallest depth within one cell side of a pixel; nil if nothing is observed there.
-  func front(at pixel: SIMD2<Double>) -> Double? {
+  func nearestDepth(at pixel: SIMD2<Double>) -> Double? {
     let (column, row) = cells.place(pixel)
-    var front: Double?
+    var nearestDepth: Double?
     for y in max(0, row - 1)...min(cells.rows - 1, row + 1) {
       for x in max(0, column - 1)...min(cells.columns - 1, column + 1) {
         for point in points[y * cells.columns + x]
         where (point.pixel - pixel).length <= cells.side {
-          front = min(front ?? .infinity, point.depth)
+          nearestDepth = min(nearestDepth ?? .infinity, point.depth)
         }
       }
     }
-    return front
+    return nearestDepth
   }
 }
 
 /// Counts of present and absent points, by cell.
-struct AgreementGrid: Sendable {
+struct PresenceGrid: Sendable {
   private let cells: PhotoCells
-  private var agreeing: [Int]
-  private var contradicting: [Int]
+  private var present: [Int]
+  private var absent: [Int]
 
   init(_ photo: Photo, cells count: Int) {
     cells = PhotoCells(width: photo.width, height: photo.height, cells: count)
-    agreeing = Array(repeating: 0, count: cells.columns * cells.rows)
-    contradicting = agreeing
+    present = Array(repeating: 0, count: cells.columns * cells.rows)
+    absent = present
   }
 
   private func index(_ pixel: SIMD2<Double>) -> Int {
@@ -73,15 +73,15 @@ struct AgreementGrid: Sendable {
     return row * cells.columns + column
   }
 
-  mutating func agree(_ pixel: SIMD2<Double>) { agreeing[index(pixel)] += 1 }
+  mutating func countPresent(_ pixel: SIMD2<Double>) { present[index(pixel)] += 1 }
 
-  mutating func contradict(_ pixel: SIMD2<Double>) { contradicting[index(pixel)] += 1 }
+  mutating func countAbsent(_ pixel: SIMD2<Double>) { absent[index(pixel)] += 1 }
 
   /// The number of cells with at least `minimum` absent points and fewer than half as many present
   /// ones.
   func contradictingCells(minimum: Int) -> Int {
-    agreeing.indices.count {
-      contradicting[$0] >= minimum && contradicting[$0] > 2 * agreeing[$0]
+    present.indices.count {
+      absent[$0] >= minimum && absent[$0] > 2 * present[$0]
     }
   }
 }

@@ -8,7 +8,7 @@ struct RotationGraph: Sendable {
   var pairs: [RelativeRotation]
 
   /// The pairs of each photo: the other photo, in ascending order, and the index of the pair.
-  private var neighbours: [[(photo: Int32, pair: Int32)]] {
+  private var neighbors: [[(photo: Int32, pair: Int32)]] {
     var result = [[(photo: Int32, pair: Int32)]](repeating: [], count: photoCount)
     for (index, pair) in pairs.enumerated() {
       result[Int(pair.first)].append((pair.second, Int32(index)))
@@ -26,19 +26,19 @@ struct RotationGraph: Sendable {
   ///
   /// Pairs that are part of no triplet are kept. `limit` is in radians.
   func consistent(limit: Double, minimumShare: Double) -> RotationGraph {
-    let neighbours = neighbours
-    var (good, total) = (pairs.map { _ in 0 }, pairs.map { _ in 0 })
+    let neighbors = neighbors
+    var (consistentCount, total) = (pairs.map { _ in 0 }, pairs.map { _ in 0 })
     for (index, pair) in pairs.enumerated() {
-      let (a, b) = (neighbours[Int(pair.first)], neighbours[Int(pair.second)])
+      let (a, b) = (neighbors[Int(pair.first)], neighbors[Int(pair.second)])
       var (i, j) = (0, 0)
       while i < a.count, j < b.count {
         // Visits each triplet once, from its two lowest photos.
         if a[i].photo == b[j].photo, a[i].photo > pair.second {
           let (other, third) = (pairs[Int(b[j].pair)], pairs[Int(a[i].pair)])
           let loop = third.rotation.conjugate * other.rotation * pair.rotation
-          let isGood = loop.angle <= limit ? 1 : 0
+          let isConsistent = loop.angle <= limit ? 1 : 0
           for member in [index, Int(a[i].pair), Int(b[j].pair)] {
-            good[member] += isGood
+            consistentCount[member] += isConsistent
             total[member] += 1
           }
         }
@@ -47,7 +47,9 @@ struct RotationGraph: Sendable {
     }
     var result = self
     result.pairs = pairs.indices.filter {
-      total[$0] == 0 || (good[$0] > 0 && Double(good[$0]) >= minimumShare * Double(total[$0]))
+      total[$0] == 0
+        || (consistentCount[$0] > 0
+          && Double(consistentCount[$0]) >= minimumShare * Double(total[$0]))
     }.map { pairs[$0] }
     return result
   }
@@ -68,7 +70,7 @@ struct RotationGraph: Sendable {
   /// For each pair, whether it is a bridge: the graph becomes disconnected without it (Tarjan,
   /// 1974).
   private func bridges() -> [Bool] {
-    let neighbours = neighbours
+    let neighbors = neighbors
     var isBridge = pairs.map { _ in false }
     var order = [Int](repeating: -1, count: photoCount)
     var lowest = order
@@ -77,9 +79,9 @@ struct RotationGraph: Sendable {
       var path: [(photo: Int, next: Int, pair: Int)] = [(start, 0, -1)]
       (order[start], lowest[start], clock) = (clock, clock, clock + 1)
       while let top = path.last {
-        if top.next < neighbours[top.photo].count {
+        if top.next < neighbors[top.photo].count {
           path[path.count - 1].next += 1
-          let (photo, pair) = neighbours[top.photo][top.next]
+          let (photo, pair) = neighbors[top.photo][top.next]
           if Int(pair) == top.pair { continue }
           if order[Int(photo)] >= 0 {
             lowest[top.photo] = min(lowest[top.photo], order[Int(photo)])
@@ -121,13 +123,13 @@ struct RotationGraph: Sendable {
     for index in pairs.indices.sorted(by: { (-pairs[$0].weight, $0) < (-pairs[$1].weight, $1) }) {
       isInTree[index] = sets.join(Int(pairs[index].first), Int(pairs[index].second))
     }
-    let neighbours = neighbours
+    let neighbors = neighbors
     var rotations = [Quaternion?](repeating: nil, count: photoCount)
     var reached = photoCount > 0 ? [0] : []
     if photoCount > 0 { rotations[0] = .identity }
     while let photo = reached.popLast() {
       guard let own = rotations[photo] else { continue }
-      for (other, index) in neighbours[photo] where isInTree[Int(index)] {
+      for (other, index) in neighbors[photo] where isInTree[Int(index)] {
         guard rotations[Int(other)] == nil else { continue }
         let pair = pairs[Int(index)]
         let step = Int(pair.first) == photo ? pair.rotation : pair.rotation.conjugate

@@ -36,7 +36,7 @@ package struct SelfCalibration {
   }
 
   /// The matches of a pair, at depth 1 for the assumed focal length.
-  private struct Evidence: Sendable {
+  private struct PairMatches: Sendable {
     var first: [SIMD2<Double>]
     var second: [SIMD2<Double>]
     var fundamental: Matrix3
@@ -132,7 +132,7 @@ package struct SelfCalibration {
 
   private func evidence(
     _ pair: VerifiedPair, _ camera: Camera, _ features: [FeatureSet], _ limit: Double
-  ) throws -> Evidence? {
+  ) throws -> PairMatches? {
     let stride = max(1, pair.matches.count / options.maximumMatches)
     let matches = Swift.stride(from: 0, to: pair.matches.count, by: stride).map { pair.matches[$0] }
     func points(_ photo: ID<Photo>, _ index: (FeatureMatch) -> Int32) -> [SIMD2<Double>] {
@@ -145,6 +145,6 @@ package struct SelfCalibration {
     estimation.isCalibrated = false
     estimation.maximumError = limit
     let geometry = try estimation.geometry(first, second, KernelControl())
-    return geometry.map { Evidence(first: first, second: second, fundamental: $0.matrix) }
+    return geometry.map { PairMatches(first: first, second: second, fundamental: $0.matrix) }
   }
 }

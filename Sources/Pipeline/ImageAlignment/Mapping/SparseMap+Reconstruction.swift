@@ -3,7 +3,7 @@ import SceneModel
 
 extension SparseMap {
   /// A new observation of a track.
-  struct Addition: Hashable, Sendable {
+  struct NewObservation: Hashable, Sendable {
     var track: Int
     var photo: Int
     var pixel: SIMD2<Double>
@@ -85,8 +85,8 @@ extension SparseMap {
   }
 
   /// Adds observations to tracks, or replaces inactive observations of the same photos.
-  mutating func add(_ additions: [Addition]) {
-    var added = [[Addition]](repeating: [], count: tracks.count)
+  mutating func add(_ additions: [NewObservation]) {
+    var added = [[NewObservation]](repeating: [], count: tracks.count)
     for addition in additions { added[addition.track].append(addition) }
     var members: [[(photo: Int32, feature: Int32, pixel: SIMD2<Double>, isActive: Bool)]] = []
     for track in 0..<tracks.count {

@@ -124,19 +124,19 @@ struct SparseMap: Sendable {
     }
     for track in 0..<tracks.count {
       let all = Array(tracks.observations(of: track))
-      let strays =
+      let outliers =
         isTriangulated[track]
         ? all.filter { !isActive[$0] && isRegistered(Int(tracks.photos[$0])) } : []
-      let kept = strays.count >= 2 ? all.filter { !strays.contains($0) } : all
+      let kept = outliers.count >= 2 ? all.filter { !outliers.contains($0) } : all
       result.append(kept.map(member))
       newPositions.append(positions[track])
       newTriangulated.append(isTriangulated[track])
       newActive += kept.map { isActive[$0] }
-      if strays.count >= 2 {
-        result.append(strays.map(member))
+      if outliers.count >= 2 {
+        result.append(outliers.map(member))
         newPositions.append(.zero)
         newTriangulated.append(false)
-        newActive += strays.map { _ in false }
+        newActive += outliers.map { _ in false }
       }
     }
     (tracks, positions, isTriangulated, isActive) = (

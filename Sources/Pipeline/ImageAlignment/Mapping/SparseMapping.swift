@@ -42,7 +42,7 @@ package struct SparseMapping: Sendable {
       : try GlobalMapping(options.global, growth: options.incremental)
         .start(graph, features: features, empty, context.part(from: 0.1, to: 0.4))
     func grown(from start: SparseMap?) throws -> Reconstruction {
-      context.notes.count("globalPhotos", Double(start?.registered.count ?? 0))
+      context.notes.record("globalPhotos", Double(start?.registered.count ?? 0))
       return try IncrementalMapping(options.incremental).run(
         graph, features: features, photos: photos, empty: empty, from: start,
         context.part(from: start == nil ? 0.1 : 0.4, to: 1))

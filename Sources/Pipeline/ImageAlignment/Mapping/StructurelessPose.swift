@@ -16,13 +16,13 @@ struct StructurelessPose: Sendable {
     /// Maximum angle in degrees between a pair's rotation or direction and the pose.
     var maximumErrorDegrees = 5.0
     /// Minimum angle in degrees at which two directions must intersect.
-    var minimumMeetingDegrees = 10.0
+    var minimumIntersectionDegrees = 10.0
   }
 
   var options = Options()
 
   /// The constraint from one pair with a registered photo.
-  private struct Hint {
+  private struct PairConstraint {
     /// `photoFromWorld` rotation of the photo to be registered.
     var rotation: Quaternion
     /// The other photo's center, and the unit direction from it, in the world frame.
@@ -34,16 +34,18 @@ struct StructurelessPose: Sendable {
   func run(
     _ photo: Int, pairs: [VerifiedPair], poses: [RigidTransform?]
   ) -> RigidTransform? {
-    let hints = pairs.compactMap { hint(photo, $0, poses) }
-    guard let agreeing = largestAgreement(hints.map(\.rotation)),
+    let constraints = pairs.compactMap { constraint(photo, $0, poses) }
+    guard let agreeing = largestAgreement(constraints.map(\.rotation)),
       agreeing.count >= options.minimumPairs
     else { return nil }
-    let rotation = mean(agreeing.map { hints[$0].rotation })
-    guard let center = meetingPoint(agreeing.map { hints[$0] }) else { return nil }
+    let rotation = mean(agreeing.map { constraints[$0].rotation })
+    guard let center = robustIntersection(agreeing.map { constraints[$0] }) else { return nil }
     return RigidTransform(rotation: rotation, translation: -(rotation * center))
   }
 
-  private func hint(_ photo: Int, _ pair: VerifiedPair, _ poses: [RigidTransform?]) -> Hint? {
+  private func constraint(_ photo: Int, _ pair: VerifiedPair, _ poses: [RigidTransform?])
+    -> PairConstraint?
+  {
     let isFirst = pair.pair.first.index == photo
     guard isFirst || pair.pair.second.index == photo,
       pair.matches.count >= options.minimumMatches,
@@ -52,7 +54,7 @@ struct StructurelessPose: Sendable {
       let other = poses[isFirst ? pair.pair.second.index : pair.pair.first.index]
     else { return nil }
     let photoFromOther = isFirst ? secondFromFirst.inverse : secondFromFirst
-    return Hint(
+    return PairConstraint(
       rotation: (photoFromOther.rotation * other.rotation).normalized, origin: other.center,
       direction: (other.rotation.conjugate * photoFromOther.center).normalized)
   }
@@ -75,41 +77,43 @@ struct StructurelessPose: Sendable {
 
   /// The robust intersection of the directions: the best intersection of two, then of all that
   /// agree with it.
-  private func meetingPoint(_ hints: [Hint]) -> SIMD3<Double>? {
-    var best: [Hint] = []
-    for first in hints.indices {
-      for second in hints.indices where second > first {
-        guard let point = meeting([hints[first], hints[second]]) else { continue }
-        let agreeing = hints.filter { isNear(point, $0) }
+  private func robustIntersection(_ constraints: [PairConstraint]) -> SIMD3<Double>? {
+    var best: [PairConstraint] = []
+    for first in constraints.indices {
+      for second in constraints.indices where second > first {
+        guard let point = intersection([constraints[first], constraints[second]]) else { continue }
+        let agreeing = constraints.filter { isConsistent(point, $0) }
         if agreeing.count > best.count { best = agreeing }
       }
     }
-    guard best.count >= options.minimumPairs, let point = meeting(best),
-      best.allSatisfy({ isNear(point, $0) })
+    guard best.count >= options.minimumPairs, let point = intersection(best),
+      best.allSatisfy({ isConsistent(point, $0) })
     else { return nil }
     return point
   }
 
-  private func isNear(_ point: SIMD3<Double>, _ hint: Hint) -> Bool {
-    (point - hint.origin).normalized.dot(hint.direction)
+  private func isConsistent(_ point: SIMD3<Double>, _ constraint: PairConstraint) -> Bool {
+    (point - constraint.origin).normalized.dot(constraint.direction)
       >= cos(options.maximumErrorDegrees * .pi / 180)
   }
 
   /// The point closest to all lines in the least-squares sense; nil if they are nearly parallel.
-  private func meeting(_ hints: [Hint]) -> SIMD3<Double>? {
-    let cosines = hints.map { abs($0.direction.dot(hints[0].direction)) }
-    guard (cosines.min() ?? 1) < cos(options.minimumMeetingDegrees * .pi / 180) else { return nil }
+  private func intersection(_ constraints: [PairConstraint]) -> SIMD3<Double>? {
+    let cosines = constraints.map { abs($0.direction.dot(constraints[0].direction)) }
+    guard (cosines.min() ?? 1) < cos(options.minimumIntersectionDegrees * .pi / 180) else {
+      return nil
+    }
     // Σ (I − d dᵀ) x = Σ (I − d dᵀ) o
     var rows = [SIMD3<Double>](repeating: .zero, count: 3)
     var right = SIMD3<Double>.zero
-    for hint in hints {
-      let d = hint.direction
+    for constraint in constraints {
+      let d = constraint.direction
       for row in 0..<3 {
         var unit = SIMD3<Double>.zero
         unit[row] = 1
         rows[row] += unit - d[row] * d
       }
-      right += hint.origin - d.dot(hint.origin) * d
+      right += constraint.origin - d.dot(constraint.origin) * d
     }
     let determinant = rows[0].dot(rows[1].cross(rows[2]))
     guard abs(determinant) > 1e-12 else { return nil }

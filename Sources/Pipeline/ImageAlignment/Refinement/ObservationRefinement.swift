@@ -32,7 +32,7 @@ package struct ObservationRefinement: Sendable {
     package var minimumPointShare = 0.5
     /// Maximum number of photos that a point is searched for in: those that share the most points
     /// with its reference photo.
-    package var neighbours = 20
+    package var neighbors = 20
     /// Maximum angle in degrees between a new observation's ray and the mean of the known ones.
     package var maximumAngleDegrees = 40.0
     /// Maximum reprojection error as a multiple of the median, and its bounds in working pixels.
@@ -66,16 +66,16 @@ package struct ObservationRefinement: Sendable {
       map, features: features, photos: reconstruction.photos, images: images, options,
       context.part(from: 0, to: 0.2))
     try search.refine(&map, context.part(from: 0.2, to: 0.4))
-    try settle(&map, &adjustment, context.part(from: 0.4, to: 0.5))
+    try adjustAndFilter(&map, &adjustment, context.part(from: 0.4, to: 0.5))
     let found = try search.extend(&map, context.part(from: 0.5, to: 0.75))
-    context.notes.count("newObservations", Double(found))
-    try settle(&map, &adjustment, context.part(from: 0.75, to: 0.85))
+    context.notes.record("newObservations", Double(found))
+    try adjustAndFilter(&map, &adjustment, context.part(from: 0.75, to: 0.85))
     try adjustment.simplifyCameras(&map, context.control.part(from: 0.85, to: 0.9))
-    try settle(&map, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
+    try adjustAndFilter(&map, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
     var refined = map.reconstruction(like: reconstruction, features: features)
-    let isHollow =
+    let losesTooManyPoints =
       Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
-    guard !isHollow else { return reconstruction }
+    guard !losesTooManyPoints else { return reconstruction }
     refined.unregistered += reconstruction.registered.map(\.index)
       .filter { !map.isRegistered($0) }.map { Self.refusal(of: reconstruction.photos[$0]) }
     return refined
@@ -90,7 +90,7 @@ package struct ObservationRefinement: Sendable {
 
   /// Runs a global adjustment and removes what then contradicts it: observations, and photos with
   /// too few remaining observations, whose poses would no longer be updated.
-  private func settle(
+  private func adjustAndFilter(
     _ map: inout SparseMap, _ adjustment: inout MapAdjustment, isFinal: Bool = false,
     _ context: StageContext
   ) throws {

@@ -6,7 +6,7 @@ import SceneModel
 struct TemplateSearch: Sendable {
   private let options: ObservationRefinement.Options
   private let photos: [Photo]
-  private let reading: TemplateReading
+  private let extraction: TemplateExtraction
   /// The reference of each track; nil if it has none.
   private let references: [TrackReference?]
   private let templates: TemplateMatching.Templates
@@ -26,7 +26,7 @@ struct TemplateSearch: Sendable {
     _ options: ObservationRefinement.Options, _ context: StageContext
   ) throws {
     (self.options, self.photos) = (options, photos)
-    reading = TemplateReading(
+    extraction = TemplateExtraction(
       photos: photos, images: images, workingPixels: options.workingPixels)
     references = (0..<map.tracks.count).map { track in
       guard map.isTriangulated[track] else { return nil }
@@ -38,7 +38,7 @@ struct TemplateSearch: Sendable {
           options.workingPixel(width: photos[photo].width, height: photos[photo].height))
       }
     }
-    templates = try reading.templates(of: references, context.control)
+    templates = try extraction.templates(of: references, context.control)
   }
 
   /// Moves the observations of the map to where their templates are found; deactivates those whose
@@ -76,18 +76,18 @@ struct TemplateSearch: Sendable {
   /// Adds observations of points in photos that should show them, within the photos' masks; returns
   /// how many.
   func extend(_ map: inout SparseMap, _ context: StageContext) throws -> Int {
-    let neighbours = neighbours(map)
+    let neighbors = neighbors(map)
     var candidates = [[Candidate]](repeating: [], count: photos.count)
     for (track, reference) in references.enumerated() {
       guard let reference, templates.isValid[track], map.isTriangulated[track] else { continue }
-      for candidate in newViews(of: track, reference, neighbours[reference.photo], map) {
+      for candidate in newViews(of: track, reference, neighbors[reference.photo], map) {
         candidates[candidate.photo].append(candidate.value)
       }
     }
     let finds = try finds(
       candidates, shift: options.maximumNewShift, correlation: options.minimumNewCorrelation,
       context)
-    var additions: [SparseMap.Addition] = []
+    var additions: [SparseMap.NewObservation] = []
     for (photo, found) in finds.enumerated() {
       for (candidate, pixel) in zip(candidates[photo], found) {
         if let pixel { additions.append(.init(track: candidate.track, photo: photo, pixel: pixel)) }
@@ -99,14 +99,14 @@ struct TemplateSearch: Sendable {
 
   /// The photos in which a point should be visible but has no active observation.
   private func newViews(
-    of track: Int, _ reference: TrackReference, _ neighbours: [Int], _ map: SparseMap
+    of track: Int, _ reference: TrackReference, _ neighbors: [Int], _ map: SparseMap
   ) -> [(photo: Int, value: Candidate)] {
     let known = Set(map.activeObservations(of: track).map { Int(map.tracks.photos[$0]) })
     guard known.contains(reference.photo) else { return [] }
     var current = reference
     current.point = map.positions[track]
     let leastCosine = cos(options.maximumAngleDegrees * .pi / 180)
-    return neighbours.compactMap { photo in
+    return neighbors.compactMap { photo in
       guard !known.contains(photo), let pose = map.photos.poses[photo],
         (pose.center - current.point).normalized.dot(current.normal) >= leastCosine,
         let (pixel, warp) = current.warp(to: photo, in: map.photos),
@@ -118,7 +118,7 @@ struct TemplateSearch: Sendable {
   }
 
   /// For each photo, the photos that share the most points with it.
-  private func neighbours(_ map: SparseMap) -> [[Int]] {
+  private func neighbors(_ map: SparseMap) -> [[Int]] {
     (0..<photos.count).map { photo in
       var shared = [Int](repeating: 0, count: photos.count)
       for index in map.tracks.observationsOfPhoto[photo] where map.isActive[Int(index)] {
@@ -129,7 +129,7 @@ struct TemplateSearch: Sendable {
       }
       return Array(
         shared.indices.filter { $0 != photo && shared[$0] > 0 }
-          .sorted { (-shared[$0], $0) < (-shared[$1], $1) }.prefix(options.neighbours))
+          .sorted { (-shared[$0], $0) < (-shared[$1], $1) }.prefix(options.neighbors))
     }
   }
 
@@ -142,7 +142,7 @@ struct TemplateSearch: Sendable {
     matching.maximumShift = shift
     return try context.control.parallelMap(candidates.count) { [self, matching] photo in
       guard !candidates[photo].isEmpty else { return [] }
-      let (image, factor) = try reading.image(photo)
+      let (image, factor) = try extraction.image(photo)
       let searches = candidates[photo].map { candidate in
         let reference = references[candidate.track]
         let source = photos[reference?.photo ?? photo]
@@ -151,11 +151,11 @@ struct TemplateSearch: Sendable {
           template: candidate.track, step: (reference?.step ?? from) / from,
           warp: candidate.warp * from * factor.x, expected: candidate.expected * factor)
       }
-      let isOfObject = try reading.isOfObject(photo)
-      let finds = try matching.finds(searches, of: templates, in: image)
+      let isOnObject = try extraction.isOnObject(photo)
+      let finds = try matching.matches(searches, of: templates, in: image)
       return zip(candidates[photo], finds).map { candidate, find in
         guard let find, find.zncc >= correlation,
-          candidate.observation != nil || isOfObject(find.center)
+          candidate.observation != nil || isOnObject(find.center)
         else { return nil }
         return find.center / factor
       }

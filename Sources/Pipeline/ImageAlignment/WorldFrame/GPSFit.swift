@@ -34,7 +34,7 @@ struct GPSFit: Sendable {
   /// `priorUp` is the vertical known from another source. If altitudes are missing, the fit is
   /// horizontal only: the centers are projected along `priorUp`.
   init?(
-    _ reconstruction: Reconstruction, up priorUp: SIMD3<Double>, _ options: WorldFraming.Options
+    _ reconstruction: Reconstruction, up priorUp: SIMD3<Double>, _ options: WorldAlignment.Options
   ) {
     let located = reconstruction.photos.compactMap { photo in
       reconstruction.poses[photo.id.index].flatMap { pose in
@@ -134,7 +134,7 @@ struct GPSFit: Sendable {
   /// The least-squares similarity over the inliers, found by RANSAC; nil unless more than half of
   /// the pairs are inliers.
   private static func robustFit(
-    _ pairs: [Located], _ options: WorldFraming.Options
+    _ pairs: [Located], _ options: WorldAlignment.Options
   ) -> (SimilarityTransform, [Located])? {
     var random = SplitMix64(seed: options.seed)
     var best: SimilarityTransform?

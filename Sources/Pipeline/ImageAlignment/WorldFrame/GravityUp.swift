@@ -32,8 +32,8 @@ struct GravityUp: Sendable {
     let agreeing =
       upright.map { up in upright.filter { agree($0, up) } }
       .max { $0.count < $1.count } ?? []
-    notes.count("gravityPhotos", Double(known.count))
-    notes.count("gravityPhotosUsed", Double(agreeing.count))
+    notes.record("gravityPhotos", Double(known.count))
+    notes.record("gravityPhotosUsed", Double(agreeing.count))
     guard Double(agreeing.count) >= options.minimumShare * Double(known.count) else {
       notes.warn(
         "The samples' gravity is not used: only \(agreeing.count) of \(known.count) agree with "

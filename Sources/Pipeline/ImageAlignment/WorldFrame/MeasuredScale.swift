@@ -19,11 +19,11 @@ struct MeasuredScale: Sendable {
     var problems: [String] = []
     var used: [(length: Double, meters: Double)] = []
     for distance in distances {
-      do throws(Unusable) {
+      do throws(UnusableDistance) {
         let a = try place(of: distance.from, in: reconstruction, &problems)
         let b = try place(of: distance.to, in: reconstruction, &problems)
         guard (a - b).length > 0, distance.meters > 0 else {
-          throw Unusable(reason: "its ends are the same place")
+          throw UnusableDistance(reason: "its ends are the same place")
         }
         used.append(((a - b).length, distance.meters))
       } catch {
@@ -45,13 +45,13 @@ struct MeasuredScale: Sendable {
   }
 
   /// Why a distance is unusable; `reason` completes "The known distance can't be used: …".
-  private struct Unusable: Error {
+  private struct UnusableDistance: Error {
     var reason: String
   }
 
   private static func place(
     of end: KnownDistance.End, in reconstruction: Reconstruction, _ problems: inout [String]
-  ) throws(Unusable) -> SIMD3<Double> {
+  ) throws(UnusableDistance) -> SIMD3<Double> {
     switch end {
     case .camera(let name): return try photo(name, reconstruction).pose.center
     case .point(let picks): return try point(picks, reconstruction, &problems)
@@ -60,12 +60,12 @@ struct MeasuredScale: Sendable {
 
   private static func photo(
     _ name: String, _ reconstruction: Reconstruction
-  ) throws(Unusable) -> (camera: Camera, pose: RigidTransform) {
+  ) throws(UnusableDistance) -> (camera: Camera, pose: RigidTransform) {
     guard let photo = reconstruction.photos.first(where: { $0.name == name }) else {
-      throw Unusable(reason: "\(name) is not among the photos that are used")
+      throw UnusableDistance(reason: "\(name) is not among the photos that are used")
     }
     guard let pose = reconstruction.poses[photo.id.index] else {
-      throw Unusable(reason: "\(name) could not be aligned")
+      throw UnusableDistance(reason: "\(name) could not be aligned")
     }
     return (reconstruction.camera(of: photo.id), pose)
   }
@@ -75,20 +75,20 @@ struct MeasuredScale: Sendable {
   /// Triangulates a point from the rays of its picks.
   private static func point(
     _ picks: [KnownDistance.Pick], _ reconstruction: Reconstruction, _ problems: inout [String]
-  ) throws(Unusable) -> SIMD3<Double> {
+  ) throws(UnusableDistance) -> SIMD3<Double> {
     var views: [View] = []
     for pick in picks {
       let (camera, pose) = try photo(pick.photo, reconstruction)
       views.append((pick, camera, pose))
     }
     guard let point = intersection(views) else {
-      throw Unusable(
+      throw UnusableDistance(
         reason: "a point needs picks in two photos or more that were taken from different sides")
     }
     for view in views {
       let inCamera = view.pose * point
       guard inCamera.z > 0 else {
-        throw Unusable(reason: "the picks of a point don't show the same place")
+        throw UnusableDistance(reason: "the picks of a point don't show the same place")
       }
       let error = (view.camera.project(inCamera) - [view.pick.x, view.pick.y]).length
       if error > largestPickError * Double(max(view.camera.width, view.camera.height)) {

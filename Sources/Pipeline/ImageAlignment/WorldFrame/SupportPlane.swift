@@ -15,7 +15,7 @@ struct SupportPlane: Sendable {
   /// Nil if no plane compatible with the cameras' up direction has enough points.
   init?(
     _ object: ObjectRegion, centers: [SIMD3<Double>], up: SIMD3<Double>,
-    _ options: WorldFraming.Options
+    _ options: WorldAlignment.Options
   ) {
     guard object.surroundings.count >= 50 else { return nil }
     let thickness = options.planeThickness * object.cameraDistance
@@ -34,7 +34,7 @@ struct SupportPlane: Sendable {
   /// Finds the plane by RANSAC, rewarding low points on it and penalizing points below it.
   private init?(
     _ points: [SIMD3<Double>], up: SIMD3<Double>, tilt: Double, _ thickness: Double,
-    _ options: WorldFraming.Options
+    _ options: WorldAlignment.Options
   ) {
     let heights = points.map { $0.dot(up) }.sorted()
     // With an inaccurate up direction, low points may lie slightly above the median.
@@ -62,7 +62,7 @@ struct SupportPlane: Sendable {
 
   private func isSupport(
     _ object: ObjectRegion, _ centers: [SIMD3<Double>], _ thickness: Double,
-    _ options: WorldFraming.Options
+    _ options: WorldAlignment.Options
   ) -> Bool {
     let points = object.surroundings
     let heights = points.map(distance)

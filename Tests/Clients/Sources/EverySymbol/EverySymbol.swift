@@ -21,7 +21,7 @@ struct EverySymbol {
     try useImages(photo)
     try useRendering(photo)
     useLogs()
-    useKinds()
+    useContentTypes()
     try useSystem(photo)
     await usePublishers()
     let session = try Session(input: photos, configuration: makeConfiguration(checkpoint: folder))

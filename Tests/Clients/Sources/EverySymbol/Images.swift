@@ -7,7 +7,7 @@ func useImages(_ photo: URL) throws {
   try useSource(photo)
   useProperties()
   useBitmaps()
-  useColours()
+  useColors()
   useTransforms()
 }
 
@@ -193,7 +193,7 @@ private func draw(_ image: CGImage, _ info: UInt32) {
   check(pixel(disc, 4, 4)[3] == 255 && pixel(disc, 0, 0)[3] == 0, "round")
 }
 
-private func useColours() {
+private func useColors() {
   let names = [
     CGColorSpace.sRGB, CGColorSpace.linearSRGB, CGColorSpace.extendedSRGB, CGColorSpace.displayP3,
     CGColorSpace.genericRGBLinear, CGColorSpace.adobeRGB1998,

@@ -38,7 +38,7 @@ func usePublishers() async {
   let known: AnyPublisher<Bool, Never> = names.map { $0 != nil }.eraseToAnyPublisher()
   known.sink { check($0 == (progress.stage != "nobody"), "in order") }.store(in: &handles)
   names.compactMap { $0 }.dropFirst().assign(to: \.stage, on: progress).store(in: &handles)
-  for name in ["a", "x", "b"] { tell(name, by: names) }
+  for name in ["a", "x", "b"] { publish(name, by: names) }
   check(progress.stage == "b", "assigned")
   Just("c").assign(to: &progress.$stage)
   check(progress.stage == "c", "followed")
@@ -67,7 +67,9 @@ func usePublishers() async {
   _ = schedule(on: DispatchQueue.main)
 }
 
-private func tell(_ name: String?, by subject: some Subject<String?, Never>) { subject.send(name) }
+private func publish(_ name: String?, by subject: some Subject<String?, Never>) {
+  subject.send(name)
+}
 
 /// Publishers of any type can be passed on.
 private func schedule(on queue: some Scheduler) -> any Publisher<Int, Never> {

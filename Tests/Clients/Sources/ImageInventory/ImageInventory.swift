@@ -19,28 +19,28 @@ struct ImageInventory {
   static func main() throws {
     let start = CFAbsoluteTimeGetCurrent()
     let folder = URL(fileURLWithPath: CommandLine.arguments[1], isDirectory: true)
-    let sheet = URL(fileURLWithPath: CommandLine.arguments[2])
+    let overview = URL(fileURLWithPath: CommandLine.arguments[2])
     let files = try FileManager.default.contentsOfDirectory(
       at: folder, includingPropertiesForKeys: [.fileSizeKey], options: [.skipsHiddenFiles]
     ).filter { UTType(filenameExtension: $0.pathExtension)?.conforms(to: .image) == true }
       .sorted { $0.lastPathComponent < $1.lastPathComponent }
     let entries = OSAllocatedUnfairLock(initialState: [Int: Entry]())
     DispatchQueue.concurrentPerform(iterations: files.count) { index in
-      let entry = autoreleasepool { look(at: files[index]) }
+      let entry = autoreleasepool { inspect(at: files[index]) }
       entries.withLock { $0[index] = entry }
     }
     let found = entries.withLock { all in files.indices.compactMap { all[$0] } }
     let encoder = JSONEncoder()
     encoder.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]
     print(String(decoding: try encoder.encode(Array(found.prefix(1))), as: UTF8.self))
-    try drawSheet(of: files.prefix(9), to: sheet)
+    try drawOverview(of: files.prefix(9), to: overview)
     let seconds: CFTimeInterval = CFAbsoluteTimeGetCurrent() - start
     DispatchQueue.main.async { CFRunLoopStop(CFRunLoopGetMain()) }
     CFRunLoopRun()
     print("inspected \(found.count) of \(files.count)", seconds < 60)
   }
 
-  static func look(at file: URL) -> Entry? {
+  static func inspect(at file: URL) -> Entry? {
     guard let source = CGImageSourceCreateWithURL(file as CFURL, nil),
       let properties = CGImageSourceCopyPropertiesAtIndex(source, 0, nil) as? [CFString: Any],
       let width = (properties[kCGImagePropertyPixelWidth] as? NSNumber)?.intValue,
@@ -52,7 +52,7 @@ struct ImageInventory {
       focalLength: exif?[kCGImagePropertyExifFocalLength] as? Double)
   }
 
-  static func drawSheet(of files: some Collection<URL>, to sheet: URL) throws {
+  static func drawOverview(of files: some Collection<URL>, to overview: URL) throws {
     let side: CGFloat = 96
     let rendering = CIContext()
     guard
@@ -74,7 +74,7 @@ struct ImageInventory {
     }
     guard let image = context.makeImage(),
       let file = CGImageDestinationCreateWithURL(
-        sheet as CFURL, UTType.png.identifier as CFString, 1, nil)
+        overview as CFURL, UTType.png.identifier as CFString, 1, nil)
     else { throw CocoaError(.fileWriteUnknown) }
     CGImageDestinationAddImage(file, image, nil)
     guard CGImageDestinationFinalize(file) else { throw CocoaError(.fileWriteUnknown) }

@@ -12,7 +12,7 @@ actor Scanner {
     case stage(String, left: TimeInterval?)
   }
 
-  struct Cancelled: LocalizedError {
+  struct Canceled: LocalizedError {
     var errorDescription: String? { "The scan was canceled." }
   }
 
@@ -38,7 +38,7 @@ actor Scanner {
             case .requestProgressInfo(_, let info):
               let stage = info.processingStage.map { String(describing: $0) } ?? "begin"
               continuation.yield(.stage(stage, left: info.estimatedRemainingTime))
-            case .processingCancelled: throw Cancelled()
+            case .processingCancelled: throw Canceled()
             case .processingComplete:
               continuation.finish()
               return
@@ -71,7 +71,7 @@ actor Scanner {
   ) {
     let outputs = session.outputs
     Task.detached(priority: .userInitiated) {
-      var outcome: Result<PhotogrammetrySession.Result, any Error> = .failure(Cancelled())
+      var outcome: Result<PhotogrammetrySession.Result, any Error> = .failure(Canceled())
       do {
         for try await output in outputs {
           switch output {

@@ -46,33 +46,33 @@ struct WatchedCommand: AsyncParsableCommand {
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     var configuration = PhotogrammetrySession.Configuration()
     configuration.featureSensitivity = featureSensitivity
-    let pipeline = try Pipeline(input: input, configuration: configuration)
+    let runner = try SessionRunner(input: input, configuration: configuration)
     var last = 0.0
-    pipeline.onProgress = { last = max(last, $0) }
+    runner.onProgress = { last = max(last, $0) }
     let interrupts = DispatchSource.makeSignalSource(signal: SIGINT, queue: .main)
     interrupts.setEventHandler { Foundation.exit(130) }
     interrupts.resume()
     do {
-      try await pipeline.run([.poses, .bounds], timeout: timeout)
+      try await runner.run([.poses, .bounds], timeout: timeout)
       let upper = BoundingBox(
-        min: SIMD3(pipeline.box.min.x, pipeline.box.center.y, pipeline.box.min.z),
-        max: pipeline.box.max)
+        min: SIMD3(runner.box.min.x, runner.box.center.y, runner.box.min.z),
+        max: runner.box.max)
       let models = details.map { detail in
         PhotogrammetrySession.Request.modelFile(
           url: folder.appendingPathComponent("\(detail).usdz"), detail: detail,
           geometry: .init(bounds: upper))
       }
-      try await pipeline.run(models, timeout: timeout)
+      try await runner.run(models, timeout: timeout)
     } catch {
       print("failed: \(error)")
       throw ExitCode(3)
     }
     let frames = autoreleasepool {
-      pipeline.placed.sorted { $0.key < $1.key }.map { Frame(id: $0.key, transform: $0.value) }
+      runner.posesByID.sorted { $0.key < $1.key }.map { Frame(id: $0.key, transform: $0.value) }
     }
     let encoder = JSONEncoder()
     encoder.outputFormatting = [.prettyPrinted, .sortedKeys]
     try encoder.encode(frames).write(to: folder.appendingPathComponent("poses.json"))
-    print("\(frames.count) poses, progress \(last), size \(pipeline.box.extents)")
+    print("\(frames.count) poses, progress \(last), size \(runner.box.extents)")
   }
 }

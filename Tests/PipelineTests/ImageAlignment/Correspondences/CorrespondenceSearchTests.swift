@@ -33,7 +33,7 @@ import Testing
   }
 
   @Test(arguments: SyntheticScene.Layout.allCases)
-  func relativePosesAreRight(layout: SyntheticScene.Layout) throws {
+  func relativePosesAreCorrect(layout: SyntheticScene.Layout) throws {
     let scene = Self.scene(layout)
     let graph = try Self.search(scene, camera: Self.exif(scene)).viewGraph
     let common = scene.viewGraph.pairs.filter { $0.matches.count >= 60 }
@@ -74,7 +74,7 @@ import Testing
   }
 
   /// Pairs with too few matches are recorded with their number of matches and the number required.
-  @Test func rejectedPairsAreNamed() throws {
+  @Test func rejectedPairsAreRecorded() throws {
     let scene = Self.scene()
     let counts = try Self.search(scene, camera: Self.exif(scene)).viewGraph.pairs
       .map(\.matches.count).sorted()
@@ -99,14 +99,14 @@ import Testing
     #expect(one.viewGraph.pairs == two.viewGraph.pairs && one.cameras == two.cameras)
   }
 
-  @Test func strangersAreNotPaired() throws {
+  @Test func unrelatedPhotosAreNotPaired() throws {
     let scene = Self.scene(photos: 12, secondComponentStart: 6)
     let graph = try Self.search(scene, camera: Self.exif(scene)).viewGraph
     #expect(!graph.pairs.isEmpty)
     #expect(graph.pairs.allSatisfy { ($0.pair.first.index < 6) == ($0.pair.second.index < 6) })
   }
 
-  @Test func sequenceClosesItsLoop() throws {
+  @Test func sequenceContainsLoopClosures() throws {
     let scene = Self.scene(photos: 40)
     let pairs = try PairSelection().run(scene.features, isSequential: true, StageContext()).pairs
     #expect(pairs == pairs.sorted() && Set(pairs).count == pairs.count)

@@ -25,7 +25,7 @@ import Testing
 
   /// Positions and scales refer to the full-size photo even if the photo is searched at half its
   /// size.
-  @Test func reducedPhotoHasPositionsOfTheFullOne() throws {
+  @Test func reducedPhotoKeepsFullSizeCoordinates() throws {
     let image = TexturePattern.image(width: 640, height: 480, seed: 3)
     var options = FeatureExtraction.Options()
     options.sparseFeatures = 0
@@ -41,7 +41,7 @@ import Testing
     #expect(errors.sorted()[errors.count / 4] < 0.2)
   }
 
-  @Test func largePhotosAreNotDoubled() throws {
+  @Test func largePhotosAreNotUpsampled() throws {
     let image = TexturePattern.image(width: 400, height: 300, seed: 4)
     var options = FeatureExtraction.Options()
     options.sparseFeatures = 0

@@ -28,23 +28,23 @@ import Testing
     return (graph, after)
   }
 
-  private func isRight(_ match: FeatureMatch, _ pair: PhotoPair) -> Bool {
+  private func isCorrect(_ match: FeatureMatch, _ pair: PhotoPair) -> Bool {
     Self.scene.pointOfFeature[pair.first.index][Int(match.first)]
       == Self.scene.pointOfFeature[pair.second.index][Int(match.second)]
   }
 
-  @Test func weakPairsGainRightMatches() throws {
+  @Test func weakPairsGainCorrectMatches() throws {
     let (before, after) = try guided(Self.scene.features)
     let pairs = zip(before.pairs, after.pairs)
     #expect(pairs.allSatisfy { $1.matches.count >= $0.matches.count })
     #expect(pairs.contains { $1.matches.count > 2 * $0.matches.count })
     for pair in after.pairs {
-      let right = pair.matches.count { isRight($0, pair.pair) }
+      let right = pair.matches.count { isCorrect($0, pair.pair) }
       #expect(Double(right) >= 0.98 * Double(pair.matches.count))
     }
   }
 
-  @Test func featuresOfAnotherScaleOrTurnStayOut() throws {
+  @Test func inconsistentScaleOrOrientationIsRejected() throws {
     var features = Self.scene.features
     var isOdd = features.map { $0.scales.map { _ in false } }
     for photo in features.indices where photo % 2 == 1 {

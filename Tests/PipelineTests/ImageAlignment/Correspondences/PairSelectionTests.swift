@@ -23,39 +23,39 @@ import Testing
   @Test func retrievalFindsThePhotosThatOverlapMost() throws {
     let scene = try Self.scene(.streets)
     let overlaps = scene.overlaps(minimum: 60)
-    let alike = try PhotoRetrieval().run(scene.features, partners: 10, StageContext())
+    let mostSimilar = try PhotoRetrieval().run(scene.features, partners: 10, StageContext())
     let found = overlaps.keys.count {
-      alike[$0.first.index].contains($0.second.index)
-        || alike[$0.second.index].contains($0.first.index)
+      mostSimilar[$0.first.index].contains($0.second.index)
+        || mostSimilar[$0.second.index].contains($0.first.index)
     }
     #expect(overlaps.count > 50)
     #expect(Double(found) > 0.95 * Double(overlaps.count))
-    for (photo, others) in alike.enumerated() {
+    for (photo, others) in mostSimilar.enumerated() {
       #expect(others.count == 10 && Set(others).count == 10 && !others.contains(photo))
     }
   }
 
   @Test func retrievalIsTheSameWithAnyNumberOfThreads() throws {
     let scene = try Self.scene(.orbits, photos: 20)
-    let alike = try [1, 2].map { threads in
+    let mostSimilar = try [1, 2].map { threads in
       try PhotoRetrieval().run(
         scene.features, partners: 19, StageContext(control: KernelControl(threadCount: threads)))
     }
-    #expect(alike[0] == alike[1])
+    #expect(mostSimilar[0] == mostSimilar[1])
   }
 
   @Test func photosWithoutFeaturesHaveNoPartners() throws {
     var features = try Self.scene(.orbits, photos: 12).features
     features[3] = FeatureSet()
-    let alike = try PhotoRetrieval().run(features, partners: 11, StageContext())
-    #expect(alike[3].isEmpty && alike.allSatisfy { !$0.contains(3) })
+    let mostSimilar = try PhotoRetrieval().run(features, partners: 11, StageContext())
+    #expect(mostSimilar[3].isEmpty && mostSimilar.allSatisfy { !$0.contains(3) })
     #expect(
       try PhotoRetrieval().run([FeatureSet(), FeatureSet()], partners: 1, StageContext())
         == [[], []])
     #expect(try PhotoRetrieval().run([], partners: 5, StageContext()).isEmpty)
   }
 
-  @Test func partnersAmongManyAreLimitedAndRight() throws {
+  @Test func partnersInLargeSetsAreLimitedAndCorrect() throws {
     let scene = try Self.scene(.streets)
     let choice = try PairSelection(Self.options(partners: 10))
       .run(scene.features, isSequential: false, StageContext())
@@ -67,10 +67,10 @@ import Testing
     #expect(Double(found) > 0.95 * Double(overlaps.count))
   }
 
-  @Test func aFirstLookAtFewPhotosIsBelievedWhereASampleProvesIt() throws {
+  @Test func preemptiveMatchingIsValidatedByASample() throws {
     let scene = try Self.scene(.streets, photos: 30)
     var options = CorrespondenceSearch.Options()
-    options.selection.firstLook.features = 300
+    options.selection.preemptiveMatching.features = 300
     func search(_ options: CorrespondenceSearch.Options) throws -> (pairs: Int, verified: Int) {
       let context = StageContext()
       let graph = try CorrespondenceSearch(options).run(
@@ -80,19 +80,19 @@ import Testing
       return (Int(context.notes.counts["pairs"] ?? 0), graph.pairs.count)
     }
     let all = 30 * 29 / 2
-    let looked = try search(options)
-    options.selection.lookedPairs = .max
-    let unlooked = try search(options)
-    #expect(unlooked.pairs == all)
-    #expect(looked.pairs < all)
-    #expect(Double(looked.verified) > 0.95 * Double(unlooked.verified))
+    let preemptive = try search(options)
+    options.selection.minimumPreemptivePairs = .max
+    let exhaustive = try search(options)
+    #expect(exhaustive.pairs == all)
+    #expect(preemptive.pairs < all)
+    #expect(Double(preemptive.verified) > 0.95 * Double(exhaustive.verified))
     // If preemptive matching rejects everything, the sample reveals it, and all pairs are matched.
-    options.selection.lookedPairs = 0
-    options.selection.firstLook.minimumMatches = .max
-    #expect(try search(options) == unlooked)
+    options.selection.minimumPreemptivePairs = 0
+    options.selection.preemptiveMatching.minimumMatches = .max
+    #expect(try search(options) == exhaustive)
   }
 
-  @Test func photosInOrderAreRecognised() throws {
+  @Test func orderOfCaptureIsRecognized() throws {
     let scene = try Self.scene(.orbits, isShuffled: false)
     var options = Self.options(partners: 8)
     options.orderedPartners = 0
@@ -102,13 +102,13 @@ import Testing
     #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 4 || $0.first.index < 2 })
   }
 
-  @Test func sequenceBridgesGapsAndClosesLoops() throws {
+  @Test func sequenceSkipsMissingPhotosAndClosesLoops() throws {
     let scene = try Self.scene(.orbits, isShuffled: false)
     var features = scene.features
     // Two consecutive photos have no features.
     (features[20], features[21]) = (FeatureSet(), FeatureSet())
     var options = PairSelection.Options()
-    options.firstLook.features = 400
+    options.preemptiveMatching.features = 400
     let choice = try PairSelection(options).run(features, isSequential: true, StageContext())
     let pairs = Set(choice.pairs)
     #expect(choice.pairs == choice.pairs.sorted() && pairs.count == choice.pairs.count)
@@ -129,7 +129,7 @@ import Testing
     #expect(10 * best.count { pairs.contains($0) } > 9 * best.count)
   }
 
-  @Test func nearPositionsMakePartners() throws {
+  @Test func nearbyPositionsArePaired() throws {
     let features = try Self.scene(.streets, photos: 30).features
     var options = Self.options(partners: 0)
     options.positionPartners = 2
@@ -146,20 +146,20 @@ import Testing
     #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 3 })
   }
 
-  @Test func firstLookRejectsStrangersAndKeepsNeighbours() throws {
+  @Test func preemptiveMatchingRejectsUnrelatedPhotosAndKeepsNeighbors() throws {
     let scene = try Self.scene(.streets, photos: 40, isShuffled: false)
-    var options = FirstLook.Options()
+    var options = PreemptiveMatching.Options()
     options.features = 400
     let pairs = (2..<40).flatMap {
       [PhotoPair(ID($0), ID($0 - 2)), PhotoPair(ID($0), ID(($0 + 20) % 40))]
     }
-    let hopeful = Set(
-      try FirstLook(options).run(pairs, features: scene.features, StageContext()))
+    let promising = Set(
+      try PreemptiveMatching(options).run(pairs, features: scene.features, StageContext()))
     let overlaps = scene.overlaps(minimum: 1)
-    #expect(pairs.allSatisfy { (overlaps[$0] ?? 0) < 100 || hopeful.contains($0) })
-    let strangers = pairs.filter { overlaps[$0] == nil }
-    #expect(strangers.count > 20)
-    #expect(strangers.count { hopeful.contains($0) } * 10 < strangers.count)
+    #expect(pairs.allSatisfy { (overlaps[$0] ?? 0) < 100 || promising.contains($0) })
+    let unrelatedPairs = pairs.filter { overlaps[$0] == nil }
+    #expect(unrelatedPairs.count > 20)
+    #expect(unrelatedPairs.count { promising.contains($0) } * 10 < unrelatedPairs.count)
   }
 
   @Test func partnersOfPartnersAreFound() throws {
@@ -170,25 +170,28 @@ import Testing
     }
     let pairs = verified.map(\.pair)
     let choice = PairSelection.Choice(
-      pairs: pairs, candidates: pairs, alike: [[Int]](repeating: [], count: 5),
+      pairs: pairs, candidates: pairs, mostSimilar: [[Int]](repeating: [], count: 5),
       isSequential: false)
     var options = PairExpansion.Options()
-    options.fewPartners = 0
+    options.minimumPartners = 0
     let more = try PairExpansion(options).run(
       choice, ViewGraph(photoCount: 5, pairs: verified),
-      features: [FeatureSet](repeating: FeatureSet(), count: 5), firstLook: FirstLook(),
+      features: [FeatureSet](repeating: FeatureSet(), count: 5),
+      preemptiveMatching: PreemptiveMatching(),
       StageContext())
     #expect(more == [PhotoPair(ID(0), ID(3)), PhotoPair(ID(1), ID(2))])
   }
 
-  @Test func rejectedPairsOfLonelyPhotosGetASecondChance() throws {
+  @Test func rejectedPairsOfIsolatedPhotosAreRetried() throws {
     let pair = PhotoPair(ID(0), ID(2))
     let choice = PairSelection.Choice(
-      pairs: [PhotoPair(ID(0), ID(1))], candidates: [PhotoPair(ID(0), ID(1)), pair], alike: [],
+      pairs: [PhotoPair(ID(0), ID(1))], candidates: [PhotoPair(ID(0), ID(1)), pair],
+      mostSimilar: [],
       isSequential: false)
     let features = [FeatureSet](repeating: FeatureSet(), count: 3)
     let more = try PairExpansion().run(
-      choice, ViewGraph(photoCount: 3, pairs: []), features: features, firstLook: FirstLook(),
+      choice, ViewGraph(photoCount: 3, pairs: []), features: features,
+      preemptiveMatching: PreemptiveMatching(),
       StageContext())
     #expect(more == [pair])
   }

@@ -40,7 +40,7 @@ import Testing
     #expect(members(tracks, 1) == [[0, 1], [1, 1], [2, 1]])
   }
 
-  @Test func featuresAtOnePlaceAreOne() throws {
+  @Test func coincidentFeaturesAreMerged() throws {
     let doubled = FeatureSet(positions: [[5, 5], [5, 5], [7, 7]])
     let graph = ViewGraph(
       photoCount: 2,

@@ -16,7 +16,7 @@ import Testing
       height: height, orientation: orientation, camera: ID(0))
   }
 
-  @Test func aCameraOfThePhotosSizeStaysAsItIs() throws {
+  @Test func cameraOfTheSameSizeIsUnchanged() throws {
     let fit = try #require(CameraFit(camera, to: photo(400, 300), isSizeKnown: true))
     let pose = RigidTransform(
       rotation: Quaternion(angle: 0.3, axis: [1, 2, 3]), translation: [1.0 / 3, 2, 3])
@@ -29,7 +29,7 @@ import Testing
   /// A point projects to the same position in the picture regardless of the orientation of the
   /// photo.
   @Test(arguments: [(6, 300, 400), (8, 300, 400), (6, 150, 200), (1, 200, 150), (1, 1200, 900)])
-  func aPointStaysWhereItIsInThePicture(_ orientation: Int, _ width: Int, _ height: Int) throws {
+  func pointsKeepTheirPositionInThePicture(_ orientation: Int, _ width: Int, _ height: Int) throws {
     let fit = try #require(
       CameraFit(camera, to: photo(width, height, orientation: orientation), isSizeKnown: true))
     let pose = RigidTransform(
@@ -43,7 +43,7 @@ import Testing
   }
 
   /// Pixels rotate like photos.
-  @Test(arguments: [6, 8]) func pixelsTurnAsPhotosDo(_ orientation: Int) throws {
+  @Test(arguments: [6, 8]) func pixelsRotateLikePhotos(_ orientation: Int) throws {
     var image = RasterImage(width: 400, height: 300, channels: 1)
     image.pixels[70 * 400 + 310] = 255
     let upright = try image.turned(byOrientation: orientation)
@@ -62,11 +62,11 @@ import Testing
   }
 
   @Test(arguments: [(400, 311), (300, 400), (410, 300)])
-  func anotherShapeIsRefused(_ width: Int, _ height: Int) {
+  func otherAspectRatiosAreRejected(_ width: Int, _ height: Int) {
     #expect(CameraFit(camera, to: photo(width, height), isSizeKnown: true) == nil)
   }
 
-  @Test func aCameraWithoutSizeIsForThePhotosOwn() throws {
+  @Test func cameraWithoutSizeTakesThePhotoSize() throws {
     let fit = try #require(CameraFit(camera, to: photo(404, 297), isSizeKnown: false))
     #expect(fit.camera.width == 404 && fit.camera.height == 297)
     #expect(fit.camera.focalLength == camera.focalLength)

@@ -22,7 +22,7 @@ import Testing
     // A pixel is 0.01 wide on the ball; the depth of a point is several times less certain.
     #expect(distances[distances.count / 2] < 0.01)
     #expect(distances[distances.count * 95 / 100] < 0.06)
-    #expect((notes.counts["matchesThatAgree"] ?? 0) > 0.8 * (notes.counts["matches"] ?? .infinity))
+    #expect((notes.counts["consistentMatches"] ?? 0) > 0.8 * (notes.counts["matches"] ?? .infinity))
     #expect(notes.warnings.isEmpty)
   }
 
@@ -38,7 +38,7 @@ import Testing
   }
 
   /// Inverted poses (world-from-camera instead of camera-from-world) are the most common mistake.
-  @Test(arguments: [true, false]) func posesThatAreNotThoseOfThePhotosAreRefused(
+  @Test(arguments: [true, false]) func wrongPosesAreRejected(
     inverted: Bool
   ) throws {
     let set = try KnownPhotoSet()
@@ -50,7 +50,7 @@ import Testing
     #expect(pipeline.report.errors.contains { $0.contains("cameras don't fit the photos") })
   }
 
-  @Test func pointsThatTheCamerasDoNotSeeAreRefused() throws {
+  @Test func inconsistentPointsAreRejected() throws {
     let set = try KnownPhotoSet()
     var cameras = set.cameras(hasPoints: true)
     for index in cameras.points.indices { cameras.points[index].position *= -3 }
@@ -111,7 +111,7 @@ import Testing
     #expect(pipeline.report.warnings.contains { $0.hasPrefix("photo1.jpg is not used: no camera") })
   }
 
-  @Test func camerasOfAnotherSizeAreScaledOrRefused() throws {
+  @Test func camerasOfAnotherSizeAreScaledOrRejected() throws {
     let set = try KnownPhotoSet()
     var cameras = set.cameras(hasPoints: true)
     let wide = Camera(width: 800, height: 316, focalLength: [462, 462])
@@ -139,7 +139,7 @@ import Testing
   }
 
   /// COLMAP's cameras refer to photos in stored orientation.
-  @Test(arguments: [6, 8]) func camerasOfStoredPhotosAreTurned(orientation: Int) throws {
+  @Test(arguments: [6, 8]) func camerasOfStoredPhotosAreRotated(orientation: Int) throws {
     let set = try KnownPhotoSet(orientation: orientation)
     var cameras = set.cameras(hasPoints: true)
     let (upright, back) = (cameras.cameras[0], [6: 3, 8: 1][orientation] ?? 0)

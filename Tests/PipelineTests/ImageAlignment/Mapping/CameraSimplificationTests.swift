@@ -21,13 +21,13 @@ import Testing
     return map.photos.cameras[0]
   }
 
-  @Test func ofAPinholeNothingIsLeft() throws {
+  @Test func distortionOfAPinholeCameraIsRemoved() throws {
     let camera = try simplified(SyntheticScene.Options().camera)
     #expect(camera.distortion == .zero)
     #expect(camera.principalPoint == [800, 600])
   }
 
-  @Test func realDistortionStays() throws {
+  @Test func actualDistortionIsKept() throws {
     var camera = SyntheticScene.Options().camera
     (camera.distortion.x, camera.principalPoint) = (-0.08, [812, 590])
     let found = try simplified(camera)

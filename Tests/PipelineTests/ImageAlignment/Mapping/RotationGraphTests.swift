@@ -26,12 +26,12 @@ import Testing
     #expect(graph.largestTwoConnectedPart() == [3, 4, 5, 6])
   }
 
-  @Test func chainHasNoStrongPart() {
+  @Test func chainHasNoTwoConnectedPart() {
     #expect(graph(4, [(0, 1), (1, 2), (2, 3)]).largestTwoConnectedPart().count == 1)
     #expect(graph(0, []).largestTwoConnectedPart().isEmpty)
   }
 
-  @Test func contradictingPairIsDropped() {
+  @Test func inconsistentPairIsDropped() {
     var random = SeededGenerator(seed: 2)
     let rotations = (0..<6).map { _ in Quaternion(angle: random.uniform(), axis: random.normal3()) }
     let all = (0..<6).flatMap { a in ((a + 1)..<6).map { (Int32(a), Int32($0)) } }

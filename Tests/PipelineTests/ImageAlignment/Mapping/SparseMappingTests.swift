@@ -32,7 +32,7 @@ import Testing
       Double(global.points.count) > 0.98 * Double(incremental.points.count))
   }
 
-  @Test func wrongRotationsAndFocalLengthAreOvercome() throws {
+  @Test func mappingIsRobustToWrongRotationsAndFocalLength() throws {
     var options = SyntheticScene.Options()
     options.photoCount = 24
     options.pixelNoise = 0.3
@@ -111,7 +111,7 @@ import Testing
   }
 
   @Test(arguments: MappingMethod.allCases)
-  func theNearestPhotoIsNamed(method: MappingMethod) throws {
+  func mostSimilarPhotoIsReported(method: MappingMethod) throws {
     let scene = SyntheticScene()
     let graph = ViewGraph(
       photoCount: 12, pairs: scene.pairs(without: 4),

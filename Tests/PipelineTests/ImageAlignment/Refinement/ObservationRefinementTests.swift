@@ -14,7 +14,7 @@ import Testing
   }()
 
   /// The exact reconstruction with noise of `noise` pixels added to the observations, re-adjusted.
-  private static func disturbed(
+  private static func perturbed(
     by noise: Double, dropping isDropped: (Int, Int) -> Bool = { _, _ in false }
   ) throws -> Reconstruction {
     var random = SeededGenerator(seed: 3)
@@ -50,7 +50,7 @@ import Testing
   }
 
   @Test func posesBecomeMoreAccurate() throws {
-    let rough = try Self.disturbed(by: 0.4)
+    let rough = try Self.perturbed(by: 0.4)
     let fine = try refined(rough)
     let truth = Self.scene.reconstruction.poses.compactMap { $0 }
     let before = PoseComparison(estimated: rough.poses, true: truth)
@@ -64,7 +64,7 @@ import Testing
 
   @Test func missedObservationsAreFound() throws {
     // Every other photo lacks the observations of every other point.
-    let rough = try Self.disturbed(by: 0.2) { point, photo in point % 2 == 0 && photo % 2 == 0 }
+    let rough = try Self.perturbed(by: 0.2) { point, photo in point % 2 == 0 && photo % 2 == 0 }
     let fine = try refined(rough)
     let new = fine.points.flatMap { point in
       point.track.filter { $0.feature == SparseMap.noFeature }.map { (point.position, $0) }
@@ -84,15 +84,15 @@ import Testing
   }
 
   @Test func threadsDoNotMatter() throws {
-    let rough = try Self.disturbed(by: 0.3)
+    let rough = try Self.perturbed(by: 0.3)
     let (one, two) = (try refined(rough), try refined(rough, threads: 2))
     #expect(one.poses == two.poses)
     #expect(one.points == two.points)
     #expect(one.cameras == two.cameras)
   }
 
-  @Test func aPhotoThatContradictsIsNamed() throws {
-    var rough = try Self.disturbed(by: 0.2)
+  @Test func contradictingPhotoIsReported() throws {
+    var rough = try Self.perturbed(by: 0.2)
     // All observations of this photo are displaced, each in a different direction.
     let stray = 3
     var random = SeededGenerator(seed: 5)
@@ -113,7 +113,7 @@ import Testing
   }
 
   @Test func photosWithoutTextureKeepTheirObservations() throws {
-    let rough = try Self.disturbed(by: 0.2)
+    let rough = try Self.perturbed(by: 0.2)
     let blank = Self.scene.views.map {
       RasterImage(width: $0.image.width, height: $0.image.height, channels: 3, filledWith: 128)
     }

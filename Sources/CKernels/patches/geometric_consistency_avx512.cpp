@@ -1,0 +1,31 @@
+#include "core/vectors.h"
+#include "patches/geometric_consistency.h"
+
+#if defined(__x86_64__)
+#include <immintrin.h>
+
+#define CK_CONSISTENCY_KERNELS avx512_consistency
+#pragma clang attribute push(__attribute__((target("avx512f,avx512bw,avx512dq,avx512vl,fma"))), \
+                             apply_to = function)
+
+namespace ck::patches {
+namespace {
+/// Gathers with a stride of four floats, the size of `ck_patch`.
+inline __attribute__((always_inline)) void gather(F16& out, const float* base, const I16& index) {
+  const I16 word = index * 4;
+  __m512i lanes;
+  __builtin_memcpy(&lanes, &word, sizeof lanes);
+  const __m512 values = _mm512_i32gather_ps(lanes, base, 4);
+  __builtin_memcpy(&out, &values, sizeof values);
+}
+}  // namespace
+}  // namespace ck::patches
+
+#include "patches/geometric_consistency.inl"
+
+#pragma clang attribute pop
+#else
+namespace ck::patches {
+const ConsistencyKernels& avx512_consistency() { return portable_consistency(); }
+}  // namespace ck::patches
+#endif

@@ -1,0 +1,159 @@
+import Kernels
+import SceneModel
+
+/// Detects reconstructions that superimpose repeated structures of the scene.
+///
+/// Two sides of a box, or two bays of a facade, share features as if they were two photos of one
+/// side, and the map folds. Two signs reveal this. First, some pairs match the correct parts and
+/// others the wrong ones, so that strong pairs contradict the reconstruction. Second, photos with
+/// nearly the same estimated pose differ outside the repeated structure: one photo shows points
+/// that nothing occludes from the other, yet their texture is missing there (after Zach et al. on
+/// missing correspondences, CVPR 2008, and Heinly et al., "Correcting for duplicate scene structure
+/// in sparse 3D reconstruction", ECCV 2014). A missing feature alone proves nothing, so the texture
+/// itself is searched for.
+package struct SceneAmbiguityCheck: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Number of nearest photos that each photo is compared with.
+    package var neighbors = 4
+    /// Their maximum distance relative to the median depth, and the maximum angle of the optical
+    /// axes.
+    package var relativeDistance = 0.6
+    package var axisDegrees = 45.0
+    /// Points are compared if both photos observe them from directions up to this angle apart, in
+    /// degrees, and at distances up to this ratio.
+    package var maximumAngleDegrees = 20.0
+    package var maximumDistanceRatio = 1.4
+    /// Maximum number of points of a photo that are searched for in another.
+    package var maximumPoints = 150
+    /// A point that is farther away than its surroundings in the photo by more than this ratio may
+    /// be occluded.
+    package var depthTolerance = 1.03
+    /// Distance between template samples in σ of the feature, and its minimum as a fraction of the
+    /// photo's longer side.
+    package var stepPerScale = 1.0 / 3
+    package var relativeStep = 1.0 / 1400
+    /// Photos with more pixels are reduced to this size.
+    package var workingPixels = 6_500_000
+    /// Correlation (ZNCC) from which on a point counts as present, and below which it counts as
+    /// absent.
+    package var presentCorrelation = 0.75
+    package var absentCorrelation = 0.5
+    /// Cells along the longer side of a photo. A cell contradicts if it has at least `cellPoints`
+    /// absent points and fewer than half as many present ones.
+    package var cells = 20
+    package var cellPoints = 2
+    /// Minimum number of cells that contradict, in both photos together, and of absent points, for
+    /// a conflict.
+    package var minimumCells = 6
+    package var minimumPoints = 12
+    /// Minimum fraction and minimum number of the compared pairs that must be in conflict.
+    package var minimumConflictShare = 0.1
+    package var minimumConflicts = 2
+    /// Number of pairs whose matches contradict the reconstruction from which on it is questioned.
+    package var minimumContradicted = 2
+
+    package init() {}
+  }
+
+  /// Evidence for or against two photos having nearly the same pose.
+  package struct Evidence: Hashable, Sendable {
+    package var pair: PhotoPair
+    /// Points that feature matching found in only one of the photos and whose texture both show.
+    package var present = 0
+    /// Points that one photo shows and the other should show but doesn't.
+    package var absent = 0
+    /// Cells of the photos with absent points.
+    package var contradictingCells = 0
+  }
+
+  /// The evidence against a reconstruction.
+  package struct Findings: Hashable, Sendable {
+    /// Number of pairs of nearby photos that could be compared.
+    package var compared = 0
+    /// The pairs in conflict, the strongest conflict first.
+    package var conflicts: [Evidence] = []
+    /// Pairs whose matches contradict the reconstruction, sorted.
+    package var contradicted: [PhotoPair] = []
+    package var verdict = Verdict.consistent
+  }
+
+  /// The result of the check.
+  package enum Verdict: Hashable, Sendable {
+    /// Neither sign is present.
+    case consistent
+    /// One of the two signs is present.
+    case ambiguous
+    /// Both signs are present.
+    case inconsistent
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// Checks a reconstruction; `graph` is the view graph that it was estimated from.
+  package func run(
+    _ reconstruction: Reconstruction, _ graph: ViewGraph, features: [FeatureSet],
+    images: ImageStore, _ context: StageContext
+  ) throws -> Findings {
+    let evidence = try evidence(reconstruction, features: features, images: images, context)
+    var findings = Findings()
+    findings.compared = evidence.count
+    findings.conflicts = evidence.filter(isConflict).sorted {
+      ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
+    }
+    findings.contradicted = graph.contradicted(by: reconstruction, features: features)
+    let needed = max(
+      Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
+    let signs = [
+      Double(findings.conflicts.count) >= needed,
+      findings.contradicted.count >= options.minimumContradicted,
+    ]
+    findings.verdict =
+      !signs.contains(true) ? .consistent : signs.contains(false) ? .ambiguous : .inconsistent
+    context.notes.record("ambiguityConflicts", Double(findings.conflicts.count))
+    context.notes.record("contradictedPairs", Double(findings.contradicted.count))
+    return findings
+  }
+
+  /// The evidence for every two photos that a reconstruction places close together, sorted by pair.
+  package func evidence(
+    _ reconstruction: Reconstruction, features: [FeatureSet], images: ImageStore,
+    _ context: StageContext
+  ) throws -> [Evidence] {
+    let search = VisibilityTest(
+      SparseMap(reconstruction), features: features, photos: reconstruction.photos, images: images,
+      options)
+    let hypotheses = try search.hypotheses(context.control.part(from: 0, to: 0.2))
+    var found: [PhotoPair: Evidence] = [:]
+    for part in try search.evaluate(hypotheses, context.control.part(from: 0.2, to: 1)) {
+      var sum = found[part.pair] ?? Evidence(pair: part.pair)
+      sum.present += part.present
+      sum.absent += part.absent
+      sum.contradictingCells += part.contradictingCells
+      found[part.pair] = sum
+    }
+    return found.values.sorted { $0.pair < $1.pair }
+  }
+
+  /// Whether the photos show different parts of the scene.
+  private func isConflict(_ evidence: Evidence) -> Bool {
+    evidence.contradictingCells >= options.minimumCells
+      && evidence.absent >= options.minimumPoints
+  }
+}
+
+extension SceneAmbiguityCheck.Findings {
+  /// An explanation that names up to three pairs of photos.
+  package func reason(_ photos: [Photo]) -> String {
+    func name(_ pair: PhotoPair) -> String {
+      "\(photos[pair.first.index].name) and \(photos[pair.second.index].name)"
+    }
+    let pairs = conflicts.isEmpty ? contradicted : conflicts.map(\.pair)
+    let shown = pairs.prefix(3).map(name).joined(separator: ", ")
+    let more = pairs.count > 3 ? " and \(pairs.count - 3) more pairs" : ""
+    return conflicts.isEmpty
+      ? "\(shown)\(more) match, but the model places what they show at different positions"
+      : "\(shown)\(more) show the same structure with different surroundings"
+  }
+}

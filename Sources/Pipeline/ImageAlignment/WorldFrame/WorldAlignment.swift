@@ -1,0 +1,146 @@
+import Foundation
+import SceneModel
+
+/// Determines the scale, the up direction and the origin of the world frame.
+///
+/// +y is up and the object stands on y = 0, centered in x and z on the points that most photos
+/// show. Scale, in order of preference: known distances, depth maps, GPS; otherwise the median
+/// distance from the cameras to the object is defined as one meter. Up direction, in order of
+/// preference: gravity, GPS, the plane that supports the object, the orientation of the cameras,
+/// which people hold upright.
+package struct WorldAlignment: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Measured distances; they take precedence over depth maps and GPS.
+    package var knownDistances: [KnownDistance] = []
+    /// Gravity and depth by sample ID; they also take precedence over GPS.
+    package var readings: [Int: SensorReading] = [:]
+    /// Expected error of a GPS position in meters.
+    package var gpsNoise = 5.0
+    /// Minimum spread of the positions, as a multiple of their error.
+    package var gpsSpreadFactor = 3.0
+    /// GPS determines the up direction if its expected error is below this number of degrees.
+    package var gpsTiltDegrees = 3.0
+    /// Maximum distance of a point from the support plane, relative to the cameras' distance from
+    /// the object.
+    package var planeThickness = 0.01
+    /// Minimum fraction of the points near the object on an unambiguous support plane.
+    package var planeShare = 0.12
+    /// Minimum fraction if the plane stands out as a layer.
+    package var minimumPlaneShare = 0.03
+    /// Maximum angle in degrees between the support plane's normal and the cameras' mean up
+    /// direction.
+    package var planeTiltDegrees = 30.0
+    /// Whether to search for a support plane. If masks exclude the support, any plane would belong
+    /// to the object.
+    package var findsSupport = true
+    package var seed: UInt64 = 1
+
+    package init() {}
+  }
+
+  package var options: Options
+
+  package init(_ options: Options = Options()) { self.options = options }
+
+  /// Returns the same reconstruction in the new world frame; unchanged without registered photos.
+  package func run(_ reconstruction: Reconstruction, _ context: StageContext) -> Reconstruction {
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    guard let first = reconstruction.registered.first, !reconstruction.points.isEmpty else {
+      return reconstruction
+    }
+    let object = ObjectRegion(reconstruction)
+    var frame = WorldFrame()
+    let gravityUp = GravityUp().run(options.readings, reconstruction, context.notes)
+    let priorUp = gravityUp ?? CameraUp(reconstruction).direction
+    var up = priorUp
+    frame.up = gravityUp == nil ? .cameras : .gravity
+    let plane =
+      options.findsSupport
+      ? SupportPlane(object, centers: centers, up: priorUp, options) : nil
+    if gravityUp == nil, let plane { (up, frame.up) = (plane.normal, .supportPlane) }
+    let gps = GPSFit(reconstruction, up: up, options)
+    if gravityUp == nil, let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }
+
+    let scale: Double
+    (scale, frame.scale) = self.scale(reconstruction, object, gps, context.notes)
+    let level = Self.leveling(up)
+    let front = level * ((reconstruction.poses[first.index]?.center ?? .zero) - object.center)
+    let yaw = gps?.yaw(leveling: level) ?? -atan2(front.x, front.z)
+    let rotation = (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+    let ground = ground(object, plane, up)
+    let origin = object.center - up * ((object.center - ground).dot(up))
+    let worldFromOld = SimilarityTransform(
+      scale: scale, rotation: rotation, translation: -scale * (rotation * origin))
+    return reconstruction.moved(by: worldFromOld, frame)
+  }
+
+  /// Meters per unit, and their source.
+  private func scale(
+    _ reconstruction: Reconstruction, _ object: ObjectRegion, _ gps: GPSFit?, _ notes: StageNotes
+  ) -> (Double, WorldFrame.Scale) {
+    if let residual = gps?.residual { report(residual, notes) }
+    let (measured, problems) = MeasuredScale.measure(options.knownDistances, in: reconstruction)
+    problems.forEach(notes.warn)
+    if let measured {
+      notes.record("knownDistances", Double(measured.deviations.count))
+      notes.record("knownDistanceDeviation", measured.deviations.map { abs($0) }.max() ?? 0)
+      return (measured.metersPerUnit, .knownDistance)
+    }
+    if let scale = DepthMapScale().run(options.readings, reconstruction, notes) {
+      return (scale, .depth)
+    }
+    if let gps { return (gps.scale, .gps) }
+    notes.warn(
+      "The photos don't determine the size of the object: its scale is arbitrary, with the "
+        + "cameras' median distance from it defined as one meter.")
+    return (1 / max(object.cameraDistance, .leastNormalMagnitude), .arbitrary)
+  }
+
+  private func report(_ residual: GPSFit.Residual, _ notes: StageNotes) {
+    notes.record("gpsPositions", Double(residual.count))
+    notes.record("gpsPositionsUsed", Double(residual.used))
+    notes.record("gpsHorizontalRMS", residual.horizontal)
+    func meters(_ value: Double) -> String { String(format: "%.2f m", value) }
+    var sentence = "GPS: \(residual.used) of \(residual.count) positions agree with the cameras; "
+    sentence += "root mean square error \(meters(residual.horizontal)) horizontally"
+    if let vertical = residual.vertical {
+      notes.record("gpsVerticalRMS", vertical)
+      sentence += " and \(meters(vertical)) vertically"
+    }
+    notes.log(sentence + ".")
+  }
+
+  /// A point on the ground plane of the object.
+  private func ground(
+    _ object: ObjectRegion, _ plane: SupportPlane?, _ up: SIMD3<Double>
+  ) -> SIMD3<Double> {
+    let heights = object.core.map { ($0 - object.center).dot(up) }.sorted()
+    let lowest = object.center + up * (heights.isEmpty ? 0 : heights[heights.count / 50])
+    // A plane that was found for a different up direction, or above the object, is not the ground.
+    guard let plane, plane.normal.dot(up) > 0.96 else { return lowest }
+    let onPlane = object.center - plane.normal * plane.distance(object.center)
+    return onPlane
+  }
+
+  /// The smallest rotation that maps `up` to +y.
+  static func leveling(_ up: SIMD3<Double>) -> Quaternion {
+    let axis = up.cross([0, 1, 0])
+    guard axis.length > 1e-12 else {
+      return up.y > 0 ? .identity : Quaternion(angle: .pi, axis: [1, 0, 0])
+    }
+    return Quaternion(angle: atan2(axis.length, up.y), axis: axis)
+  }
+}
+
+extension Reconstruction {
+  /// The same scene in another world frame.
+  func moved(by newFromOld: SimilarityTransform, _ frame: WorldFrame) -> Reconstruction {
+    var result = self
+    result.poses = poses.map { $0.map(newFromOld.applied(toCameraFromA:)) }
+    for index in points.indices {
+      result.points[index].position = newFromOld * points[index].position
+    }
+    result.worldFrame = frame
+    return result
+  }
+}

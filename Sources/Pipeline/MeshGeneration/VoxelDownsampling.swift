@@ -1,0 +1,144 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Voxel downsampling: merges redundant points to one mean point per voxel, weighted by
+/// consistency.
+///
+/// The voxel size grows in powers of two with the point's footprint, so that coarse parts of a
+/// scene stay coarse. Averaging reduces noise and makes Poisson reconstruction faster (rule of
+/// thumb: as many samples as cells).
+struct VoxelDownsampling {
+  struct Options: Hashable, Codable, Sendable {
+    /// Side of a voxel in median footprints.
+    var voxelFootprints = 1.0
+
+    init() {}
+  }
+
+  struct Result: Sendable {
+    var cloud: PointCloud
+    /// The mean point of every input point; −1 for inputs that are not finite.
+    var sampleOfPoint: [Int32]
+    /// Number of input points of each mean point.
+    var weights: [Int32]
+    /// Side of the smallest voxel in world units.
+    var voxelSize: Double
+  }
+
+  var options = Options()
+
+  /// Throws `PipelineError.noSurface` for an empty cloud.
+  func run(_ cloud: PointCloud, _ context: StageContext) throws -> Result {
+    guard let footprint = cloud.medianFootprint, footprint > 0 else {
+      throw PipelineError.noSurface(reason: "the point cloud is empty.")
+    }
+    let size = Double(footprint) * options.voxelFootprints
+    let levels = cloud.footprints.map { value -> Int8 in
+      value > footprint * 2 && value.isFinite
+        ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
+    }
+    let grid = try VoxelGrid(
+      cloud.positions, cellSize: size, levels: levels, context.control.part(from: 0, to: 0.7))
+    try context.control.step(0.7)
+    return average(cloud, grid, size)
+  }
+
+  /// One mean point per occupied grid cell, with the union of its members' photos.
+  private func average(_ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double) -> Result {
+    let members = Members(of: grid.cells, count: grid.cellCount)
+    var result = PointCloud()
+    result.positions.reserveCapacity(grid.cellCount)
+    result.normals.reserveCapacity(grid.cellCount)
+    var weights: [Int32] = []
+    weights.reserveCapacity(grid.cellCount)
+    var photos: [UInt16] = []
+    for cell in 0..<grid.cellCount {
+      let points = members[cell]
+      Self.append(points, of: cloud, to: &result, fallback: Float(size))
+      photos.removeAll(keepingCapacity: true)
+      for point in points { photos.append(contentsOf: cloud.visiblePhotos(of: Int(point))) }
+      photos.sort()
+      var last: UInt16?
+      for photo in photos where photo != last {
+        result.photoIndices.append(photo)
+        last = photo
+      }
+      result.photoOffsets.append(UInt32(result.photoIndices.count))
+      weights.append(Int32(points.count))
+    }
+    return Result(
+      cloud: result, sampleOfPoint: grid.cells, weights: weights, voxelSize: size)
+  }
+
+  /// Appends the weighted mean of some points, without their photos.
+  private static func append(
+    _ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud,
+    fallback: Float
+  ) {
+    var (position, normal, color) = (SIMD3<Double>(), SIMD3<Double>(), SIMD3<Double>())
+    var (consistency, footprint, sum) = (0.0, Float.infinity, 0.0)
+    for point in points {
+      let i = Int(point)
+      let value = cloud.consistency.isEmpty ? 1 : Double(cloud.consistency[i])
+      let weight = max(0.01, value.isFinite ? value : 0.01)
+      position += weight * SIMD3<Double>(cloud.positions[i])
+      if !cloud.normals.isEmpty { normal += weight * SIMD3<Double>(cloud.normals[i]) }
+      if !cloud.colors.isEmpty { color += weight * SIMD3<Double>(cloud.colors[i]) }
+      consistency = max(consistency, value)
+      if cloud.footprints[i] > 0 { footprint = min(footprint, cloud.footprints[i]) }
+      sum += weight
+    }
+    result.positions.append(SIMD3<Float>(position / sum))
+    if !cloud.normals.isEmpty { result.normals.append(SIMD3<Float>(normal.normalized)) }
+    if !cloud.colors.isEmpty {
+      result.colors.append(SIMD3<UInt8>((color / sum).rounded(.toNearestOrAwayFromZero)))
+    }
+    result.consistency.append(Float(consistency))
+    result.footprints.append(footprint.isFinite ? footprint : fallback)
+  }
+}
+
+extension VoxelDownsampling.Result {
+  /// The mean points that have at least `neighbors` others within `radius` spacings.
+  ///
+  /// Isolated points are mostly false matches, and each distorts a Poisson surface.
+  func withoutOutliers(
+    neighbors: Int = 5, radius: Double = 4, _ control: KernelControl
+  ) throws -> PointCloud {
+    let coarsest = Double(cloud.footprints.quantile(0.99) ?? 0)
+    let reach = radius * max(voxelSize, coarsest)
+    let nearest = try NearestPoints(
+      of: cloud.positions, in: cloud.positions, neighbors: neighbors + 1,
+      maximumDistance: reach, control)
+    return cloud.filtered(
+      by: cloud.positions.indices.map { index in
+        let last = index * nearest.neighbors + neighbors
+        let spacing = max(Float(voxelSize), cloud.footprints[index])
+        return nearest.distances[last] <= Float(radius) * spacing
+      })
+  }
+}
+
+/// The elements of each group, ascending, in compressed-row storage (one array with offsets).
+struct Members: Sendable {
+  private var offsets: [Int32]
+  private var elements: [Int32]
+
+  /// `groups` holds each element's group; −1 means none.
+  init(of groups: [Int32], count: Int) {
+    offsets = Array(repeating: 0, count: count + 1)
+    for group in groups where group >= 0 { offsets[Int(group) + 1] += 1 }
+    for group in 0..<count { offsets[group + 1] += offsets[group] }
+    var cursor = offsets
+    elements = Array(repeating: 0, count: Int(offsets[count]))
+    for (element, group) in groups.enumerated() where group >= 0 {
+      elements[Int(cursor[Int(group)])] = Int32(element)
+      cursor[Int(group)] += 1
+    }
+  }
+
+  subscript(group: Int) -> ArraySlice<Int32> {
+    elements[Int(offsets[group])..<Int(offsets[group + 1])]
+  }
+}
