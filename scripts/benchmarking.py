@@ -1,4 +1,4 @@
-"""What the benchmark scripts share: running a program, tables, diagrams."""
+"""Shared by the benchmark scripts: running a program, tables, plots."""
 
 import json
 import math
@@ -18,7 +18,7 @@ def run(command):
             _, wait_status, usage = os.wait4(process.pid, 0)
             break
         except KeyboardInterrupt:
-            continue  # The terminal has interrupted the program as well: it will end.
+            continue  # The terminal has interrupted the program, too: it will exit.
     seconds = time.monotonic() - start
     code = os.waitstatus_to_exitcode(wait_status)
     process.returncode = code
@@ -26,7 +26,7 @@ def run(command):
 
 
 def read_report(path):
-    """The report as a dictionary, empty when there is none."""
+    """The report as a dictionary; empty if there is none."""
     try:
         report = json.loads(Path(path).read_text())
     except (OSError, ValueError):
@@ -35,12 +35,12 @@ def read_report(path):
 
 
 def peak_bytes(usage):
-    """The peak memory that `run` measured; the kernel counts in KiB on Linux, in bytes on macOS."""
+    """The peak memory measured by `run`; the kernel reports KiB on Linux, bytes on macOS."""
     return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
 def print_table(header, rows):
-    """Prints a Markdown table whose columns also line up in a terminal."""
+    """Prints a Markdown table with columns that are aligned in a terminal, too."""
     rows = [[str(cell) for cell in row] for row in rows]
     widths = [max(map(len, column)) for column in zip(header, *rows)]
     for row in [header, ["-" * width for width in widths], *rows]:
@@ -48,10 +48,10 @@ def print_table(header, rows):
 
 
 def diagrams(named_series, dashed=()):
-    """Diagrams with logarithmic axes side by side as SVG.
+    """Plots with logarithmic axes, in a row, as SVG.
 
-    `named_series` maps a title to lines: a name each, with values by number of photos. Lines that
-    are named in `dashed` are references, not measurements.
+    `named_series` maps a title to named lines of values by number of photos. Lines in `dashed` are
+    references, not measurements.
     """
     parts = []
     for index, (title, series) in enumerate(named_series.items()):
@@ -67,7 +67,7 @@ COLORS = ["#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b"]
 
 
 def diagram(left, title, series, dashed):
-    """One diagram whose axes begin at x = `left`."""
+    """One plot whose axes start at x = `left`."""
     top, width, height = 40, 360, 300
     points = [(n, v) for line in series.values() for n, v in line.items() if v > 0]
     if not points:
