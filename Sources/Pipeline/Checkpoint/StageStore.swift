@@ -126,6 +126,6 @@ private struct SavedNotes: Codable {
   func replay(to notes: StageNotes) {
     for (name, value) in counts { notes.record(name, value) }
     warnings.forEach(notes.warn)
-    details.forEach(notes.tell)
+    details.forEach(notes.log)
   }
 }
