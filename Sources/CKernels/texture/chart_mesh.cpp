@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/guard.h"
-#include "texture/clusters.h"
+#include "texture/chart_mesh.h"
 
 namespace ck::texture {
 namespace {

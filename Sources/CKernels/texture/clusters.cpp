@@ -1,4 +1,4 @@
-#include "texture/clusters.h"
+#include "texture/chart_mesh.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <vector>
 
-#include "texture/clusters.h"
+#include "texture/chart_mesh.h"
 
 namespace ck::texture {
 namespace {

@@ -4,17 +4,6 @@ import SceneModel
 ///
 /// File names are ignored. All reads are bounds-checked.
 package struct ImageHeader: Hashable, Sendable {
-  /// The supported image formats.
-  package enum Format: String, Hashable, Sendable, CaseIterable {
-    case jpeg = "JPEG"
-    case png = "PNG"
-    case tiff = "TIFF"
-    case bmp = "BMP"
-    case webP = "WebP"
-    case heic = "HEIC"
-    case avif = "AVIF"
-  }
-
   package var format: Format
   /// Size in pixels as decoded, before EXIF orientation.
   package var width: Int

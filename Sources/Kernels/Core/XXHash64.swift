@@ -7,4 +7,7 @@ package enum XXHash64 {
   package static func hash(_ bytes: UnsafeRawBufferPointer, seed: UInt64 = 0) -> UInt64 {
     ck_hash(bytes.baseAddress, bytes.count, seed)
   }
+
+  /// The hash of `bytes` with seed 0.
+  package static func hash(_ bytes: [UInt8]) -> UInt64 { bytes.withUnsafeBytes { hash($0) } }
 }

@@ -12,42 +12,6 @@ import SceneModel
 /// therefore bounded by one view and its sources per thread, independent of the number of photos,
 /// and an interrupted run can be resumed.
 package struct PointCloudGeneration {
-  /// Parameters of the dense stage.
-  package struct Options: Hashable, Codable, Sendable {
-    /// Pixels of a view at full resolution.
-    package var maximumPixelsPerView = 1_000_000
-    /// Optimization of the patches, at all resolutions.
-    package var patches = PatchStereo.Options()
-    /// Filter of the patches at full resolution.
-    package var filter = PatchStereo.FilterOptions()
-    /// For the patches at half resolution, where smaller islands may still grow.
-    package var coarseFilter = PatchStereo.FilterOptions(minimumIsland: 10)
-    /// Whether patches expand into what the filter rejected, and are re-estimated at depth edges.
-    package var completes = true
-    /// Share of the photos' pixels below which a warning calls the cloud sparse.
-    package var sparseRatio = 0.05
-    /// Size in bytes of the cache of views and patch maps that are not in use.
-    package var cacheBytes = 512 << 20
-
-    package init(maximumPixelsPerView: Int = 1_000_000) {
-      self.maximumPixelsPerView = maximumPixelsPerView
-    }
-  }
-
-  /// Every `count`-th view, starting at `index`: the part of one of several jobs.
-  package struct Share: Hashable, Sendable {
-    package var index: Int
-    package var count: Int
-
-    /// `index` is in 0..<`count`.
-    package init(index: Int, of count: Int) {
-      self.index = index
-      self.count = count
-    }
-
-    func contains(_ position: Int) -> Bool { position % count == index }
-  }
-
   package var options: Options
   /// Parent of the temporary folder.
   var temporaryParent = PatchWorkspace.temporaryParent

@@ -8,9 +8,6 @@ import Foundation
 /// of these names, the photo's name (`IMG_1.png`), or the photo's name with a second extension
 /// (`IMG_1.jpg.png`, COLMAP). Any image format is accepted; names are case-insensitive.
 struct MaskFiles {
-  /// Names of mask folders that are looked up inside the folder of photos.
-  static let folderNames = ["masks", "mask", ".mask"]
-
   /// The files that are not masks, in their original order.
   private(set) var photos: [URL] = []
   /// Masks without a photo.
@@ -85,7 +82,9 @@ extension MaskFiles {
   init(folder: URL, maskFolder: URL?) throws {
     let files = try PhotoFolder.files(in: folder)
     let named = maskFolder.map { [$0] }
-    let inner = Self.folderNames.map { folder.appendingPathComponent($0, isDirectory: true) }
+    let inner = PhotoFolder.maskFolderNames.map {
+      folder.appendingPathComponent($0, isDirectory: true)
+    }
     let source = (named ?? inner.filter(Self.isFolder)).first
     // In the folder of photos itself, every photo would be its own mask.
     let isSeparateFolder =

@@ -46,7 +46,7 @@ struct MaskInspection: Sendable {
     let exifOrientation = PhotoMetadata(bytes).orientation
     let coverage = try coverage(image, url.lastPathComponent, photo)
     var mask = PhotoMask(
-      file: url, orientation: exifOrientation, contentHash: PhotoInspection.hash(bytes),
+      file: url, orientation: exifOrientation, contentHash: XXHash64.hash(bytes),
       coverage: coverage)
     if exifOrientation != 1 {
       guard fits(image, turned: exifOrientation, photo) else {

@@ -3,7 +3,7 @@ import Foundation
 /// The files of an input folder.
 package enum PhotoFolder {
   /// Names of mask folders that are looked up inside the folder of photos.
-  package static let maskFolderNames = MaskFiles.folderNames
+  package static let maskFolderNames = ["masks", "mask", ".mask"]
 
   /// Returns the regular files that are not hidden, without those of subfolders, in natural,
   /// case-insensitive order (`IMG_2` before `IMG_10`), so that sequences are in the order of

@@ -80,7 +80,7 @@ package struct PhotoInspection: Sendable {
       }
       var photo = InspectedPhoto(
         sampleID: sampleID, url: url, width: upright.width, height: upright.height,
-        metadata: metadata, contentHash: Self.hash(bytes), sharpness: sharpness,
+        metadata: metadata, contentHash: XXHash64.hash(bytes), sharpness: sharpness,
         thumbnail: try reduced.fitted(to: Self.thumbnailSide))
       if options.usesMasks { photo.findMask(mask, bytes) }
       return photo
@@ -88,8 +88,6 @@ package struct PhotoInspection: Sendable {
       throw refusal(error.fault, error.errorDescription ?? "it can't be read")
     }
   }
-
-  static func hash(_ bytes: [UInt8]) -> UInt64 { bytes.withUnsafeBytes { XXHash64.hash($0) } }
 }
 
 extension InspectedPhoto {

@@ -12,60 +12,6 @@ import SceneModel
 /// in sparse 3D reconstruction", ECCV 2014). A missing feature alone proves nothing, so the texture
 /// itself is searched for.
 package struct SceneAmbiguityCheck: Sendable {
-  package struct Options: Hashable, Codable, Sendable {
-    /// Number of nearest photos that each photo is compared with.
-    package var neighbors = 4
-    /// Their maximum distance relative to the median depth, and the maximum angle of the optical
-    /// axes.
-    package var relativeDistance = 0.6
-    package var axisDegrees = 45.0
-    /// Points are compared if both photos observe them from directions up to this angle apart, in
-    /// degrees, and at distances up to this ratio.
-    package var maximumAngleDegrees = 20.0
-    package var maximumDistanceRatio = 1.4
-    /// Maximum number of points of a photo that are searched for in another.
-    package var maximumPoints = 150
-    /// A point that is farther away than its surroundings in the photo by more than this ratio may
-    /// be occluded.
-    package var depthTolerance = 1.03
-    /// Distance between template samples in σ of the feature, and its minimum as a fraction of the
-    /// photo's longer side.
-    package var stepPerScale = 1.0 / 3
-    package var relativeStep = 1.0 / 1400
-    /// Photos with more pixels are reduced to this size.
-    package var workingPixels = 6_500_000
-    /// Correlation (ZNCC) from which on a point counts as present, and below which it counts as
-    /// absent.
-    package var presentCorrelation = 0.75
-    package var absentCorrelation = 0.5
-    /// Cells along the longer side of a photo. A cell contradicts if it has at least `cellPoints`
-    /// absent points and fewer than half as many present ones.
-    package var cells = 20
-    package var cellPoints = 2
-    /// Minimum number of cells that contradict, in both photos together, and of absent points, for
-    /// a conflict.
-    package var minimumCells = 6
-    package var minimumPoints = 12
-    /// Minimum fraction and minimum number of the compared pairs that must be in conflict.
-    package var minimumConflictShare = 0.1
-    package var minimumConflicts = 2
-    /// Number of pairs whose matches contradict the reconstruction from which on it is questioned.
-    package var minimumContradicted = 2
-
-    package init() {}
-  }
-
-  /// Evidence for or against two photos having nearly the same pose.
-  package struct Evidence: Hashable, Sendable {
-    package var pair: PhotoPair
-    /// Points that feature matching found in only one of the photos and whose texture both show.
-    package var present = 0
-    /// Points that one photo shows and the other should show but doesn't.
-    package var absent = 0
-    /// Cells of the photos with absent points.
-    package var contradictingCells = 0
-  }
-
   /// The evidence against a reconstruction.
   package struct Findings: Hashable, Sendable {
     /// Number of pairs of nearby photos that could be compared.

@@ -10,45 +10,6 @@ import SceneModel
 /// also in photos where the point should be visible but has no feature. Similar in spirit to
 /// Lindenberger et al., "Pixel-perfect structure-from-motion", ICCV 2021.
 package struct ObservationRefinement: Sendable {
-  package struct Options: Hashable, Codable, Sendable {
-    /// Photos with more pixels are reduced to this size.
-    package var workingPixels = 6_500_000
-    /// Distance between template samples in σ of the feature; at least one working pixel.
-    package var stepPerScale = 1.0 / 3
-    /// Minimum correlation (ZNCC) of a known observation, and of a new one.
-    package var minimumCorrelation = 0.8
-    package var minimumNewCorrelation = 0.9
-    /// Maximum displacement in working pixels of a known observation, and of a new one from its
-    /// expected position.
-    package var maximumShift = 3.0
-    package var maximumNewShift = 1.0
-    /// A photo with a smaller fraction of confirmed observations keeps the unconfirmed ones
-    /// unchanged.
-    package var minimumConfirmedShare = 0.25
-    /// Minimum number of observations that keep a photo registered.
-    package var minimumObservations = 10
-    /// If a smaller fraction of the points remains, the refinement is discarded: the photos don't
-    /// show what the poses predict.
-    package var minimumPointShare = 0.5
-    /// Maximum number of photos that a point is searched for in: those that share the most points
-    /// with its reference photo.
-    package var neighbors = 20
-    /// Maximum angle in degrees between a new observation's ray and the mean of the known ones.
-    package var maximumAngleDegrees = 40.0
-    /// Maximum reprojection error as a multiple of the median, and its bounds in working pixels.
-    package var errorFactor = 6.0
-    package var errorBounds = 0.5...2.0
-    /// Transition of the Huber loss from quadratic to linear, as a multiple of the median error.
-    package var huberFactor = 2.5
-
-    package init() {}
-
-    /// The width of a working pixel, in pixels of the full-size photo.
-    func workingPixel(width: Int, height: Int) -> Double {
-      max(1, (Double(width * height) / Double(workingPixels)).squareRoot())
-    }
-  }
-
   package var options: Options
 
   package init(_ options: Options = Options()) { self.options = options }

@@ -1,0 +1,24 @@
+import Foundation
+
+/// Why a file can't be read as an image; each message ends a sentence that starts with the file's
+/// name.
+package enum ImageError: LocalizedError, Hashable, Sendable {
+  /// The actual format: "a HEIC image".
+  case unsupportedFormat(String)
+  /// The actual type: "a text file".
+  case notAnImage(String)
+  case tooLarge(width: Int, height: Int)
+  case damaged(String)
+  case unreadable(String)
+
+  package var errorDescription: String? {
+    switch self {
+    case .unsupportedFormat(let name): "it is \(name); convert it to JPEG"
+    case .notAnImage(let name): "it is \(name), not a photo"
+    case .tooLarge(let width, let height):
+      "it has \(width) × \(height) pixels, more than can be processed; make it smaller"
+    case .damaged(let detail): "\(detail); copy it from the camera again or leave it out"
+    case .unreadable(let detail): "it can't be read: \(detail)"
+    }
+  }
+}

@@ -1,0 +1,25 @@
+import Kernels
+
+extension PointCloudGeneration {
+  /// Parameters of the dense stage.
+  package struct Options: Hashable, Codable, Sendable {
+    /// Pixels of a view at full resolution.
+    package var maximumPixelsPerView = 1_000_000
+    /// Optimization of the patches, at all resolutions.
+    package var patches = PatchStereo.Options()
+    /// Filter of the patches at full resolution.
+    package var filter = PatchStereo.FilterOptions()
+    /// For the patches at half resolution, where smaller islands may still grow.
+    package var coarseFilter = PatchStereo.FilterOptions(minimumIsland: 10)
+    /// Whether patches expand into what the filter rejected, and are re-estimated at depth edges.
+    package var completes = true
+    /// Share of the photos' pixels below which a warning calls the cloud sparse.
+    package var sparseRatio = 0.05
+    /// Size in bytes of the cache of views and patch maps that are not in use.
+    package var cacheBytes = 512 << 20
+
+    package init(maximumPixelsPerView: Int = 1_000_000) {
+      self.maximumPixelsPerView = maximumPixelsPerView
+    }
+  }
+}
