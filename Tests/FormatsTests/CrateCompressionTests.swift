@@ -68,7 +68,7 @@ import Testing
 
   /// Decodes the integer coding, implemented from its specification.
   static func decode(_ bytes: [UInt8], count: Int) throws -> [Int32] {
-    var reader = ByteReader(bytes)
+    var reader = ByteCursor(bytes)
     let common = Int32(bitPattern: UInt32(try reader.unsigned(4)))
     var codes: [UInt8] = []
     for _ in 0..<((2 * count + 7) / 8) { codes.append(UInt8(try reader.unsigned(1))) }

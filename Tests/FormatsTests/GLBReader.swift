@@ -13,7 +13,7 @@ struct GLBReader {
 
   /// Also checks header, chunks, buffer views and accessors.
   init(_ bytes: [UInt8]) throws {
-    var reader = ByteReader(bytes)
+    var reader = ByteCursor(bytes)
     #expect(try reader.unsigned(4) == 0x4654_6C67)
     #expect(try reader.unsigned(4) == 2)
     #expect(try reader.unsigned(4) == UInt64(bytes.count))
@@ -26,7 +26,7 @@ struct GLBReader {
       binary = []
       return
     }
-    reader = ByteReader(bytes, from: 20 + jsonLength)
+    reader = ByteCursor(bytes, from: 20 + jsonLength)
     let length = Int(try reader.unsigned(4))
     #expect(try reader.unsigned(4) == 0x004E_4942)
     #expect(length % 4 == 0)
@@ -81,7 +81,7 @@ extension GLBReader {
     #expect(list("bufferViews")[viewIndex]["target"] as? Int == 34962)
     let bytes = try view(viewIndex)
     #expect(bytes.count == 4 * width * count)
-    var reader = ByteReader(bytes)
+    var reader = ByteCursor(bytes)
     return try (0..<count).map { _ in
       try (0..<width).map { _ in Float(bitPattern: UInt32(try reader.unsigned(4))) }
     }
@@ -96,7 +96,7 @@ extension GLBReader {
     let count = try #require(object["count"] as? Int)
     let bytes = try view(viewIndex)
     #expect(bytes.count == 4 * count)
-    var reader = ByteReader(bytes)
+    var reader = ByteCursor(bytes)
     return try (0..<count).map { _ in Int(try reader.unsigned(4)) }
   }
 

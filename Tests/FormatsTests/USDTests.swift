@@ -130,8 +130,8 @@ import Testing
     let bytes = USDCrate.encode(USDModelLayer().layer(Sample.model(rings: 8)))
     #expect(Array(bytes.prefix(8)) == Array("PXR-USDC".utf8))
     #expect(Array(bytes[8..<16]) == [0, 7, 0, 0, 0, 0, 0, 0])
-    var reader = ByteReader(bytes, from: 16)
-    reader = ByteReader(bytes, from: Int(try reader.unsigned(8)))
+    var reader = ByteCursor(bytes, from: 16)
+    reader = ByteCursor(bytes, from: Int(try reader.unsigned(8)))
     var names: [String] = []
     var end = 0
     for _ in 0..<(try reader.unsigned(8)) {

@@ -83,12 +83,12 @@ import Testing
 
   /// The entries of the central directory, checked against the local headers.
   static func entries(of bytes: [UInt8]) throws -> [Entry] {
-    var end = ByteReader(bytes, from: bytes.count - 22)
+    var end = ByteCursor(bytes, from: bytes.count - 22)
     #expect(try end.unsigned(4) == 0x0605_4B50)
     _ = try end.unsigned(4)
     let count = try end.unsigned(2)
     _ = try end.unsigned(6)
-    var directory = ByteReader(bytes, from: Int(try end.unsigned(4)))
+    var directory = ByteCursor(bytes, from: Int(try end.unsigned(4)))
     return try (0..<count).map { _ in
       #expect(try directory.unsigned(4) == 0x0201_4B50)
       _ = try directory.unsigned(6)
@@ -101,7 +101,7 @@ import Testing
       for _ in 0..<3 { _ = try directory.unsigned(4) }
       let offset = Int(try directory.unsigned(4))
       let name = try (0..<nameLength).map { _ in UInt8(try directory.unsigned(1)) }
-      var local = ByteReader(bytes, from: offset)
+      var local = ByteCursor(bytes, from: offset)
       #expect(try local.unsigned(4) == 0x0403_4B50)
       for _ in 0..<11 { _ = try local.unsigned(2) }
       let (localName, extra) = (Int(try local.unsigned(2)), Int(try local.unsigned(2)))

@@ -3,8 +3,7 @@ import SceneModel
 
 /// Estimates the scale, rotation and translation that align points with their counterparts.
 ///
-/// The least-squares similarity of Umeyama (PAMI 1991), with the rotation from Horn's unit
-/// quaternion method (JOSA A 1987), which never yields a reflection.
+/// Adds a robust variant to the least-squares fit of `SimilarityTransform.fitting`.
 package struct SimilarityAlignment: Sendable {
   package struct Options: Codable, Hashable, Sendable {
     /// Number of samples of the robust variant.
@@ -25,25 +24,8 @@ package struct SimilarityAlignment: Sendable {
     from source: [SIMD3<Double>], to target: [SIMD3<Double>]
   ) -> SimilarityTransform? {
     let count = min(source.count, target.count)
-    guard count >= 3 else { return nil }
-    let (sourceCenter, targetCenter) = (Self.mean(source), Self.mean(target))
-    var covariance = [SIMD3<Double>](repeating: .zero, count: 3)
-    var variance = 0.0
-    for index in 0..<count {
-      let (a, b) = (source[index] - sourceCenter, target[index] - targetCenter)
-      for axis in 0..<3 { covariance[axis] += a[axis] * b }
-      variance += a.squaredLength
-    }
-    guard variance > 0, let rotation = Self.rotation(covariance) else { return nil }
-    var scale = 0.0
-    for index in 0..<count {
-      scale += (target[index] - targetCenter).dot(rotation * (source[index] - sourceCenter))
-    }
-    scale /= variance
-    guard scale.isFinite, scale > 0 else { return nil }
-    return SimilarityTransform(
-      scale: scale, rotation: rotation,
-      translation: targetCenter - scale * (rotation * sourceCenter))
+    return .fitting(
+      Array(source.prefix(count)), to: Array(target.prefix(count)), requiresUniqueRotation: true)
   }
 
   /// The least-squares similarity of the largest consensus set (RANSAC), which tolerates a few
@@ -81,26 +63,5 @@ package struct SimilarityAlignment: Sendable {
 
   private static func mean(_ points: [SIMD3<Double>]) -> SIMD3<Double> {
     points.reduce(.zero, +) / Double(max(1, points.count))
-  }
-
-  /// The rotation that maximizes Σ b · R a for `covariance[i] = Σ aᵢ b`; nil if it is not unique.
-  private static func rotation(_ s: [SIMD3<Double>]) -> Quaternion? {
-    let (trace, x, y, z) = (
-      s[0].x + s[1].y + s[2].z, s[1].z - s[2].y, s[2].x - s[0].z, s[0].y - s[1].x
-    )
-    let matrix: [[Double]] = [
-      [trace, x, y, z],
-      [x, s[0].x - s[1].y - s[2].z, s[0].y + s[1].x, s[2].x + s[0].z],
-      [y, s[0].y + s[1].x, s[1].y - s[0].x - s[2].z, s[1].z + s[2].y],
-      [z, s[2].x + s[0].z, s[1].z + s[2].y, s[2].z - s[0].x - s[1].y],
-    ]
-    let eigen = SymmetricEigen(matrix)
-    let order = eigen.values.indices.sorted { eigen.values[$0] > eigen.values[$1] }
-    let scale = eigen.values.reduce(0) { max($0, abs($1)) }
-    guard scale > 0, eigen.values[order[0]] - eigen.values[order[1]] > 1e-9 * scale else {
-      return nil
-    }
-    let q = eigen.vectors[order[0]]
-    return Quaternion(x: q[1], y: q[2], z: q[3], w: q[0]).normalized
   }
 }

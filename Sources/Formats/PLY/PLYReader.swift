@@ -12,7 +12,7 @@ struct PLYReader {
   private var source: Source
 
   private enum Source {
-    case binary(ByteReader)
+    case binary(ByteCursor)
     case text(bytes: [UInt8], offset: Int)
   }
 
@@ -22,7 +22,7 @@ struct PLYReader {
       header.encoding == .ascii
       ? .text(bytes: bytes, offset: header.length)
       : .binary(
-        ByteReader(bytes, from: header.length, isBigEndian: header.encoding == .bigEndian))
+        ByteCursor(bytes, from: header.length, isBigEndian: header.encoding == .bigEndian))
     var needed = 0
     for element in header.elements {
       let (size, overflow) = element.count.multipliedReportingOverflow(
@@ -47,7 +47,7 @@ struct PLYReader {
           try body(element, row)
         }
       }
-    } catch is ByteReader.Truncated {
+    } catch is ByteCursor.Truncated {
       throw PLYFault("it ends before its last element")
     }
   }
@@ -103,7 +103,7 @@ struct PLYReader {
     while offset < bytes.count, bytes[offset] <= 32 { offset += 1 }
     let start = offset
     while offset < bytes.count, bytes[offset] > 32 { offset += 1 }
-    guard offset > start else { throw ByteReader.Truncated() }
+    guard offset > start else { throw ByteCursor.Truncated() }
     return String(decoding: bytes[start..<offset], as: UTF8.self)
   }
 }

@@ -39,7 +39,7 @@ struct HoleFilling {
   /// whether photos observe free space at a point (world frame); `support` is the plane that the
   /// object stands on, if any.
   func run(
-    _ mesh: Mesh, isRemoved: [Bool], support: StandingPlane? = nil,
+    _ mesh: Mesh, isRemoved: [Bool], support: SupportPlane? = nil,
     isFree: (SIMD3<Float>) -> Bool
   ) -> Mesh {
     guard let bounds = mesh.bounds, isRemoved.contains(true) else { return mesh }
@@ -101,10 +101,10 @@ struct HoleFilling {
 
 /// The contact of an object with its support.
 private struct Contact {
-  private let plane: StandingPlane
+  private let plane: SupportPlane
   private let limit: Double
 
-  init(_ plane: StandingPlane, under mesh: Mesh, _ isRemoved: [Bool], share: Double) {
+  init(_ plane: SupportPlane, under mesh: Mesh, _ isRemoved: [Bool], share: Double) {
     self.plane = plane
     var top = 0.0
     for (triangle, isRemoved) in zip(mesh.triangles, isRemoved) where !isRemoved {

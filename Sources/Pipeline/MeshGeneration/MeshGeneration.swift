@@ -77,7 +77,7 @@ package struct MeshGeneration {
   private struct Selection {
     var isKept: [Bool]
     var isObject: Bool
-    var support: StandingPlane?
+    var support: SupportPlane?
   }
 
   /// Throws unless the cloud has at least 100 finite points with normals and footprints.
@@ -103,7 +103,7 @@ package struct MeshGeneration {
       context.notes.record("objectPoints", Double(isKept.count { $0 }))
       return Selection(
         isKept: isKept, isObject: true,
-        support: StandingPlane(
+        support: SupportPlane(
           under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
     }
     if options.isolatesObject {

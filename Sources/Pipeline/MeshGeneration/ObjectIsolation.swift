@@ -35,7 +35,7 @@ struct ObjectIsolation {
     /// Whether each input point belongs to the object.
     var isKept: [Bool]
     /// The plane that the object stands on; nil if none was found.
-    var support: StandingPlane?
+    var support: SupportPlane?
     /// Why there is no clear object; then all finite points are kept.
     var failure: String?
   }
@@ -68,7 +68,7 @@ struct ObjectIsolation {
 /// The downsampled points with the features that decide whether they belong to the object.
 struct IsolationSamples {
   enum Outcome {
-    case object([Bool], StandingPlane?)
+    case object([Bool], SupportPlane?)
     case failure(String)
   }
 
@@ -109,7 +109,7 @@ struct IsolationSamples {
     }
     guard region.count >= 30 else { return .failure("too little is seen by most photos.") }
     try context.control.step(0.1)
-    let support = StandingPlaneDetection().run(
+    let support = SupportPlaneDetection().run(
       positions: region.map { cloud.positions[$0] },
       normals: cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] },
       up: up, isUpKnown: isUpKnown, focus: focus, cell: cell)

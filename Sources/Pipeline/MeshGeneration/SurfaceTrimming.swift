@@ -35,7 +35,7 @@ struct SurfaceTrimming {
   /// object stands on.
   func run(
     _ mesh: Mesh, samples: PointCloud, scene: PointCloud, spacing: Double,
-    support: StandingPlane? = nil, silhouettes: Silhouettes? = nil,
+    support: SupportPlane? = nil, silhouettes: Silhouettes? = nil,
     _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Mesh {
     guard let bounds = mesh.bounds else { return mesh }

@@ -56,7 +56,7 @@ import Testing
     let (mesh, isDome) = dome(radius: 15)
     let open = HoleFilling().run(mesh, isRemoved: isDome) { $0.x > 0 }
     #expect(open.triangles.count == isDome.count { !$0 })
-    let support = StandingPlane(normal: [0, 1, 0], offset: -0.1, band: 0.1)
+    let support = SupportPlane(normal: [0, 1, 0], offset: -0.1, band: 0.1)
     let closed = HoleFilling().run(mesh, isRemoved: isDome, support: support) { $0.x > 0 }
     #expect(closed.triangles == mesh.triangles)
     #expect(closed.positions[41 * 20 + 20].y == -0.1)

@@ -27,7 +27,7 @@ package struct WorldAlignment: Sendable {
     frame.up = gravityUp == nil ? .cameras : .gravity
     let plane =
       options.findsSupport
-      ? SupportPlane(object, centers: centers, up: priorUp, options) : nil
+      ? SparseSupportDetection(options: options).run(object, centers: centers, up: priorUp) : nil
     if gravityUp == nil, let plane { (up, frame.up) = (plane.normal, .supportPlane) }
     let gps = GPSFit(reconstruction, up: up, options)
     if gravityUp == nil, let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }
@@ -89,7 +89,7 @@ package struct WorldAlignment: Sendable {
     let lowest = object.center + up * (heights.isEmpty ? 0 : heights[heights.count / 50])
     // A plane that was found for a different up direction, or above the object, is not the ground.
     guard let plane, plane.normal.dot(up) > 0.96 else { return lowest }
-    let onPlane = object.center - plane.normal * plane.distance(object.center)
+    let onPlane = object.center - plane.normal * plane.height(of: object.center)
     return onPlane
   }
 

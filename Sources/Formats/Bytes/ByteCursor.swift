@@ -1,5 +1,5 @@
 /// Reads numbers from untrusted bytes; throws `Truncated` instead of reading past the end.
-struct ByteReader {
+struct ByteCursor {
   /// The bytes end before the value does.
   struct Truncated: Error {}
 

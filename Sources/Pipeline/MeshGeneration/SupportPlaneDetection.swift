@@ -1,20 +1,9 @@
 import Foundation
 import SceneModel
 
-/// The plane that an object stands on: `normal · x = offset`, the normal points up.
-struct StandingPlane: Hashable, Sendable {
-  var normal: SIMD3<Double>
-  var offset: Double
-  /// Half the thickness of the slab of points that belong to the support, in world units.
-  var band: Double
-
-  /// Signed distance above the plane in world units.
-  func height(of point: SIMD3<Double>) -> Double { normal.dot(point) - offset }
-}
-
 /// Detects the dominant near-horizontal plane under the object by RANSAC (Fischler and Bolles, CACM
 /// 1981) with least-squares refinement.
-struct StandingPlaneDetection {
+struct SupportPlaneDetection {
   struct Options: Hashable, Codable, Sendable {
     /// Planes steeper than this are walls, in degrees.
     var maximumTiltDegrees = 30.0
@@ -40,7 +29,7 @@ struct StandingPlaneDetection {
   func run(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], up: SIMD3<Double>, isUpKnown: Bool,
     focus: ViewFocus, cell: Double
-  ) -> StandingPlane? {
+  ) -> SupportPlane? {
     let tilt = isUpKnown ? options.maximumTiltDegrees : options.maximumUnknownTiltDegrees
     let minimumCosine = cos(tilt * .pi / 180)
     let candidates = positions.indices.filter { index in
@@ -53,12 +42,12 @@ struct StandingPlaneDetection {
       SIMD3<Double>(positions[$0])
     }
     var random = SplitMix64(seed: 0x5eed_0001)
-    var best: (plane: StandingPlane, score: Double)?
+    var best: (plane: SupportPlane, score: Double)?
     for _ in 0..<options.iterations {
       let corners = (0..<3).map { _ in
         SIMD3<Double>(positions[candidates[random.below(candidates.count)]])
       }
-      guard var plane = StandingPlane(through: corners, up: up, band: tolerance),
+      guard var plane = SupportPlane(through: corners, up: up, band: tolerance),
         plane.normal.dot(up) > minimumCosine, camerasAbove(plane, focus)
       else { continue }
       plane.band = tolerance
@@ -75,7 +64,7 @@ struct StandingPlaneDetection {
   }
 
   /// Inliers of the plane, minus samples below it: nothing is visible under a support.
-  private func score(_ plane: StandingPlane, _ samples: [SIMD3<Double>]) -> Double {
+  private func score(_ plane: SupportPlane, _ samples: [SIMD3<Double>]) -> Double {
     samples.reduce(0) { sum, sample in
       let height = plane.height(of: sample)
       if abs(height) < plane.band { return sum + 1 - abs(height) / plane.band * 0.5 }
@@ -84,7 +73,7 @@ struct StandingPlaneDetection {
   }
 
   /// Whether enough cameras are above the plane.
-  private func camerasAbove(_ plane: StandingPlane, _ focus: ViewFocus) -> Bool {
+  private func camerasAbove(_ plane: SupportPlane, _ focus: ViewFocus) -> Bool {
     let centers = focus.centers
     let above = centers.filter { plane.height(of: $0) > 0 }.count
     return Double(above) >= options.minimumCamerasAbove * Double(centers.count)
@@ -92,14 +81,14 @@ struct StandingPlaneDetection {
 
   /// The least-squares plane through the inliers, with a band from their deviation (1.4826 · MAD).
   private func refined(
-    _ plane: StandingPlane, _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>],
+    _ plane: SupportPlane, _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>],
     _ up: SIMD3<Double>, _ tolerance: Double, _ cell: Double
-  ) -> StandingPlane? {
+  ) -> SupportPlane? {
     let inliers = positions.indices.filter { index in
       abs(plane.height(of: SIMD3<Double>(positions[index]))) < tolerance
         && (normals.isEmpty || SIMD3<Double>(normals[index]).dot(plane.normal) > 0.7)
     }.map { SIMD3<Double>(positions[$0]) }
-    guard inliers.count >= 12, var result = StandingPlane(fitting: inliers, near: plane) else {
+    guard inliers.count >= 12, var result = SupportPlane(fitting: inliers, near: plane) else {
       return nil
     }
     let deviation = 1.4826 * (inliers.map { abs(result.height(of: $0)) }.upperMedian ?? 0)
@@ -108,50 +97,7 @@ struct StandingPlaneDetection {
   }
 }
 
-extension StandingPlane {
-  /// The plane through three points; nil if they are close together or nearly collinear.
-  init?(through points: [SIMD3<Double>], up: SIMD3<Double>, band: Double) {
-    let (u, v) = (points[1] - points[0], points[2] - points[0])
-    let cross = u.cross(v)
-    guard cross.length > 0.05 * u.length * v.length, u.length > 10 * band, v.length > 10 * band
-    else { return nil }
-    normal = cross.normalized
-    if normal.dot(up) < 0 { normal = -normal }
-    offset = normal.dot(points[0])
-    self.band = band
-  }
-
-  /// The least-squares plane in height over `plane`; nil if the points are collinear.
-  init?(fitting points: [SIMD3<Double>], near plane: StandingPlane) {
-    let (u, v) = plane.normal.orthonormalPair
-    let mean = points.reduce(.zero, +) / Double(points.count)
-    var matrix = Matrix3(rows: .zero, .zero, .zero)
-    var right = SIMD3<Double>.zero
-    for point in points {
-      let d = point - mean
-      let row = SIMD3(d.dot(u), d.dot(v), 1)
-      matrix.row0 += row.x * row
-      matrix.row1 += row.y * row
-      matrix.row2 += row
-      right += plane.height(of: point) * row
-    }
-    guard let slope = matrix.solution(of: right) else { return nil }
-    normal = (plane.normal - slope.x * u - slope.y * v).normalized
-    offset = normal.dot(mean + (slope.z - plane.height(of: mean)) * plane.normal)
-    band = plane.band
-  }
-}
-
-extension SIMD3 where Scalar == Double {
-  /// Two unit vectors that complete this unit vector to a right-handed frame.
-  var orthonormalPair: (SIMD3<Double>, SIMD3<Double>) {
-    let helper: SIMD3<Double> = abs(x) < 0.6 ? [1, 0, 0] : [0, 0, 1]
-    let u = cross(helper).normalized
-    return (u, cross(u))
-  }
-}
-
-extension StandingPlane {
+extension SupportPlane {
   /// The level plane through the lowest points of an object; nil if the up direction isn't known,
   /// or if photos show the underside, which then requires no plane to be filled.
   init?(under object: PointCloud, up: WorldFrame.Up) {
