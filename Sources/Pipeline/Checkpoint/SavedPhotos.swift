@@ -36,7 +36,7 @@ struct SavedPhotos: Sendable {
       if let file = mask.file {
         let moved = saved.moved(file)
         let bytes = try? ImageCodec.contents(of: moved)
-        if bytes.map { XXHash64.hash($0) } != mask.contentHash {
+        if bytes.map({ XXHash64.hash($0) }) != mask.contentHash {
           changed.append(moved.lastPathComponent)
         }
         mask.file = moved
