@@ -39,7 +39,8 @@ struct GrowthBenchmark: ParsableCommand {
     camera.calibration = .exif
     let context = StageContext(control: control)
     let (graph, cameras) = try CorrespondenceSearch().run(
-      photos: scene.photos, cameras: [camera], features: scene.features, isSequential: sequential,
+      photos: scene.photos, cameras: [camera], features: scene.features,
+      ordering: sequential ? .sequential : .unordered,
       context)
     let matched = ResourceUsage.now
     var result = Result(scene, graph, context.notes)

@@ -25,16 +25,16 @@ import Testing
   @Test func theURLSelectsTheKindOfOutput() throws {
     try withTemporaryFolder { folder in
       let file = folder.appendingPathComponent("model.usdz")
-      #expect((try? OutputLocation(file)) == .file(file))
+      #expect((OutputLocation(file)) == .file(file))
       let upper = folder.appendingPathComponent("MODEL.USDZ")
-      #expect((try? OutputLocation(upper)) == .file(upper))
-      #expect((try? OutputLocation(folder)) == .folder(folder))
+      #expect((OutputLocation(upper)) == .file(upper))
+      #expect((OutputLocation(folder)) == .folder(folder))
       let new = folder.appendingPathComponent("a/b", isDirectory: true)
-      #expect((try? OutputLocation(new)) == .folder(new))
+      #expect((OutputLocation(new)) == .folder(new))
       let glb = folder.appendingPathComponent("model.glb")
-      #expect(throws: Session.Error.self) { try OutputLocation(glb) }
-      #expect((try? OutputLocation(glb, additionalFormats: [.glb])) == .file(glb))
-      #expect(throws: Session.Error.self) { try OutputLocation(glb, additionalFormats: [.ply]) }
+      #expect(OutputLocation(glb) == nil)
+      #expect((OutputLocation(glb, additionalFormats: [.glb])) == .file(glb))
+      #expect(OutputLocation(glb, additionalFormats: [.ply]) == nil)
     }
   }
 

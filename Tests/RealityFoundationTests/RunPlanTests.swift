@@ -51,13 +51,6 @@ import Testing
     #expect(largest.finest.viewPixels == DetailSpecification(.raw).viewPixels)
   }
 
-  @Test func meshPrimitiveIsPassedToThePipeline() {
-    var configuration = Session.Configuration()
-    #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .triangle)
-    configuration.meshPrimitive = .quad
-    #expect(PipelineConfiguration(configuration, EngineOptions()).meshPrimitive == .quad)
-  }
-
   @Test func entitiesAreOrderedByDetail() {
     let coarse = Session.Request.modelEntity(detail: .preview)
     let plan = RunPlan(

@@ -71,7 +71,7 @@ final class ScriptedEngine: SessionEngine {
 
   func plan(for specifications: [DetailSpecification]) {}
 
-  func ingest() throws -> UsualDurations.Photos {
+  func ingest() throws -> PhotoTotals {
     journal.add("ingest")
     for photo in script.refused { onEvent(.refused(photo)) }
     if let error = script.ingestError { throw error }

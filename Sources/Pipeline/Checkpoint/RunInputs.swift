@@ -2,50 +2,35 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// What the results of a run depend on: numbers that change with any of it.
+/// Fingerprints of everything that the results of a run depend on.
 struct RunInputs: Sendable {
-  /// Of what alignment depends on.
+  /// Of everything that alignment depends on.
   let alignment: UInt64
-  private let configuration: Data
+  /// Of everything that the surface depends on.
+  let surface: UInt64
 
-  /// `readings` are by sample id.
-  init(
-    _ ingested: IngestedPhotos, _ configuration: PipelineConfiguration,
-    readings: [Int: SensorReading]
-  ) throws {
+  /// `configuration` is that of the models to come, with the resolution of the dense stage.
+  init(_ photos: PhotoSet, _ configuration: PipelineConfiguration) throws {
     var fingerprint = Fingerprint()
     fingerprint.add(ProgramIdentity.fingerprint)
-    fingerprint.add(ingested.photos.count)
-    for (photo, hash) in zip(ingested.photos, ingested.contentHashes) {
+    fingerprint.add(photos.ingested.photos.count)
+    for (photo, hash) in zip(photos.ingested.photos, photos.ingested.contentHashes) {
       fingerprint.add(photo.name.utf8)
       fingerprint.add(photo.sampleID)
       fingerprint.add(hash)
-      // Where a mask's file is plays no part.
+      // Masks count by content, wherever their files are.
       fingerprint.add(photo.mask == nil ? 0 : 1)
       fingerprint.add(photo.mask?.contentHash ?? 0)
-      fingerprint.add(readings[photo.sampleID] ?? SensorReading())
+      fingerprint.add(photos.readings[photo.sampleID] ?? SensorReading())
     }
-    fingerprint.add(ingested.processingPixels)
+    fingerprint.add(photos.ingested.processingPixels)
+    var surfaceFingerprint = fingerprint
     fingerprint.add(
-      try Fingerprint.content(of: [configuration.isSequential, configuration.isHighSensitivity]))
-    fingerprint.add(try Fingerprint.content(of: configuration.knownDistances))
-    fingerprint.add(try Fingerprint.content(of: configuration.mappingMethod))
+      try ConfigurationFingerprint.content(of: configuration, through: .imageAlignment))
+    surfaceFingerprint.add(
+      try ConfigurationFingerprint.content(of: configuration, through: .meshGeneration))
     alignment = fingerprint.value
-    self.configuration =
-      try Fingerprint.content(of: configuration.pointCloudGeneration)
-      + Fingerprint.content(of: [
-        configuration.isObjectMaskingEnabled, configuration.closesObject,
-        configuration.refinesSurface,
-      ])
-  }
-
-  /// Of what the surface depends on that is made from views of so many pixels.
-  func surface(viewPixels: Int) -> UInt64 {
-    var fingerprint = Fingerprint()
-    fingerprint.add(alignment)
-    fingerprint.add(configuration)
-    fingerprint.add(viewPixels)
-    return fingerprint.value
+    surface = surfaceFingerprint.value
   }
 }
 

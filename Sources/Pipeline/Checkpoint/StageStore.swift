@@ -78,19 +78,18 @@ private struct SurfaceSeal: Codable {
 }
 
 extension StageStore {
-  /// Keeps that the surface in the checkpoint is made from views of so many pixels.
-  func sealSurface(viewPixels: Int, _ notes: StageNotes, denseNotes: StageNotes) throws {
+  /// Seals the surface in the checkpoint with what it was made from.
+  func sealSurface(_ notes: StageNotes, denseNotes: StageNotes) throws {
     guard let hash = surfaceHash() else { return }
     let seal = SurfaceSeal(
       contentHash: hash, notes: SavedNotes(notes), denseNotes: SavedNotes(denseNotes))
-    try write(seal, "surface", madeFrom: inputs.surface(viewPixels: viewPixels))
+    try write(seal, "surface", madeFrom: inputs.surface)
   }
 
   /// The surface that an earlier run made of the same photos with the same options; nil where there is
   /// none of use. The notes of its stages are added to `notes`.
-  func surface(viewPixels: Int, _ notes: StageNotes) -> Mesh? {
-    let inputs = inputs.surface(viewPixels: viewPixels)
-    guard let seal: SurfaceSeal = read("surface", madeFrom: inputs),
+  func surface(_ notes: StageNotes) -> Mesh? {
+    guard let seal: SurfaceSeal = read("surface", madeFrom: inputs.surface),
       seal.contentHash == surfaceHash(), let mesh = try? PLY.readMesh(checkpoint.surface)
     else { return nil }
     seal.denseNotes.sentencesOnly.replay(to: notes)

@@ -1,5 +1,3 @@
-import Foundation
-import ImageFiles
 import Kernels
 import SceneModel
 
@@ -7,50 +5,46 @@ import SceneModel
 ///
 /// Thread-safe. What it returns depends on the arguments only, never on what is kept.
 package final class ImageStore: Sendable {
-  private struct Key: Hashable {
-    var photo: ID<Photo>
-    var width: Int
-    var height: Int
-    var isMask = false
-  }
-
-  private struct Cache {
-    var images: [Key: (image: RasterImage, lastUse: Int)] = [:]
-    var byteCount = 0
-    var clock = 0
-  }
-
-  private let photos: [Photo]
-  private let images: [RasterImage]
-  private let masks: [RasterImage?]
-  private let byteBudget: Int
+  private let source: any PhotoPixels
   private let processingPixels: Int?
-  private let contentHashes: [UInt64]
-  private let cache = Locked(Cache())
+  private let usesMasks: Bool
+  private let cache: ImageCache
+  /// Whether all photos fit into the budget at full size: then each is decoded at full size once.
+  private let keepsWholePhotos: Bool
+  private let decodes: Locked<Int>
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
-  /// is larger than `processingPixels`. `contentHashes`, by photo id, save reading files again where
-  /// they are known.
+  /// is larger than `processingPixels`.
   package init(
+    _ source: any PhotoPixels, byteBudget: Int = 1 << 30, processingPixels: Int? = nil
+  ) {
+    self.source = source
+    self.processingPixels = processingPixels
+    usesMasks = true
+    cache = ImageCache(byteBudget: byteBudget)
+    keepsWholePhotos = source.byteCount <= byteBudget
+    decodes = Locked(0)
+  }
+
+  /// The photos of another store without their masks; the two share their decoded images.
+  package init(withoutMasksOf other: ImageStore) {
+    source = other.source
+    processingPixels = other.processingPixels
+    usesMasks = false
+    cache = other.cache
+    keepsWholePhotos = other.keepsWholePhotos
+    decodes = other.decodes
+  }
+
+  /// A store of photos in files. `contentHashes`, by photo id, save reading files again where they
+  /// are known.
+  package convenience init(
     photos: [Photo], byteBudget: Int = 1 << 30, processingPixels: Int? = nil,
     contentHashes: [UInt64] = []
   ) {
-    self.photos = photos
-    self.images = []
-    self.masks = []
-    self.byteBudget = byteBudget
-    self.processingPixels = processingPixels
-    self.contentHashes = contentHashes
-  }
-
-  /// A store of images in memory: photo id i is `images[i]`, and its mask, gray, is `masks[i]`.
-  package init(images: [RasterImage], masks: [RasterImage?] = []) {
-    self.photos = []
-    self.images = images
-    self.masks = masks
-    self.byteBudget = 0
-    self.processingPixels = nil
-    self.contentHashes = []
+    self.init(
+      PhotoFiles(photos: photos, contentHashes: contentHashes), byteBudget: byteBudget,
+      processingPixels: processingPixels)
   }
 
   /// The largest size of at most `maximumPixels` with the aspect of `width` × `height`; never
@@ -63,221 +57,66 @@ package final class ImageStore: Sendable {
     return (max(1, Int(Double(width) * scale)), max(1, Int(Double(height) * scale)))
   }
 
+  /// Photos decoded so far; a photo counts each time that it is decoded.
+  package var decodeCount: Int { decodes.withLock { $0 } }
+
   /// The photo in RGB, upright, reduced by area averaging to at most `maximumPixels`.
   ///
   /// The camera of the result is `camera.resized(width:height:)` with the image's size.
   package func image(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage {
     let size = try size(of: id, maximumPixels: maximumPixels)
-    if holdsImages {
-      return try element(id, of: images).resized(width: size.width, height: size.height)
-    }
-    let photo = try element(id, of: photos)
-    let key = Key(photo: id, width: size.width, height: size.height)
-    if let kept = keptImage(key) { return kept }
-    let image = try decode(photo, atLeast: size).resized(width: size.width, height: size.height)
-    keep(image, key)
+    let content = ImageCache.Content.resized(width: size.width, height: size.height)
+    if let kept = cache.image(content, of: id) { return kept }
+    let reduction = try source.reduction(of: id, atLeast: size)
+    let decoded = try decoded(id, reducedBy: reduction, for: size)
+    guard decoded.width != size.width || decoded.height != size.height else { return decoded }
+    let image = try decoded.resized(width: size.width, height: size.height)
+    cache.keep(image, content, of: id, evicts: !keepsWholePhotos)
+    return image
+  }
+
+  /// The photo as it is decoded for an image of some size. It is kept where it has that size, or
+  /// where all photos fit into the budget at full size.
+  private func decoded(
+    _ id: ID<Photo>, reducedBy reduction: Int, for size: (width: Int, height: Int)
+  ) throws -> RasterImage {
+    let content = ImageCache.Content.decoded(reduction: reduction)
+    if let kept = cache.image(content, of: id) { return kept }
+    let image = try source.decoded(id, reducedBy: reduction)
+    decodes.withLock { $0 += 1 }
+    let isResult = image.width == size.width && image.height == size.height
+    if isResult || (keepsWholePhotos && reduction == 1) { cache.keep(image, content, of: id) }
     return image
   }
 
   /// Where the photo shows the object: gray, of the size of `image(id, maximumPixels:)`, 255 on the
-  /// object and 0 beside it, between them at a rim that was reduced. Nil where nothing tells.
+  /// object and 0 elsewhere, in between at a boundary that was reduced. Nil without a mask.
   package func mask(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage? {
     let size = try size(of: id, maximumPixels: maximumPixels)
-    if holdsImages {
-      guard masks.indices.contains(id.index) else { return nil }
-      return try masks[id.index]?.resized(width: size.width, height: size.height)
-    }
-    let photo = try element(id, of: photos)
-    guard let mask = photo.mask else { return nil }
-    let key = Key(photo: id, width: size.width, height: size.height, isMask: true)
-    if let kept = keptImage(key) { return kept }
-    let image = try decode(mask, of: photo).turned(byOrientation: mask.orientation)
-      .resized(width: size.width, height: size.height)
-    keep(image, key)
+    guard usesMasks else { return nil }
+    let content = ImageCache.Content.mask(width: size.width, height: size.height)
+    if let kept = cache.image(content, of: id) { return kept }
+    guard let mask = try source.mask(of: id) else { return nil }
+    let image = try mask.resized(width: size.width, height: size.height)
+    cache.keep(image, content, of: id)
     return image
   }
 
   /// Whether some photo has a mask.
-  package var hasMasks: Bool {
-    holdsImages ? masks.contains { $0 != nil } : photos.contains { $0.mask != nil }
-  }
+  package var hasMasks: Bool { usesMasks && source.hasMasks }
 
   /// The size of `image(id, maximumPixels:)`.
-  private func size(
-    of id: ID<Photo>, maximumPixels: Int?
-  ) throws -> (width: Int, height: Int) {
-    if holdsImages {
-      let full = try element(id, of: images)
-      return Self.size(width: full.width, height: full.height, maximumPixels: maximumPixels)
-    }
-    let photo = try element(id, of: photos)
+  func size(of id: ID<Photo>, maximumPixels: Int?) throws -> (width: Int, height: Int) {
+    let full = try source.size(of: id)
     let pixels = [maximumPixels, processingPixels].compactMap { $0 }.min()
-    return Self.size(width: photo.width, height: photo.height, maximumPixels: pixels)
+    return Self.size(width: full.width, height: full.height, maximumPixels: pixels)
   }
-
-  private var holdsImages: Bool { !images.isEmpty || photos.isEmpty }
 
   /// A number that changes with the photo's content, its mask, and with how they are decoded.
   package func fingerprint(of id: ID<Photo>) throws -> UInt64 {
     var fingerprint = Fingerprint()
-    if holdsImages {
-      let image = try element(id, of: images)
-      fingerprint.add(image.width)
-      fingerprint.add(image.pixels)
-      if masks.indices.contains(id.index), let mask = masks[id.index] {
-        fingerprint.add(mask.pixels)
-      }
-      return fingerprint.value
-    }
-    let photo = try element(id, of: photos)
-    if contentHashes.indices.contains(id.index) {
-      fingerprint.add(contentHashes[id.index])
-    } else {
-      fingerprint.add(try contents(of: photo))
-    }
-    for value in [photo.width, photo.height, photo.orientation, processingPixels ?? 0] {
-      fingerprint.add(value)
-    }
-    if let mask = photo.mask {
-      fingerprint.add(mask.contentHash)
-      fingerprint.add(mask.orientation)
-    }
+    fingerprint.add(try source.fingerprint(of: id))
+    fingerprint.add(processingPixels ?? 0)
     return fingerprint.value
-  }
-
-  /// The camera of `pinholeView` with the same arguments.
-  package func pinholeCamera(
-    of id: ID<Photo>, in reconstruction: Reconstruction, maximumPixels: Int
-  ) throws -> Camera {
-    let size = try size(of: id, maximumPixels: maximumPixels)
-    let camera = reconstruction.camera(of: id).resized(width: size.width, height: size.height)
-    return camera.distortion == .zero
-      ? camera : camera.undistortedPinhole(maximumPixels: maximumPixels)
-  }
-
-  /// The photo freed from lens distortion, at most `maximumPixels` large.
-  ///
-  /// Every pixel has a source in the photo: the view is the largest rectangle around the principal
-  /// point that the undistorted photo fills, so it may show a little less than the photo. Its focal
-  /// length is the photo's, scaled; without distortion it is the whole photo.
-  package func pinholeView(
-    _ id: ID<Photo>, of reconstruction: Reconstruction, maximumPixels: Int
-  ) throws -> PinholeView {
-    guard reconstruction.photos.indices.contains(id.index),
-      let pose = reconstruction.poses[id.index]
-    else { throw KernelError.invalidArgument("photo \(id.index) is not registered") }
-    let image = try image(id, maximumPixels: maximumPixels)
-    let mask = try mask(id, maximumPixels: maximumPixels)
-    let camera = reconstruction.camera(of: id).resized(width: image.width, height: image.height)
-    guard camera.distortion != .zero else {
-      return PinholeView(
-        photo: id, image: image, camera: camera, cameraFromWorld: pose, mask: mask)
-    }
-    let pinhole = try pinholeCamera(of: id, in: reconstruction, maximumPixels: maximumPixels)
-    return PinholeView(
-      photo: id, image: try image.undistorted(from: camera, to: pinhole), camera: pinhole,
-      cameraFromWorld: pose, mask: try mask?.undistorted(from: camera, to: pinhole))
-  }
-
-  /// The mask of `pinholeView` with the same arguments.
-  package func pinholeMask(
-    _ id: ID<Photo>, of reconstruction: Reconstruction, maximumPixels: Int
-  ) throws -> RasterImage? {
-    guard let mask = try mask(id, maximumPixels: maximumPixels) else { return nil }
-    let camera = reconstruction.camera(of: id).resized(width: mask.width, height: mask.height)
-    guard camera.distortion != .zero else { return mask }
-    let pinhole = try pinholeCamera(of: id, in: reconstruction, maximumPixels: maximumPixels)
-    return try mask.undistorted(from: camera, to: pinhole)
-  }
-
-  private func element<Element>(_ id: ID<Photo>, of array: [Element]) throws -> Element {
-    guard array.indices.contains(id.index) else {
-      throw KernelError.invalidArgument("there is no photo \(id.index)")
-    }
-    return array[id.index]
-  }
-
-  /// The upright photo, at a half, a quarter or an eighth of its sides where that is still at least
-  /// `size` and costs less.
-  private func decode(_ photo: Photo, atLeast size: (width: Int, height: Int)) throws -> RasterImage
-  {
-    // Only sizes without remainder: pixels at the border must stand for as much as all others.
-    let reduction =
-      ImageCodec.reductions.last {
-        photo.width % $0 == 0 && photo.height % $0 == 0 && photo.width / $0 >= size.width
-          && photo.height / $0 >= size.height
-      } ?? 1
-    let bytes = try contents(of: photo)
-    return try naming(photo) {
-      let image = try ImageCodec.decode(bytes, reducedBy: reduction)
-        .turned(byOrientation: photo.orientation)
-      let isWhole = image.width == photo.width && image.height == photo.height
-      let isReduced =
-        image.width == photo.width / reduction && image.height == photo.height / reduction
-      guard isWhole || isReduced else {
-        throw ImageError.unreadable("it has changed during the run")
-      }
-      return image
-    }
-  }
-
-  /// The mask as it is stored.
-  private func decode(_ mask: PhotoMask, of photo: Photo) throws -> RasterImage {
-    do throws(ImageError) {
-      let bytes = try ImageCodec.contents(of: mask.file ?? photo.url)
-      let image = try mask.file == nil ? MaskImage.alpha(bytes) : MaskImage.decode(bytes)
-      guard let image else { throw .unreadable("it has changed during the run") }
-      return image
-    } catch {
-      throw PhotoReadError(name: (mask.file ?? photo.url).lastPathComponent, reason: error)
-    }
-  }
-
-  private func contents(of photo: Photo) throws -> [UInt8] {
-    try naming(photo) { try ImageCodec.contents(of: photo.url) }
-  }
-
-  private func naming<Value>(_ photo: Photo, _ body: () throws -> Value) throws -> Value {
-    do {
-      return try body()
-    } catch let error as ImageError {
-      throw PhotoReadError(name: photo.name, reason: error)
-    }
-  }
-
-  private func keptImage(_ key: Key) -> RasterImage? {
-    cache.withLock { cache in
-      guard let entry = cache.images[key] else { return nil }
-      cache.clock += 1
-      cache.images[key]?.lastUse = cache.clock
-      return entry.image
-    }
-  }
-
-  private func keep(_ image: RasterImage, _ key: Key) {
-    let size = image.pixels.count
-    guard size <= byteBudget else { return }
-    cache.withLock { cache in
-      guard cache.images[key] == nil else { return }
-      while cache.byteCount + size > byteBudget,
-        let oldest = cache.images.min(by: { $0.value.lastUse < $1.value.lastUse })
-      {
-        cache.byteCount -= oldest.value.image.pixels.count
-        cache.images[oldest.key] = nil
-      }
-      cache.clock += 1
-      cache.images[key] = (image, cache.clock)
-      cache.byteCount += size
-    }
-  }
-}
-
-/// A photo that could be read when the run began and can't be now.
-package struct PhotoReadError: LocalizedError, Sendable {
-  package var name: String
-  package var reason: ImageError
-
-  package var errorDescription: String? {
-    "\(name) can't be used: \(reason.errorDescription ?? "unknown reason")."
   }
 }

@@ -1,6 +1,6 @@
 import Foundation
 
-/// Why a run can't go on: a sentence and a remedy.
+/// Why a run can't continue: a sentence and a remedy.
 package enum PipelineError: LocalizedError, Equatable, Sendable {
   case unreadableFolder(path: String, reason: String)
   case noPhotos(folder: String, refused: Int)
@@ -57,5 +57,15 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .emptyCrop:
       "Give bounds in the model's frame, where those of the whole model are."
     }
+  }
+}
+
+extension PipelineError {
+  /// Least photos of a reconstruction: two have a relative pose, but give no usable surface.
+  package static let minimumPhotos = 3
+
+  /// Throws `tooFewPhotos` for fewer than `needed`.
+  package static func checkCount(_ count: Int, needed: Int = minimumPhotos) throws {
+    guard count >= needed else { throw PipelineError.tooFewPhotos(found: count, needed: needed) }
   }
 }

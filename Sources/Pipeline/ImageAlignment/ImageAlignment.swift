@@ -5,15 +5,13 @@ import SceneModel
 /// frame.
 package struct ImageAlignment: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// The photos are in the order of capture.
-    package var isSequential = false
-    /// Detects more features on objects of low texture.
-    package var isHighSensitivity = false
-    /// Ratio of the ratio test at high sensitivity. Faint features are less distinctive; false
-    /// matches that pass are left to geometric verification.
+    /// Whether the photos are in the order of capture.
+    package var ordering = SampleOrdering.unordered
+    /// Ratio of the ratio test at high `features.sensitivity`. Faint features are less distinctive;
+    /// false matches that pass are left to geometric verification.
     package var highSensitivityRatio = 0.8
     /// Minimum number of registered photos; fewer are an error.
-    package var minimumPhotos = 3
+    package var minimumPhotos = PipelineError.minimumPhotos
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
     package var pureRotation = PureRotationCheck.Options()
@@ -23,6 +21,13 @@ package struct ImageAlignment: Sendable {
     package var worldAlignment = WorldAlignment.Options()
 
     package init() {}
+
+    /// The options of the search at the features' sensitivity.
+    fileprivate var search: CorrespondenceSearch.Options {
+      var search = correspondences
+      if features.sensitivity == .high { search.matching.matching.ratio = highSensitivityRatio }
+      return search
+    }
   }
 
   package var options: Options
@@ -34,21 +39,14 @@ package struct ImageAlignment: Sendable {
   package func run(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
-    guard photos.count >= options.minimumPhotos else {
-      throw PipelineError.tooFewPhotos(found: photos.count, needed: options.minimumPhotos)
-    }
-    var extraction = options.features
-    var search = options.correspondences
-    if options.isHighSensitivity {
-      extraction.sensitivity = .high
-      search.matching.matching.ratio = options.highSensitivityRatio
-    }
+    try PipelineError.checkCount(photos.count, needed: options.minimumPhotos)
     let features = try timed("featureSeconds", context) {
-      try FeatureExtraction(extraction).run(photos, images: images, context.part(from: 0, to: 0.4))
+      try FeatureExtraction(options.features).run(
+        photos, images: images, context.part(from: 0, to: 0.4))
     }
     let (graph, calibrated) = try timed("matchingSeconds", context) {
-      try CorrespondenceSearch(search).run(
-        photos: photos, cameras: cameras, features: features, isSequential: options.isSequential,
+      try CorrespondenceSearch(options.search).run(
+        photos: photos, cameras: cameras, features: features, ordering: options.ordering,
         context.part(from: 0.4, to: 0.7))
     }
     guard !graph.pairs.isEmpty else {

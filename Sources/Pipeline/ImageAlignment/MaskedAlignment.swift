@@ -24,10 +24,9 @@ struct MaskedAlignment {
 
   init(_ alignment: ImageAlignment) { self.alignment = alignment }
 
-  /// Aligns the photos; `wholePhotos` creates an image store of the same photos without masks.
+  /// The alignment by the masked photos, or by the whole ones.
   func run(
-    _ ingested: IngestedPhotos, images: ImageStore, wholePhotos: () -> ImageStore,
-    _ context: StageContext
+    _ ingested: IngestedPhotos, images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
     func align(_ images: ImageStore, _ notes: StageNotes) throws -> Reconstruction {
       try alignment.run(
@@ -42,7 +41,7 @@ struct MaskedAlignment {
     if Double(count) < options.minimumShare * Double(ingested.photos.count) {
       let wholeNotes = StageNotes()
       do {
-        let whole = try align(wholePhotos(), wholeNotes)
+        let whole = try align(ImageStore(withoutMasksOf: images), wholeNotes)
         if whole.registered.count > count, try agrees(whole, images) {
           context.notes.add(wholeNotes)
           context.notes.warn(

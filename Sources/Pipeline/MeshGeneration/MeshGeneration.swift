@@ -19,9 +19,11 @@ package struct MeshGeneration {
 
     package init() {}
 
-    /// For a cloud from views of `viewPixels` pixels: from 0.5 MP on, four times the pixels double
-    /// the resolution.
-    package init(viewPixels: Int) {
+    /// The options for a cloud from views of `viewPixels` pixels.
+    package init(viewPixels: Int) { adapt(toViewPixels: viewPixels) }
+
+    /// From 0.5 MP on, four times the pixels double the resolution of the octree.
+    package mutating func adapt(toViewPixels viewPixels: Int) {
       let finer = log2(Double(max(500_000, viewPixels)) / 500_000) / 2
       maximumDepth = min(12, 9 + Int(finer.rounded()))
     }

@@ -4,17 +4,19 @@ import SceneModel
 /// Photometric mesh refinement: moves the surface to where photos agree, at a finer resolution than
 /// the dense stage's. Sharpens relief and edges, and reduces noise (after Vu et al., "High Accuracy
 /// and Visibility-Consistent Dense Multiview Stereo", PAMI 2012).
-struct PhotoRefinement {
-  struct Options: Hashable, Codable, Sendable {
+package struct PhotoRefinement {
+  package struct Options: Hashable, Codable, Sendable {
     /// Maximum number of pixels of a photo.
-    var maximumPixels = 8_000_000
-    var surface = SurfaceRefinement.Options()
+    package var maximumPixels = 8_000_000
+    package var surface = SurfaceRefinement.Options()
 
-    init() {}
+    package init() {}
 
-    /// For a surface from views of `viewPixels` pixels: much smaller pixels add no information for
-    /// its triangles.
-    init(viewPixels: Int) {
+    /// The options for a surface from views of `viewPixels` pixels.
+    init(viewPixels: Int) { adapt(toViewPixels: viewPixels) }
+
+    /// Pixels much smaller than those of the views add no information for triangles of that size.
+    package mutating func adapt(toViewPixels viewPixels: Int) {
       maximumPixels = min(maximumPixels, 4 * max(1, viewPixels))
     }
   }

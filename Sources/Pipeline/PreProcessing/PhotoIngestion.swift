@@ -68,6 +68,9 @@ package struct PhotoIngestion: Sendable {
     let sensors = SensorFiles(masks.photos)
     let files = sensors.photos
     var (candidates, refused) = try inspect(files, masks, context.part(from: 0, to: 0.95))
+    // Those that are refused as blurred here were decoded, too.
+    let decoded = candidates.count + refused.count { $0.fault == .blurred }
+    context.notes.record("decodedPhotos", Double(decoded))
     let originals = try DuplicateDetection(options.duplicates)
       .run(candidates, context.part(from: 0.95, to: 1))
     let names = candidates.map(\.url.lastPathComponent)
@@ -219,8 +222,7 @@ package struct PhotoIngestion: Sendable {
       notes.log("\(masked.count) of \(result.photos.count) photos have a mask.")
     }
     result.refusedMasks.forEach { notes.warn($0.reason) }
-    notes.record(
-      "megapixels", result.photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6)
+    notes.record("megapixels", PhotoTotals(result.photos).megapixels)
     if !accepted.isEmpty {
       notes.record("medianSharpness", accepted.map(\.sharpness).sorted()[accepted.count / 2])
     }

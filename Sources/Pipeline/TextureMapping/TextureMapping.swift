@@ -6,13 +6,18 @@ import SceneModel
 /// "Let There Be Color!", ECCV 2014), and bakes detail that simplification removed into maps.
 package struct TextureMapping: Sendable {
   /// Parameters of texturing.
-  package struct Options: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
     /// Maximum texture side in texels; halved while the photos have less detail.
     package var textureSide = 4096
     /// Maximum number of textures; more than one only if the photos fill it.
     package var maximumAtlases = 1
     /// The maps to produce.
-    package var maps: Set<TextureMap> = [.diffuseColor, .normal, .ambientOcclusion]
+    package var maps: Set<TextureMap> {
+      get { Set(sortedMaps) }
+      set { sortedMaps = newValue.sorted() }
+    }
+    /// In the order of the cases, so that equal options have equal encodings.
+    private var sortedMaps: [TextureMap] = [.diffuseColor, .normal, .ambientOcclusion]
 
     /// Minimum area of a transient occluder, as a share of a photo.
     var minimumRegionShare: Float = 0.001

@@ -22,12 +22,12 @@ final class ReconstructionEngine: SessionEngine {
     case .folder(let url):
       samples = nil
       pipeline = ReconstructionPipeline(
-        folder: url, configuration: configuration, flag: flag, onEvent: onEvent)
+        .photos(in: url), configuration: configuration, flag: flag, onEvent: onEvent)
     case .samples(let samples):
       self.samples = samples
       let folder = try samples.write(flag: flag, onEvent: onEvent)
       pipeline = ReconstructionPipeline(
-        folder: folder, configuration: configuration, readings: samples.readings, flag: flag
+        .photos(in: folder, readings: samples.readings), configuration: configuration, flag: flag
       ) { event in onEvent(samples.translated(event)) }
     }
   }
@@ -43,11 +43,7 @@ final class ReconstructionEngine: SessionEngine {
 
   func limitResolution(to viewPixels: Int) { pipeline.limitResolution(to: viewPixels) }
 
-  func ingest() throws -> UsualDurations.Photos {
-    let photos = try pipeline.ingest().photos
-    let pixels = photos.reduce(0) { $0 + Double($1.width * $1.height) }
-    return .init(count: photos.count, megapixels: pixels / 1e6)
-  }
+  func ingest() throws -> PhotoTotals { PhotoTotals(try pipeline.ingest().photos) }
 
   func poses() throws -> PhotogrammetrySession.Poses {
     PhotogrammetrySession.Poses(try align(), sampleIDs: samples?.ids)
@@ -97,23 +93,32 @@ final class ReconstructionEngine: SessionEngine {
 }
 
 extension PipelineConfiguration {
+  /// The configuration of a session's run, within the limits of the machine.
   init(_ configuration: PhotogrammetrySession.Configuration, _ options: EngineOptions) {
     self.init()
     isObjectMaskingEnabled = configuration.isObjectMaskingEnabled
-    isSequential = configuration.sampleOrdering == .sequential
-    isHighSensitivity = configuration.featureSensitivity == .high
-    checkpointDirectory = configuration.checkpointDirectory
+    ingestion.maskFolder = options.maskFolder
+    alignment.ordering = SampleOrdering(configuration.sampleOrdering)
+    alignment.features.sensitivity = FeatureSensitivity(configuration.featureSensitivity)
+    alignment.framing.knownDistances = options.knownDistances
+    meshGeneration.closesObject = options.closesObject
+    if options.refinesSurface { photoRefinement = PhotoRefinement.Options() }
     meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle
-    threadCount = options.threadCount
-    knownDistances = options.knownDistances
+    checkpointDirectory = configuration.checkpointDirectory
     previewFile = options.previewFile
-    maskFolder = options.maskFolder
-    closesObject = options.closesObject
-    refinesSurface = options.refinesSurface
-    maximumPhotos = PhotogrammetrySession.limits.maximumNumberOfInputImages
-    maximumPhotoSide = PhotogrammetrySession.limits.maximumInputImageDimension
-    // The machine's memory and not what is free of it: runs must not differ.
-    imageMemory = min(imageMemory, max(256 << 20, Machine.current.totalMemoryBytes / 8))
+    threadCount = options.threadCount
+  }
+}
+
+extension SampleOrdering {
+  package init(_ ordering: PhotogrammetrySession.Configuration.SampleOrdering) {
+    self = ordering == .sequential ? .sequential : .unordered
+  }
+}
+
+extension FeatureSensitivity {
+  package init(_ sensitivity: PhotogrammetrySession.Configuration.FeatureSensitivity) {
+    self = sensitivity == .high ? .high : .normal
   }
 }
 

@@ -18,7 +18,9 @@ struct RequestValidation {
     try requests.forEach { try checkGeometry($0.geometry ?? .init()) }
     var paths: Set<String> = []
     for case .modelFile(let url, let detail, _) in Set(requests) {
-      _ = try OutputLocation(url, additionalFormats: options.additionalFileFormats)
+      guard OutputLocation(url, additionalFormats: options.additionalFileFormats) != nil else {
+        throw PhotogrammetrySession.Error.invalidOutput(url)
+      }
       guard paths.insert(url.standardizedFileURL.path).inserted else {
         throw ProcessingError.invalidRequest(
           "Two requests write to \(url.path).", remedy: "Give each its own file.")

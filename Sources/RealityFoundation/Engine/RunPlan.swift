@@ -1,25 +1,6 @@
 import Pipeline
 import SceneModel
 
-/// A piece of work that is done once, whoever needs it.
-struct WorkUnit: Hashable, Sendable {
-  var stage: PipelineStage
-  /// What the unit is done for; nil for what all levels share.
-  var specification: DetailSpecification?
-
-  static let preProcessing = WorkUnit(stage: .preProcessing)
-  static let alignment = WorkUnit(stage: .imageAlignment)
-  static let densification = WorkUnit(stage: .pointCloudGeneration)
-
-  init(stage: PipelineStage, specification: DetailSpecification? = nil) {
-    self.stage = stage
-    switch stage {
-    case .preProcessing, .imageAlignment, .pointCloudGeneration: self.specification = nil
-    case .meshGeneration, .textureMapping, .optimization: self.specification = specification
-    }
-  }
-}
-
 /// The requests of a run in the order that they are worked on, and what each needs.
 ///
 /// What needs least comes first, then models from coarse to fine.
@@ -104,47 +85,14 @@ extension RunPlan.Entry {
 }
 
 extension PhotogrammetrySession.Request {
-  /// The budgets of the model that is asked for; nil where none is.
+  /// The budgets of the requested model; nil where none is requested.
   fileprivate func specification(
     _ configuration: PhotogrammetrySession.Configuration
   ) -> DetailSpecification? {
     switch self {
     case .modelFile(_, let detail, _), .modelEntity(let detail, _):
-      switch detail {
-      case .preview: DetailSpecification(.preview)
-      case .reduced: DetailSpecification(.reduced)
-      case .medium: DetailSpecification(.medium)
-      case .full: DetailSpecification(.full)
-      case .raw: DetailSpecification(.raw)
-      case .custom: DetailSpecification(configuration.customDetailSpecification)
-      }
+      DetailSpecification(detail, custom: configuration.customDetailSpecification)
     case .bounds, .pointCloud, .poses: nil
     }
-  }
-}
-
-extension DetailSpecification {
-  /// The budgets of a custom specification, with the resolution of the level next above.
-  package init(_ custom: PhotogrammetrySession.Configuration.CustomDetailSpecification) {
-    let triangles = Int(clamping: custom.maximumPolygonCount)
-    let levels = DetailLevel.allCases.map { DetailSpecification($0) }
-    let next = levels.first { $0.maximumTriangles >= triangles - 1 } ?? DetailSpecification(.raw)
-    let maps:
-      [(
-        PhotogrammetrySession.Configuration.CustomDetailSpecification.TextureMapOutputs,
-        TextureMap
-      )] = [
-        (.diffuseColor, .diffuseColor), (.normal, .normal), (.roughness, .roughness),
-        (.displacement, .displacement), (.ambientOcclusion, .ambientOcclusion),
-      ]
-    let format: TextureFormat =
-      switch custom.textureFormat {
-      case .png: .png
-      case .jpeg(let quality): .jpeg(quality: quality.isFinite ? min(max(quality, 0), 1) : 0.8)
-      }
-    self.init(
-      maximumTriangles: triangles, textureSide: Int(custom.maximumTextureDimension.rawValue),
-      maps: Set(maps.filter { custom.outputTextureMaps.contains($0.0) }.map(\.1)),
-      textureFormat: format, viewPixels: next.viewPixels)
   }
 }

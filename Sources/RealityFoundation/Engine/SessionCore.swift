@@ -3,9 +3,7 @@ import Pipeline
 import SceneModel
 
 /// Joins the state of a session, its outputs and the thread that does the work.
-///
-/// Does not refer to the session except while it works, so that an idle session can go away.
-final class SessionCore: Sendable {
+final class SessionCore: SessionWorker {
   typealias EventHandler = @Sendable (PipelineEvent) -> Void
   typealias EngineFactory =
     @Sendable (EngineTask, CancellationFlag, @escaping EventHandler) throws -> any SessionEngine
@@ -16,18 +14,28 @@ final class SessionCore: Sendable {
     var report: RunReport?
   }
 
-  /// What lives on the session's thread: the engine and the flag that it was made with.
-  private struct Resident {
+  /// The state of the session's thread.
+  private struct WorkerState {
     var engine: (any SessionEngine)?
+    /// The flag that the engine was made with.
     var flag: CancellationFlag?
   }
 
   let outputs = OutputBuffer()
   private let shared = Locked(Shared())
+  private let input: SessionInput
+  private let configuration: PhotogrammetrySession.Configuration
   private let makeEngine: EngineFactory
-  private let thread = SerialThread(name: "photogrammetry") { Resident() }
+  private let thread = SerialThread(name: "photogrammetry") { WorkerState() }
 
-  init(makeEngine: @escaping EngineFactory) { self.makeEngine = makeEngine }
+  init(
+    _ input: SessionInput, configuration: PhotogrammetrySession.Configuration,
+    makeEngine: @escaping EngineFactory
+  ) {
+    self.input = input
+    self.configuration = configuration
+    self.makeEngine = makeEngine
+  }
 
   var isProcessing: Bool { shared.withLock { $0.state.isProcessing } }
   var activeRequests: [PhotogrammetrySession.Request] {
@@ -35,52 +43,65 @@ final class SessionCore: Sendable {
   }
   var report: RunReport? { shared.withLock { $0.report } }
 
-  /// Begins a task on the session's thread; `session` lives until the task has ended.
-  func process(_ task: EngineTask, keepingAlive session: AnyObject) throws {
+  func process(
+    _ requests: [PhotogrammetrySession.Request], options: EngineOptions,
+    keepingAlive session: AnyObject
+  ) throws {
+    try RequestValidation(input: input, configuration: configuration, options: options)
+      .check(requests)
+    try begin(
+      EngineTask(
+        input: input, configuration: configuration, options: options,
+        plan: RunPlan(requests, configuration: configuration)),
+      keepingAlive: session)
+  }
+
+  /// Begins a task on the session's thread.
+  private func begin(_ task: EngineTask, keepingAlive session: AnyObject) throws {
     let session = KeepAlive(session)
     let flag = try shared.withLock { shared in
       try shared.state.begin(
         task.plan, photoCount: task.input.fileCount, threadCount: task.options.threadCount,
         at: now())
-      // A flag can't be taken back: what was cancelled needs another, and another engine.
+      // A flag can't be reset: after a cancellation there is another, and another engine.
       if shared.flag.isCancelled {
         shared.flag = CancellationFlag()
         shared.state.forgetWork()
       }
       return shared.flag
     }
-    thread.submit { resident in
-      self.perform(task, flag, &resident)
+    thread.submit { worker in
+      self.perform(task, flag, &worker)
       withExtendedLifetime(session) {}
     }
   }
 
-  /// Asks to stop.
   func cancel() {
     shared.withLock { if $0.state.cancel() { $0.flag.cancel() } }
   }
 
-  /// Ends the outputs and the thread.
   func close() {
     shared.withLock { $0.flag.cancel() }
     thread.stop()
     outputs.finish()
   }
 
-  private func perform(_ task: EngineTask, _ flag: CancellationFlag, _ resident: inout Resident) {
+  private func perform(
+    _ task: EngineTask, _ flag: CancellationFlag, _ worker: inout WorkerState
+  ) {
     do {
-      if resident.flag !== flag { resident = Resident(engine: nil, flag: flag) }
-      try work(on: task, &resident.engine, flag)
+      if worker.flag !== flag { worker = WorkerState(engine: nil, flag: flag) }
+      try work(on: task, &worker.engine, flag)
     } catch is CancellationError {
-      // The state knows, and `finished` tells.
+      // `finished` reports it.
     } catch {
       for entry in task.plan.entries { fail(entry, error) }
     }
-    if let engine = resident.engine { settle(engine) }
+    if let engine = worker.engine { finishTask(engine) }
     emit { $0.finished() }
   }
 
-  private func settle(_ engine: any SessionEngine) {
+  private func finishTask(_ engine: any SessionEngine) {
     do {
       try engine.finishTask()
     } catch {
@@ -91,11 +112,11 @@ final class SessionCore: Sendable {
   }
 
   private func work(
-    on task: EngineTask, _ resident: inout (any SessionEngine)?, _ flag: CancellationFlag
+    on task: EngineTask, _ current: inout (any SessionEngine)?, _ flag: CancellationFlag
   ) throws {
     let plan = task.plan
-    let engine = try resident ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
-    resident = engine
+    let engine = try current ?? makeEngine(task, flag) { [weak self] in self?.handle($0) }
+    current = engine
     engine.plan(for: plan.specifications)
     let photos = try engine.ingest()
     sessionLogger.info("Ingestion done: \(photos.count) photos are used.")

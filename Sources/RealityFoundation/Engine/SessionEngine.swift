@@ -6,7 +6,7 @@ protocol SessionEngine: AnyObject {
   /// Announces the models to come, so that shared stages work as finely as needed.
   func plan(for specifications: [DetailSpecification])
   /// Reads all photos and tells which are used.
-  func ingest() throws -> UsualDurations.Photos
+  func ingest() throws -> PhotoTotals
   func poses() throws -> PhotogrammetrySession.Poses
   func pointCloud(_ specification: DetailSpecification) throws -> PhotogrammetrySession.PointCloud
   func bounds(_ specification: DetailSpecification) throws -> BoundingBox

@@ -19,8 +19,8 @@ struct SessionState: Sendable {
 
   private var plan: RunPlan?
   /// Known once they were read.
-  private var photos: UsualDurations.Photos?
-  private var durations: UsualDurations?
+  private var photos: PhotoTotals?
+  private var durations: StageDurationModel?
   private var estimator: ProgressEstimator?
   private var specification: DetailSpecification?
   /// Units that an earlier call has done.
@@ -43,7 +43,7 @@ struct SessionState: Sendable {
     activeRequests = plan.requests
     told = [:]
     specification = nil
-    let durations = UsualDurations(
+    let durations = StageDurationModel(
       photos: photos ?? .init(count: photoCount), finest: plan.finest, threadCount: threadCount)
     self.durations = durations
     estimator = ProgressEstimator(units: plan.units, at: time) { [known] in
@@ -59,7 +59,7 @@ struct SessionState: Sendable {
   }
 
   /// All photos were read; these are used.
-  mutating func ingested(_ photos: UsualDurations.Photos) -> [Output] {
+  mutating func ingested(_ photos: PhotoTotals) -> [Output] {
     guard phase == .ingesting else { return [] }
     phase = .processing
     hasIngested = true

@@ -1,3 +1,5 @@
+import Pipeline
+
 extension PhotogrammetrySession {
   /// Limits of the input on this machine.
   public struct Limits: Sendable {
@@ -8,14 +10,12 @@ extension PhotogrammetrySession {
   }
 
   /// The limits of this machine, determined by its memory.
-  public static let limits = Limits(memoryBytes: Machine.current.totalMemoryBytes)
+  public static let limits = Limits(Machine.current.limits)
 }
 
 extension PhotogrammetrySession.Limits {
-  /// The limits for an amount of memory: 1000 photos of 16384 pixels at 8 GiB and above.
-  init(memoryBytes: Int) {
-    let gibibytes = Double(memoryBytes) / Double(1 << 30)
-    maximumInputImageDimension = gibibytes >= 7.5 ? 16384 : 8192
-    maximumNumberOfInputImages = Swift.min(1000, Swift.max(100, Int(gibibytes * 134)))
+  init(_ limits: MemoryLimits) {
+    maximumInputImageDimension = limits.maximumPhotoSide
+    maximumNumberOfInputImages = limits.maximumPhotos
   }
 }

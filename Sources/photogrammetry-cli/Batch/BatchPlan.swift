@@ -1,5 +1,5 @@
 #if canImport(Pipeline)
-  import RealityFoundation
+  import Pipeline
 
   /// How many datasets are worked on at once, and with how many threads each.
   struct BatchPlan: Equatable {

@@ -3,6 +3,8 @@
   import Foundation
   import Kernels
   import Pipeline
+  import RealityFoundation
+  import SceneModel
 
   /// Finds cameras, poses and sparse points, and nothing else.
   struct Align: ParsableCommand {
@@ -68,7 +70,7 @@
           .init(.imageAlignment, as: .imageAlignment, share: 0.95),
         ])
       let pipeline = ReconstructionPipeline(
-        folder: folder, configuration: configuration, flag: flag, onEvent: listener.take)
+        .photos(in: folder), configuration: configuration, flag: flag, onEvent: listener.take)
       let outcome = Result { try pipeline.align() }
       listener.finish()
       try engine.runArguments.writeReport(of: pipeline)
@@ -88,13 +90,14 @@
     /// What the pipeline is told.
     private func configuration(photos: URL, _ target: URL) throws -> PipelineConfiguration {
       var configuration = PipelineConfiguration()
-      configuration.isSequential = alignment.sampleOrdering == .sequential
-      configuration.isHighSensitivity = alignment.featureSensitivity == .high
-      configuration.mappingMethod = mapping
+      configuration.alignment.ordering = .init(alignment.sampleOrdering.ordering)
+      configuration.alignment.features.sensitivity =
+        .init(alignment.featureSensitivity.sensitivity)
+      configuration.alignment.mapping.method = mapping
       configuration.isObjectMaskingEnabled = !noObjectMasking
-      configuration.maskFolder = try engine.masking.folder
+      configuration.ingestion.maskFolder = try engine.masking.folder
       configuration.checkpointDirectory = target
-      configuration.knownDistances = try engine.knownDistances(photos: photos)
+      configuration.alignment.framing.knownDistances = try engine.knownDistances(photos: photos)
       if let threads = engine.threads { configuration.threadCount = threads }
       return configuration
     }

@@ -3,6 +3,7 @@
   import Formats
   import Foundation
   import Logging
+  import Pipeline
   import RealityFoundation
 
   /// Makes a model of each of many folders of photos.

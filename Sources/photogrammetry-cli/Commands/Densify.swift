@@ -3,6 +3,7 @@
   import Foundation
   import Kernels
   import Pipeline
+  import RealityFoundation
 
   /// Makes a dense cloud from photos whose cameras are known.
   struct Densify: ParsableCommand {
@@ -125,7 +126,7 @@
       var configuration = PipelineConfiguration()
       configuration.checkpointDirectory = target
       configuration.isObjectMaskingEnabled = !noObjectMasking
-      configuration.maskFolder = try masking.folder
+      configuration.ingestion.maskFolder = try masking.folder
       if let threads = arguments.threads { configuration.threadCount = threads }
       without.forEach { $0.apply(to: &configuration.pointCloudGeneration) }
       let flag = CancellationFlag()
@@ -133,8 +134,8 @@
       let listener = PipelineListener(
         RunReporter(logging.style(json: false)), stages: Self.stages(cameras), tellsDetails: true)
       let pipeline = ReconstructionPipeline(
-        folder: folder, configuration: configuration, knownCameras: cameras, flag: flag,
-        onEvent: listener.take)
+        .photosWithCameras(in: folder, cameras), configuration: configuration,
+        checkpointAccess: job == nil ? .exclusive : .shared, flag: flag, onEvent: listener.take)
       let outcome = Result { try work(pipeline) }
       listener.finish()
       try arguments.writeReport(of: pipeline)
@@ -187,7 +188,7 @@
 
   extension Densify {
     private func work(_ pipeline: ReconstructionPipeline) throws {
-      let specification = try specification()
+      let specification = specification()
       if let job {
         try pipeline.makePatches(job.share, for: specification)
       } else {
@@ -195,11 +196,8 @@
       }
     }
 
-    private func specification() throws -> DetailSpecification {
-      guard let level = DetailLevel(rawValue: detail.rawValue) else {
-        throw CommandFailure.usage("There is no detail level '\(detail.rawValue)'.")
-      }
-      var specification = DetailSpecification(level)
+    private func specification() -> DetailSpecification {
+      var specification = DetailSpecification(detail.detail, custom: .init())
       if let viewPixels { specification.viewPixels = viewPixels }
       return specification
     }

@@ -78,7 +78,7 @@
       let reporter = RunReporter(logging.style(json: false))
       let listener = PipelineListener(reporter, stages: Self.stages)
       let pipeline = ReconstructionPipeline(
-        saved, configuration: configuration, flag: flag, onEvent: listener.take)
+        .savedRun(saved), configuration: configuration, flag: flag, onEvent: listener.take)
       let outcome = Result {
         try pipeline.writeModel(specification, in: geometry, to: target.url)
       }
@@ -117,14 +117,7 @@
 
   extension DetailArguments {
     var budgets: DetailSpecification {
-      switch detail {
-      case .level(.preview): DetailSpecification(.preview)
-      case .level(.reduced): DetailSpecification(.reduced)
-      case .level(.medium): DetailSpecification(.medium)
-      case .level(.full): DetailSpecification(.full)
-      case .level(.raw): DetailSpecification(.raw)
-      case .custom: DetailSpecification(specification)
-      }
+      DetailSpecification(detail.detail, custom: specification)
     }
   }
 #endif

@@ -40,8 +40,7 @@
 
     @OptionGroup var logging: LoggingOptions
 
-    /// Two photos have a geometry, but no surface that is worth the name.
-    static let neededPhotos = 3
+    static let neededPhotos = PipelineError.minimumPhotos
 
     mutating func run() throws {
       logging.bootstrap()
@@ -49,13 +48,14 @@
       let count = threads ?? ProcessInfo.processInfo.activeProcessorCount
       let reporter = ProgressBox(RunReporter(logging.style(json: false)))
       let control = KernelControl(threadCount: max(1, count)) { reporter.update($0) }
-      var options = PhotoIngestion.Options()
+      let configuration = PipelineConfiguration()
+      var options = configuration.ingestion
       options.maskFolder = try masking.folder
       let ingested = try PhotoIngestion(options).run(folder: folder, StageContext(control: control))
       var report = InspectionReport(ingested)
       if overlap, ingested.photos.count >= 2 {
         let images = ImageStore(
-          photos: ingested.photos, byteBudget: PipelineConfiguration().imageMemory,
+          photos: ingested.photos, byteBudget: configuration.imageMemory,
           processingPixels: ingested.processingPixels)
         let survey = try OverlapSurvey().run(
           photos: ingested.photos, cameras: ingested.cameras, images: images,

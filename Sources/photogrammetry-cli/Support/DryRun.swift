@@ -22,7 +22,7 @@
     /// Reads and checks all photos and masks.
     init(_ arguments: Reconstruct, photos folder: URL, output: ModelOutput) throws {
       let count = arguments.engine.threads ?? ProcessInfo.processInfo.activeProcessorCount
-      var options = PhotoIngestion.Options()
+      var options = PipelineConfiguration().ingestion
       options.maskFolder = try arguments.engine.masking.folder
       options.inspection.usesMasks = !arguments.noObjectMasking
       let ingested = try PhotoIngestion(options).run(
@@ -33,11 +33,8 @@
       specification = arguments.detail.budgets
       threadCount = count
       expectedSeconds =
-        UsualDurations(
-          photos: .init(
-            count: report.used.count,
-            megapixels: ingested.photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6),
-          finest: specification, threadCount: count
+        StageDurationModel(
+          photos: PhotoTotals(ingested.photos), finest: specification, threadCount: count
         ).total
       memory = (
         BatchPlan.memory(for: arguments.detail.detail), Machine.current.availableMemoryBytes

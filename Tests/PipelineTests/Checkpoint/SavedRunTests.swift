@@ -144,7 +144,7 @@ private struct FinishedRun {
 
     let before = try FileManager.default.subpathsOfDirectory(atPath: run.checkpoint.path).sorted()
     let pipeline = ReconstructionPipeline(
-      try run.saved(), configuration: PipelineConfiguration())
+      .savedRun(try run.saved()), configuration: PipelineConfiguration())
     #expect(try written(pipeline, small, second) == Data(contentsOf: first))
     let after = try FileManager.default.subpathsOfDirectory(atPath: run.checkpoint.path).sorted()
     #expect(before == after)
@@ -156,7 +156,7 @@ private struct FinishedRun {
     let run = try FinishedRun()
     let warnings = Locked<[String]>([])
     let pipeline = ReconstructionPipeline(
-      try run.saved(), configuration: PipelineConfiguration()
+      .savedRun(try run.saved()), configuration: PipelineConfiguration()
     ) { event in
       if case .warning(let sentence) = event { warnings.withLock { $0.append(sentence) } }
     }
@@ -180,7 +180,7 @@ private struct FinishedRun {
     try FileManager.default.moveItem(at: run.photos, to: moved)
     #expect(run.fault() == .noPhotos(folder: run.photos.standardizedFileURL.path))
     let pipeline = ReconstructionPipeline(
-      try run.saved(photos: moved), configuration: PipelineConfiguration())
+      .savedRun(try run.saved(photos: moved)), configuration: PipelineConfiguration())
     let model = try pipeline.model(for: small)
     #expect(!model.mesh.triangles.isEmpty)
   }
@@ -209,7 +209,8 @@ private struct FinishedRun {
       TexturePattern.image(width: 320, height: 320, seed: 3), quality: 0.9)
     try run.temporary.write(other, as: "photos/p2.jpg")
     try run.temporary.write(Array("no photo".utf8), as: "photos/p7.jpg")
-    let pipeline = ReconstructionPipeline(try run.saved(), configuration: PipelineConfiguration())
+    let pipeline = ReconstructionPipeline(
+      .savedRun(try run.saved()), configuration: PipelineConfiguration())
     let output = run.folder.appendingPathComponent("m.usdz")
     #expect(
       throws: SavedRunError.changedPhotos(

@@ -78,7 +78,8 @@ import Testing
     change(&configuration)
     return StageStore(
       checkpoint: Checkpoint(directory: folder.url),
-      inputs: try RunInputs(ingested ?? self.ingested, configuration, readings: readings))
+      inputs: try RunInputs(
+        PhotoSet(ingested ?? self.ingested, readings: readings, byteBudget: 0), configuration))
   }
 
   @Test func alignmentRoundTripsBitForBit() throws {
@@ -103,33 +104,51 @@ import Testing
     let others = [
       try store(other), try store(readings: [1: SensorReading(gravity: [0, 1, 0])]),
       try store(readings: [1: SensorReading(depth: DepthMap(width: 1, height: 1, depths: [2]))]),
-      try store { $0.isSequential = true }, try store { $0.isHighSensitivity = true },
+      try store { $0.alignment.ordering = .sequential },
+      try store { $0.alignment.features.sensitivity = .high },
     ]
     for store in others { #expect(store.reconstruction(of: ingested.photos, StageNotes()) == nil) }
     // The options of the surface and the machine are irrelevant.
-    let same = [try store { $0.refinesSurface = true }, try store { $0.threadCount = 1 }]
+    let same = [
+      try store { $0.photoRefinement = PhotoRefinement.Options() },
+      try store { $0.threadCount = 1 },
+    ]
     for store in same { #expect(store.reconstruction(of: ingested.photos, StageNotes()) != nil) }
   }
 
   @Test func surfaceIsUsedForWhatItWasMadeFrom() throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 2)
-    let store = try store()
-    try store.checkpoint.write(mesh)
-    try store.sealSurface(viewPixels: 500, StageNotes(), denseNotes: StageNotes())
-    #expect(store.surface(viewPixels: 500, StageNotes())?.positions == mesh.positions)
-    #expect(store.surface(viewPixels: 501, StageNotes()) == nil)
-    let other = try self.store { $0.closesObject = false }
-    #expect(other.surface(viewPixels: 500, StageNotes()) == nil)
+    func store(
+      viewPixels: Int, _ change: (inout PipelineConfiguration) -> Void = { _ in }
+    ) throws -> StageStore {
+      try self.store {
+        change(&$0)
+        $0 = $0.specialized(for: DetailSpecification(.preview), viewPixels: viewPixels)
+      }
+    }
+    let sealing = try store(viewPixels: 500)
+    try sealing.checkpoint.write(mesh)
+    try sealing.sealSurface(StageNotes(), denseNotes: StageNotes())
+    #expect(try store(viewPixels: 500).surface(StageNotes())?.positions == mesh.positions)
+    // The options of later stages play no part.
+    let retextured = try store(viewPixels: 500) { $0.textureMapping.textureSide = 1024 }
+    #expect(retextured.surface(StageNotes()) != nil)
+    let others = [
+      try store(viewPixels: 501),
+      try store(viewPixels: 500) { $0.meshGeneration.closesObject = false },
+      try store(viewPixels: 500) { $0.photoRefinement = PhotoRefinement.Options() },
+    ]
+    for other in others { #expect(other.surface(StageNotes()) == nil) }
   }
 
   @Test func damagedSurfaceIsNotUsed() throws {
     let store = try store()
     try store.checkpoint.write(SyntheticMesh.sphere(subdivisions: 2))
-    try store.sealSurface(viewPixels: 500, StageNotes(), denseNotes: StageNotes())
+    try store.sealSurface(StageNotes(), denseNotes: StageNotes())
     var bytes = try Data(contentsOf: store.checkpoint.surface)
     bytes[bytes.count - 20] ^= 1
     try bytes.write(to: store.checkpoint.surface)
-    #expect(store.surface(viewPixels: 500, StageNotes()) == nil)
+    #expect(store.surface(StageNotes()) == nil)
   }
 }
 

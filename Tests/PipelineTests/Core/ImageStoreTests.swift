@@ -46,6 +46,33 @@ import Testing
     #expect(throws: KernelError.self) { try stores[0].image(ID(4)) }
   }
 
+  /// Each photo is decoded once for all sizes, while they fit into the budget at full size.
+  @Test func photosAreDecodedOnceWithinTheBudget() throws {
+    let photos = (0..<3).map { TexturePattern.image(width: 405, height: 300, seed: $0) }
+    let all = photos.reduce(0) { $0 + $1.pixels.count }
+    for (budget, decodes) in [(all, 3), (all - 1, 6)] {
+      let store = ImageStore(ImagesInMemory(images: photos), byteBudget: budget)
+      for maximumPixels in [50_000, 90_000] {
+        for (index, photo) in photos.enumerated() {
+          let image = try store.image(ID(index), maximumPixels: maximumPixels)
+          #expect(try image == photo.reduced(to: maximumPixels))
+        }
+      }
+      #expect(store.decodeCount == decodes)
+    }
+  }
+
+  @Test func aStoreWithoutMasksSharesDecodedPhotos() throws {
+    let image = TexturePattern.image(width: 400, height: 300, seed: 1)
+    let mask = RasterImage(width: 400, height: 300, channels: 1)
+    let store = ImageStore(ImagesInMemory(images: [image], masks: [mask]))
+    let whole = ImageStore(withoutMasksOf: store)
+    #expect(try store.hasMasks && store.mask(ID(0)) == mask)
+    #expect(try !whole.hasMasks && whole.mask(ID(0)) == nil)
+    #expect(try store.image(ID(0)) == whole.image(ID(0)))
+    #expect(whole.decodeCount == 1)
+  }
+
   @Test func changedFilesAreReported() throws {
     let folder = try TemporaryFolder()
     try folder.write(

@@ -13,7 +13,7 @@ import Testing
     var configuration = PipelineConfiguration()
     configuration.checkpointDirectory = folder.url.appendingPathComponent("checkpoint")
     let pipeline = ReconstructionPipeline(
-      folder: Fixtures.images(of: "orbit"), configuration: configuration)
+      .photos(in: Fixtures.images(of: "orbit")), configuration: configuration)
     let preview = DetailSpecification(.preview)
     let output = folder.url.appendingPathComponent("orbit.usdz")
     try pipeline.writeModel(preview, to: output)
@@ -44,7 +44,7 @@ import Testing
     #expect(try Data(contentsOf: output).prefix(4) == Data([0x50, 0x4b, 3, 4]))
     try savedRunProducesTheSameModel(folder.url, output)
     let other = ReconstructionPipeline(
-      folder: Fixtures.images(of: "orbit"), configuration: configuration)
+      .photos(in: Fixtures.images(of: "orbit")), configuration: configuration)
     #expect(throws: CheckpointError.self) { try other.ingest() }
     pipeline.releaseCheckpoint()
     #expect(try other.ingest().photos.count == 20)
@@ -58,7 +58,7 @@ import Testing
     func run(_ name: String) throws -> (model: Data, report: RunReport) {
       let output = folder.url.appendingPathComponent(name)
       let pipeline = ReconstructionPipeline(
-        folder: Fixtures.images(of: "orbit"), configuration: configuration)
+        .photos(in: Fixtures.images(of: "orbit")), configuration: configuration)
       try pipeline.writeModel(DetailSpecification(.preview), to: output)
       return (try Data(contentsOf: output), pipeline.report)
     }
@@ -80,7 +80,8 @@ import Testing
 
   private func savedRunProducesTheSameModel(_ folder: URL, _ output: URL) throws {
     let saved = try SavedRun(checkpoint: folder.appendingPathComponent("checkpoint"))
-    let pipeline = ReconstructionPipeline(saved, configuration: PipelineConfiguration())
+    let pipeline = ReconstructionPipeline(
+      .savedRun(saved), configuration: PipelineConfiguration())
     let again = folder.appendingPathComponent("again.usdz")
     try pipeline.writeModel(DetailSpecification(.preview), to: again)
     #expect(try Data(contentsOf: again) == Data(contentsOf: output))
@@ -98,7 +99,7 @@ import Testing
       specification.viewPixels = 60_000
       let output = folder.url.appendingPathComponent("relief\(threads).usdz")
       try ReconstructionPipeline(
-        folder: Fixtures.images(of: "relief"), configuration: configuration
+        .photos(in: Fixtures.images(of: "relief")), configuration: configuration
       ).writeModel(specification, to: output)
       return try Data(contentsOf: output)
     }

@@ -35,16 +35,17 @@ import Testing
       try folder.write(ImageCodec.encodePNG(mask), as: "masks/\(RenderedScene.name(index)).png")
     }
     var configuration = PipelineConfiguration()
-    configuration.isSequential = true
-    let aligned = try ReconstructionPipeline(folder: folder.url, configuration: configuration)
-      .align()
+    configuration.alignment.ordering = .sequential
+    let aligned = try ReconstructionPipeline(
+      .photos(in: folder.url), configuration: configuration
+    ).align()
     #expect(aligned.registered.count == 20)
     let poses = PoseComparison(estimated: aligned.poses, true: scene.poses)
     #expect(poses.maximumCenterError < 0.01)
 
     configuration.isObjectMaskingEnabled = false
     #expect(throws: PipelineError.self) {
-      try ReconstructionPipeline(folder: folder.url, configuration: configuration).align()
+      try ReconstructionPipeline(.photos(in: folder.url), configuration: configuration).align()
     }
   }
 }

@@ -25,14 +25,14 @@ package struct CorrespondenceSearch {
   /// Returns the verified pairs, and the cameras. A camera whose focal length was only assumed gets
   /// an improved initial value if the matches determine one.
   package func run(
-    photos: [Photo], cameras: [Camera], features: [FeatureSet], isSequential: Bool,
+    photos: [Photo], cameras: [Camera], features: [FeatureSet], ordering: SampleOrdering,
     _ context: StageContext
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
     var matchedPairs = MatchedPairs(
       options: options, photos: photos, cameras: cameras, features: features)
     var choice = try PairSelection(options.selection)
       .run(
-        features, positions: photos.map(\.position), isSequential: isSequential,
+        features, positions: photos.map(\.position), ordering: ordering,
         context.part(from: 0, to: 0.1))
     try matchedPairs.add(choice.pairs, context.part(from: 0.1, to: 0.5))
     if isPreemptiveMatchingUnreliable(choice, matchedPairs.graph) {

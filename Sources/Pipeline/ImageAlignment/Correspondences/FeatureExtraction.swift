@@ -9,9 +9,7 @@ import SceneModel
 package struct FeatureExtraction {
   package struct Options: Hashable, Codable, Sendable {
     /// Sensitivity of the detector.
-    package enum Sensitivity: String, Hashable, Codable, Sendable { case normal, high }
-
-    package var sensitivity = Sensitivity.normal
+    package var sensitivity = FeatureSensitivity.normal
     package var detection = FeatureDetection()
     /// Photos with at most this number of pixels are upsampled by two for the first octave, which
     /// finds the smallest features. Larger photos have enough features without it: color filter

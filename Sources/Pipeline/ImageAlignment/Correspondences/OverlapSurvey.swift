@@ -3,8 +3,7 @@ import SceneModel
 /// Determines which photos overlap, without aligning them.
 package struct OverlapSurvey: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// The photos are in the order of capture.
-    package var isSequential = false
+    package var ordering = SampleOrdering.unordered
     package var features = FeatureExtraction.Options()
     package var correspondences = CorrespondenceSearch.Options()
 
@@ -47,7 +46,7 @@ package struct OverlapSurvey: Sendable {
     let features = try FeatureExtraction(options.features)
       .run(photos, images: images, context.part(from: 0, to: 0.7))
     let (graph, _) = try CorrespondenceSearch(options.correspondences).run(
-      photos: photos, cameras: cameras, features: features, isSequential: options.isSequential,
+      photos: photos, cameras: cameras, features: features, ordering: options.ordering,
       context.part(from: 0.7, to: 1))
     return Result(graph, featureCounts: photos.map { features[$0.id.index].count })
   }

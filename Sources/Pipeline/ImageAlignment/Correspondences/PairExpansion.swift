@@ -34,7 +34,7 @@ package struct PairExpansion {
     let matched = Set(choice.pairs)
     var chosen = retries(choice, partners).subtracting(matched)
     if !choice.mostSimilar.isEmpty {
-      let count = choice.isSequential ? options.sequencePartners : options.partners
+      let count = choice.ordering == .sequential ? options.sequencePartners : options.partners
       let common = commonPairs(partners, count, excluding: Set(choice.candidates))
         .subtracting(chosen)
       chosen.formUnion(try preemptiveMatching.run(common.sorted(), features: features, context))

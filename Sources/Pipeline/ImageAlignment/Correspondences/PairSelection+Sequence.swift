@@ -21,7 +21,7 @@ extension PairSelection {
     return Choice(
       pairs: guaranteed.union(likely).sorted(),
       candidates: guaranteed.union(likely).union(window).sorted(),
-      mostSimilar: mostSimilar, isSequential: true)
+      mostSimilar: mostSimilar, ordering: .sequential)
   }
 
   /// For each photo the others that share enough large-scale features, the most matches first.

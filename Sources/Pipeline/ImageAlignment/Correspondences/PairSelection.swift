@@ -56,17 +56,17 @@ package struct PairSelection {
     package var candidates: [PhotoPair]
     /// The photos most similar to each photo; empty if retrieval wasn't needed.
     package var mostSimilar: [[Int]]
-    /// Whether the photos are in order of capture.
-    package var isSequential: Bool
+    /// Whether the photos are in the order of capture.
+    package var ordering: SampleOrdering
     /// The unpromising pairs that are part of `pairs` to validate preemptive matching.
     package var sample: [PhotoPair]
 
     package init(
-      pairs: [PhotoPair], candidates: [PhotoPair], mostSimilar: [[Int]], isSequential: Bool,
+      pairs: [PhotoPair], candidates: [PhotoPair], mostSimilar: [[Int]], ordering: SampleOrdering,
       sample: [PhotoPair] = []
     ) {
       (self.pairs, self.candidates, self.sample) = (pairs, candidates, sample)
-      (self.mostSimilar, self.isSequential) = (mostSimilar, isSequential)
+      (self.mostSimilar, self.ordering) = (mostSimilar, ordering)
     }
   }
 
@@ -76,9 +76,10 @@ package struct PairSelection {
 
   /// Returns the pairs to match. `positions` has the photos' GPS positions, or is empty.
   package func run(
-    _ features: [FeatureSet], positions: [GeographicPosition?] = [], isSequential: Bool,
+    _ features: [FeatureSet], positions: [GeographicPosition?] = [], ordering: SampleOrdering,
     _ context: StageContext
   ) throws -> Choice {
+    let isSequential = ordering == .sequential
     let photos = features.indices.filter { features[$0].count > 0 }
     if !isSequential, photos.count * (photos.count - 1) / 2 <= options.exhaustivePairs {
       let all = photos.indices.flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
@@ -102,7 +103,7 @@ package struct PairSelection {
     return Choice(
       pairs: guaranteed.union(promising).sorted(), candidates: guaranteed.union(likely).sorted(),
       mostSimilar: mostSimilar,
-      isSequential: isSequential)
+      ordering: ordering)
   }
 
   /// All pairs but those that preemptive matching rejects and that aren't part of the validation
@@ -111,7 +112,7 @@ package struct PairSelection {
     _ all: [PhotoPair], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Choice {
     guard all.count >= options.minimumPreemptivePairs else {
-      return Choice(pairs: all, candidates: all, mostSimilar: [], isSequential: false)
+      return Choice(pairs: all, candidates: all, mostSimilar: [], ordering: .unordered)
     }
     let promising = try PreemptiveMatching(options.preemptiveMatching).run(
       all, features: features, context)
@@ -119,7 +120,7 @@ package struct PairSelection {
     let sample = stride(from: 0, to: rejected.count, by: max(1, options.rejectionSamplingInterval))
       .map { rejected[$0] }
     return Choice(
-      pairs: (promising + sample).sorted(), candidates: all, mostSimilar: [], isSequential: false,
+      pairs: (promising + sample).sorted(), candidates: all, mostSimilar: [], ordering: .unordered,
       sample: sample)
   }
 

@@ -5,7 +5,7 @@ import SceneModel
 package struct CameraAssignment: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos with a camera; fewer are an error.
-    package var minimumPhotos = 3
+    package var minimumPhotos = PipelineError.minimumPhotos
     /// Maximum number of file names listed in one message.
     package var namesInSentence = 5
 

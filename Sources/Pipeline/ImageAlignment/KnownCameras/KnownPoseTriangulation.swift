@@ -72,7 +72,7 @@ package struct KnownPoseTriangulation: Sendable {
     _ reconstruction: Reconstruction, _ features: [FeatureSet], _ context: StageContext
   ) throws -> ViewGraph {
     let pairs = try PairSelection(options.selection)
-      .run(features, isSequential: false, context.part(from: 0, to: 0.1)).pairs
+      .run(features, ordering: .unordered, context.part(from: 0, to: 0.1)).pairs
     let matches = try FeatureMatching(options.matching)
       .run(pairs, features: features, context.part(from: 0.1, to: 0.8))
     let points = try context.control.parallelMap(features.count) { photo in

@@ -19,11 +19,12 @@ import Testing
   }
 
   static func search(
-    _ scene: SyntheticScene, camera: Camera? = nil, isSequential: Bool = false, threads: Int = 1
+    _ scene: SyntheticScene, camera: Camera? = nil, ordering: SampleOrdering = .unordered,
+    threads: Int = 1
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
     try CorrespondenceSearch().run(
       photos: scene.photos, cameras: [camera ?? scene.camera], features: scene.features,
-      isSequential: isSequential, StageContext(control: KernelControl(threadCount: threads)))
+      ordering: ordering, StageContext(control: KernelControl(threadCount: threads)))
   }
 
   static func exif(_ scene: SyntheticScene) -> Camera {
@@ -83,7 +84,7 @@ import Testing
     options.verification.minimumInliers = needed
     let graph = try CorrespondenceSearch(options).run(
       photos: scene.photos, cameras: [Self.exif(scene)], features: scene.features,
-      isSequential: false, StageContext()
+      ordering: .unordered, StageContext()
     ).viewGraph
     #expect(!graph.pairs.isEmpty && !graph.rejected.isEmpty)
     #expect(graph.rejected.allSatisfy { $0.matches > 0 && $0.matches < $0.needed })
@@ -108,7 +109,7 @@ import Testing
 
   @Test func sequenceContainsLoopClosures() throws {
     let scene = Self.scene(photos: 40)
-    let pairs = try PairSelection().run(scene.features, isSequential: true, StageContext()).pairs
+    let pairs = try PairSelection().run(scene.features, ordering: .sequential, StageContext()).pairs
     #expect(pairs == pairs.sorted() && Set(pairs).count == pairs.count)
     #expect((0..<39).allSatisfy { pairs.contains(PhotoPair(ID($0), ID($0 + 1))) })
     #expect(pairs.contains(PhotoPair(ID(0), ID(39))) && pairs.contains(PhotoPair(ID(1), ID(38))))
@@ -117,7 +118,7 @@ import Testing
 
   @Test func fewPhotosAreAllPaired() throws {
     let scene = Self.scene(photos: 12, secondComponentStart: 6)
-    let pairs = try PairSelection().run(scene.features, isSequential: false, StageContext())
+    let pairs = try PairSelection().run(scene.features, ordering: .unordered, StageContext())
       .pairs
     #expect(pairs.count == 66 && pairs == pairs.sorted())
   }
@@ -128,7 +129,8 @@ import Testing
       let context = StageContext()
       let result = try CorrespondenceSearch().run(
         photos: Array(scene.photos.prefix(count)), cameras: [scene.camera],
-        features: Array(repeating: FeatureSet(), count: count), isSequential: count == 2, context)
+        features: Array(repeating: FeatureSet(), count: count),
+        ordering: count == 2 ? .sequential : .unordered, context)
       #expect(result.viewGraph.pairs.isEmpty && result.viewGraph.photoCount == count)
       #expect(context.notes.warnings.isEmpty == (count < 2))
     }
@@ -141,7 +143,7 @@ import Testing
     #expect(throws: CancellationError.self) {
       _ = try CorrespondenceSearch().run(
         photos: scene.photos, cameras: [scene.camera], features: scene.features,
-        isSequential: false, StageContext(control: KernelControl(flag: flag)))
+        ordering: .unordered, StageContext(control: KernelControl(flag: flag)))
     }
   }
 }

@@ -74,7 +74,7 @@ import Testing
     let images = try scene.photos(control)
     func align(isHigh: Bool) -> Reconstruction? {
       var options = ImageAlignment.Options()
-      options.isHighSensitivity = isHigh
+      options.features.sensitivity = isHigh ? .high : .normal
       return try? ImageAlignment(options).run(
         photos: Self.photos(of: images), cameras: [scene.camera],
         images: ImageStore(images: images), StageContext(control: control))

@@ -58,7 +58,7 @@ import Testing
   @Test func partnersInLargeSetsAreLimitedAndCorrect() throws {
     let scene = try Self.scene(.streets)
     let choice = try PairSelection(Self.options(partners: 10))
-      .run(scene.features, isSequential: false, StageContext())
+      .run(scene.features, ordering: .unordered, StageContext())
     #expect(choice.pairs == choice.pairs.sorted() && Set(choice.pairs).count == choice.pairs.count)
     #expect(choice.pairs.count <= 60 * 10)
     let chosen = Set(choice.pairs)
@@ -75,7 +75,7 @@ import Testing
       let context = StageContext()
       let graph = try CorrespondenceSearch(options).run(
         photos: scene.photos, cameras: [scene.camera], features: scene.features,
-        isSequential: false, context
+        ordering: .unordered, context
       ).viewGraph
       return (Int(context.notes.counts["pairs"] ?? 0), graph.pairs.count)
     }
@@ -97,7 +97,7 @@ import Testing
     var options = Self.options(partners: 8)
     options.orderedPartners = 0
     let pairs = try PairSelection(options)
-      .run(scene.features, isSequential: false, StageContext()).pairs
+      .run(scene.features, ordering: .unordered, StageContext()).pairs
     #expect((0..<59).allSatisfy { pairs.contains(PhotoPair(ID($0), ID($0 + 1))) })
     #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 4 || $0.first.index < 2 })
   }
@@ -109,7 +109,7 @@ import Testing
     (features[20], features[21]) = (FeatureSet(), FeatureSet())
     var options = PairSelection.Options()
     options.preemptiveMatching.features = 400
-    let choice = try PairSelection(options).run(features, isSequential: true, StageContext())
+    let choice = try PairSelection(options).run(features, ordering: .sequential, StageContext())
     let pairs = Set(choice.pairs)
     #expect(choice.pairs == choice.pairs.sorted() && pairs.count == choice.pairs.count)
     #expect(pairs.count < 60 * 6)
@@ -140,7 +140,7 @@ import Testing
           latitudeDegrees: 60, longitudeDegrees: 10 + 1e-4 * Double(photo), altitude: nil)
     }
     let pairs = try PairSelection(options)
-      .run(features, positions: positions, isSequential: false, StageContext()).pairs
+      .run(features, positions: positions, ordering: .unordered, StageContext()).pairs
     #expect(pairs.contains(PhotoPair(ID(2), ID(3))) && pairs.contains(PhotoPair(ID(6), ID(8))))
     #expect(!pairs.contains { $0.first.index == 7 || $0.second.index == 7 })
     #expect(pairs.allSatisfy { $0.second.index - $0.first.index <= 3 })
@@ -171,7 +171,7 @@ import Testing
     let pairs = verified.map(\.pair)
     let choice = PairSelection.Choice(
       pairs: pairs, candidates: pairs, mostSimilar: [[Int]](repeating: [], count: 5),
-      isSequential: false)
+      ordering: .unordered)
     var options = PairExpansion.Options()
     options.minimumPartners = 0
     let more = try PairExpansion(options).run(
@@ -187,7 +187,7 @@ import Testing
     let choice = PairSelection.Choice(
       pairs: [PhotoPair(ID(0), ID(1))], candidates: [PhotoPair(ID(0), ID(1)), pair],
       mostSimilar: [],
-      isSequential: false)
+      ordering: .unordered)
     let features = [FeatureSet](repeating: FeatureSet(), count: 3)
     let more = try PairExpansion().run(
       choice, ViewGraph(photoCount: 3, pairs: []), features: features,

@@ -47,7 +47,7 @@ struct KnownPhotoSet {
     configuration.threadCount = threads
     configuration.checkpointDirectory = checkpoint
     return ReconstructionPipeline(
-      folder: photoFolder, configuration: configuration, knownCameras: cameras)
+      .photosWithCameras(in: photoFolder, cameras), configuration: configuration)
   }
 
   /// Distances of the dense cloud from the surface, in ascending order.

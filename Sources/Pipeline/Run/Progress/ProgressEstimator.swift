@@ -1,42 +1,43 @@
-/// Tells how far a run is and how long it will take.
+/// Estimates how much of a run is done and how long the rest takes.
 ///
-/// Begins with the usual duration of each unit of work and corrects it by what is measured: units
-/// that are done say how fast the machine is, and the current one is extrapolated the more its
-/// progress tells.
-struct ProgressEstimator: Sendable {
+/// Begins with the expected duration of each unit of work and corrects it by measurements: finished
+/// units give the speed of the machine, and the current one is extrapolated, with a weight that grows
+/// with its progress.
+package struct ProgressEstimator: Sendable {
   private struct Step {
     var unit: WorkUnit
-    /// The usual duration in seconds.
+    /// The expected duration in seconds.
     var prior: Double
     var fraction = 0.0
     /// Measured so far, in seconds.
     var seconds = 0.0
 
-    /// How much its duration tells of the machine. That of an alignment tells of the photos: of how
-    /// many features they have, and how many of the pairs show the same; that of a mesh of the shape.
+    /// The weight of its duration as evidence of the machine's speed. That of an alignment follows
+    /// the photos: how many features they have, and how many pairs overlap; that of a mesh the
+    /// shape.
     var evidence: Double { [.imageAlignment, .meshGeneration].contains(unit.stage) ? 0.1 : 1 }
 
     var isDone: Bool { fraction >= 1 }
-    /// Whether the work was really done and not taken over from an earlier run.
+    /// Whether the work was done and not taken from an earlier run.
     var isMeasured: Bool { fraction > 0 && seconds > 0.02 * prior * fraction }
   }
 
   private var steps: [Step]
   private var lastTime: Double
 
-  /// Begins at `time`, in seconds, with units in the order that they are worked on.
-  init(units: [WorkUnit], at time: Double, prior: (WorkUnit) -> Double) {
+  /// Begins at `time`, in seconds, with units in the order of work. `prior` gives expected seconds.
+  package init(units: [WorkUnit], at time: Double, prior: (WorkUnit) -> Double) {
     steps = units.map { Step(unit: $0, prior: max(0, prior($0))) }
     lastTime = time
   }
 
-  /// Replaces the usual durations, once more is known about the input.
-  mutating func reweigh(_ prior: (WorkUnit) -> Double) {
+  /// Replaces the expected durations, once more is known about the input.
+  package mutating func reweigh(_ prior: (WorkUnit) -> Double) {
     for index in steps.indices { steps[index].prior = max(0, prior(steps[index].unit)) }
   }
 
   /// Records that a unit has come to a fraction; progress never goes back.
-  mutating func advance(_ unit: WorkUnit, to fraction: Double, at time: Double) {
+  package mutating func advance(_ unit: WorkUnit, to fraction: Double, at time: Double) {
     guard let index = steps.firstIndex(where: { $0.unit == unit }), fraction.isFinite else {
       return
     }
@@ -45,37 +46,39 @@ struct ProgressEstimator: Sendable {
     lastTime = max(lastTime, time)
   }
 
-  /// Takes units off that are not needed any more.
-  mutating func remove(_ isObsolete: (WorkUnit) -> Bool) { steps.removeAll { isObsolete($0.unit) } }
+  /// Removes units that are not needed any more.
+  package mutating func remove(_ isObsolete: (WorkUnit) -> Bool) {
+    steps.removeAll { isObsolete($0.unit) }
+  }
 
-  /// How much of the units is done, from 0 to 1, weighted by their usual durations.
-  func fraction(of units: [WorkUnit]) -> Double {
+  /// The part of the units that is done, from 0 to 1, weighted by expected durations.
+  package func fraction(of units: [WorkUnit]) -> Double {
     let needed = steps.filter { units.contains($0.unit) }
     let total = needed.reduce(0) { $0 + $1.prior }
     guard total > 0 else { return needed.allSatisfy(\.isDone) ? 1 : 0 }
     return min(1, needed.reduce(0) { $0 + $1.prior * $1.fraction } / total)
   }
 
-  /// Seconds until the last of the units is done, those in between included; nil before there is
-  /// anything to go by.
-  func remainingSeconds(of units: [WorkUnit]) -> Double? {
+  /// Seconds until the last of the units is done, those in between included; nil before anything is
+  /// measured.
+  package func remainingSeconds(of units: [WorkUnit]) -> Double? {
     guard let last = steps.lastIndex(where: { units.contains($0.unit) }), let speed else {
       return nil
     }
     return steps[...last].reduce(0) { $0 + remainingSeconds(of: $1, speed: speed) }
   }
 
-  /// Measured seconds per usual second; nil before a hundredth of the work is measured.
+  /// Measured seconds per expected second; nil before a hundredth of the work is measured.
   private var speed: Double? {
     let measured = steps.filter(\.isMeasured)
     let done = measured.reduce(0) { $0 + $1.prior * $1.fraction }
     let total = done + steps.reduce(0) { $0 + $1.prior * (1 - $1.fraction) }
     guard done > 0, done > 0.01 * total else { return nil }
-    let usual = measured.reduce(0) { $0 + $1.evidence * $1.prior * $1.fraction }
+    let expected = measured.reduce(0) { $0 + $1.evidence * $1.prior * $1.fraction }
     let seconds = measured.reduce(0) { $0 + $1.evidence * $1.seconds }
-    // Little work may be out of the ordinary: until a tenth is measured, the prior has a say.
-    let weight = 0.03 * max(0, total - 10 * usual)
-    return (seconds + weight) / (usual + weight)
+    // Little work may be atypical: the prior keeps some weight until a tenth is measured.
+    let weight = 0.03 * max(0, total - 10 * expected)
+    return (seconds + weight) / (expected + weight)
   }
 
   private func remainingSeconds(of step: Step, speed: Double) -> Double {

@@ -1,7 +1,6 @@
 import Testing
 
 @testable import Pipeline
-@testable import RealityFoundation
 
 @Suite struct ProgressEstimatorTests {
   static let units = PipelineStage.allCases.map { WorkUnit(stage: $0) }

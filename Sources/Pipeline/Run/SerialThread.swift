@@ -1,11 +1,12 @@
+import Foundation
 import SceneModel
 
 /// A thread that runs jobs one after another on a value that never leaves it.
 ///
 /// Begins with the first job and ends after `stop()`. The numeric stages block for minutes, which
-/// Swift's own pool must not.
-final class SerialThread<Local>: Sendable {
-  typealias Job = @Sendable (inout Local) -> Void
+/// threads of Swift's cooperative pool must not.
+package final class SerialThread<Local>: Sendable {
+  package typealias Job = @Sendable (inout Local) -> Void
 
   private struct Queue {
     var jobs: [Job] = []
@@ -18,13 +19,13 @@ final class SerialThread<Local>: Sendable {
   private let condition = NSCondition()
   private let queue = Locked(Queue())
 
-  init(name: String, makeLocal: @escaping @Sendable () -> Local) {
+  package init(name: String, makeLocal: @escaping @Sendable () -> Local) {
     self.name = name
     self.makeLocal = makeLocal
   }
 
-  /// Hands over a job; has no effect after `stop()`.
-  func submit(_ job: @escaping Job) {
+  /// Adds a job; has no effect after `stop()`.
+  package func submit(_ job: @escaping Job) {
     let starts = queue.withLock { queue -> Bool in
       guard !queue.isStopped else { return false }
       queue.jobs.append(job)
@@ -35,8 +36,8 @@ final class SerialThread<Local>: Sendable {
     wake()
   }
 
-  /// Ends the thread after the jobs that it has.
-  func stop() {
+  /// Ends the thread after the pending jobs.
+  package func stop() {
     queue.withLock { $0.isStopped = true }
     wake()
   }
@@ -57,7 +58,7 @@ final class SerialThread<Local>: Sendable {
     condition.unlock()
   }
 
-  /// Waits for a job; nil when there is none and the thread is to end.
+  /// Waits for a job; nil when there is none and the thread ends.
   private func next() -> Job? {
     condition.lock()
     defer { condition.unlock() }

@@ -1,20 +1,18 @@
 import Formats
 
-/// Where a model goes: the URL decides about the kind of output.
+/// Where a model is written: the URL determines the kind of output.
 enum OutputLocation: Hashable {
   case file(URL)
   case folder(URL)
 
-  /// Takes a URL as Apple's session does: by the suffix `usdz`, or else as a folder. The suffixes of
-  /// `additionalFormats` count as `usdz` does.
-  init(_ url: URL, additionalFormats: Set<ModelFormat> = []) throws {
-    if Self.fault(of: url, additionalFormats: additionalFormats) != nil {
-      throw PhotogrammetrySession.Error.invalidOutput(url)
-    }
+  /// Interprets a URL as Apple's session does: a file by the suffix `usdz`, or else a folder. The
+  /// suffixes of `additionalFormats` count as `usdz` does. Nil where nothing can be written there.
+  init?(_ url: URL, additionalFormats: Set<ModelFormat> = []) {
+    guard Self.fault(of: url, additionalFormats: additionalFormats) == nil else { return nil }
     self = Self.namesFile(url, additionalFormats) ? .file(url) : .folder(url)
   }
 
-  /// Why nothing can be written there, in a sentence; nil if something can.
+  /// Why nothing can be written to a URL, in a sentence; nil where it can.
   static func fault(of url: URL, additionalFormats: Set<ModelFormat> = []) -> String? {
     guard url.isFileURL else { return "\(url.absoluteString) is not on a disk of this machine." }
     guard namesFile(url, additionalFormats) else {
@@ -35,7 +33,7 @@ enum OutputLocation: Hashable {
     }
   }
 
-  /// A folder may have to be made, in the nearest folder above that is there.
+  /// A folder may have to be created, in the nearest folder above that exists.
   private static func folderFault(of url: URL) -> String? {
     var existing = url.standardizedFileURL
     while !FileManager.default.fileExists(atPath: existing.path), existing.path != "/" {
@@ -51,7 +49,7 @@ enum OutputLocation: Hashable {
       && isDirectory.boolValue
   }
 
-  /// Tries it out: permissions alone do not tell for file systems that are read-only or special.
+  /// Writes a file to find out: permissions alone don't show read-only and special file systems.
   private static func isWritable(_ folder: URL) -> Bool {
     guard FileManager.default.isWritableFile(atPath: folder.path) else { return false }
     let probe = folder.appendingPathComponent(".\(UUID().uuidString)")

@@ -1,6 +1,6 @@
 import Testing
 
-@testable import RealityFoundation
+@testable import Pipeline
 
 @Suite struct MachineTests {
   static let memory = "MemTotal:       16000000 kB\nMemFree: 1 kB\nMemAvailable:   8000000 kB\n"
@@ -35,11 +35,23 @@ import Testing
     #expect(machine.processorFeatures == nil && machine.totalMemoryBytes > 0)
   }
 
-  @Test func thisMachineIsSupportedAndHasLimits() {
-    #expect(PhotogrammetrySession.isSupported)
-    let big = PhotogrammetrySession.Limits(memoryBytes: 16 << 30)
-    #expect(big.maximumNumberOfInputImages == 1000 && big.maximumInputImageDimension == 16384)
-    let small = PhotogrammetrySession.Limits(memoryBytes: 2 << 30)
-    #expect(small.maximumNumberOfInputImages == 268 && small.maximumInputImageDimension == 8192)
+  @Test func limitsFollowTheMemory() {
+    let large = Machine(totalMemoryBytes: 16 << 30).limits
+    #expect(large.maximumPhotos == 1000 && large.maximumPhotoSide == 16384)
+    #expect(large.imageMemory == 1 << 30)
+    let small = Machine(totalMemoryBytes: 2 << 30).limits
+    #expect(small.maximumPhotos == 268 && small.maximumPhotoSide == 8192)
+    #expect(small.imageMemory == 256 << 20)
+  }
+
+  @Test func everyConfigurationIsWithinTheLimitsOfItsMachine() {
+    let configuration = PipelineConfiguration(machine: Machine(totalMemoryBytes: 4 << 30))
+    #expect(configuration.ingestion.maximumPhotos == 536)
+    #expect(configuration.ingestion.inspection.limits.maximumSide == 8192)
+    #expect(configuration.imageMemory == 512 << 20)
+    let replaced = Machine.$override.withValue(Machine(totalMemoryBytes: 4 << 30)) {
+      PipelineConfiguration()
+    }
+    #expect(replaced.ingestion == configuration.ingestion)
   }
 }

@@ -1,0 +1,112 @@
+import Foundation
+
+/// The memory and the processor that a run has.
+package struct Machine: Hashable, Sendable {
+  /// Memory limit of the process, in bytes: the machine's memory or its container's limit.
+  package var totalMemoryBytes: Int
+  /// The part of it that is free or can be reclaimed.
+  package var availableMemoryBytes: Int
+  /// The processor's features by the kernel's names; nil where the kernel lists none.
+  package var processorFeatures: Set<String>?
+
+  /// Least memory, in bytes, that a reconstruction needs.
+  package static let neededMemoryBytes = 2 << 30
+  /// The instruction sets that the numeric libraries are built for, on x86-64.
+  static let neededFeatures = ["sse4_1", "sse4_2", "popcnt"]
+
+  package init(
+    totalMemoryBytes: Int, availableMemoryBytes: Int? = nil, processorFeatures: Set<String>? = nil
+  ) {
+    self.totalMemoryBytes = totalMemoryBytes
+    self.availableMemoryBytes = availableMemoryBytes ?? totalMemoryBytes
+    self.processorFeatures = processorFeatures
+  }
+
+  /// This machine. Tests replace it with `$override`.
+  package static var current: Machine { override ?? measured }
+
+  /// Replaces `current` within a task or closure.
+  @TaskLocal package static var override: Machine?
+
+  private static var measured: Machine {
+    func read(_ path: String) -> String {
+      (try? String(contentsOfFile: path, encoding: .utf8)) ?? ""
+    }
+    #if arch(x86_64)
+      let processor = read("/proc/cpuinfo")
+    #else
+      let processor = ""
+    #endif
+    return Machine(
+      memory: read("/proc/meminfo"), processor: processor,
+      containerLimit: Int(read("/sys/fs/cgroup/memory.max").trimmed),
+      containerUse: Int(read("/sys/fs/cgroup/memory.current").trimmed))
+  }
+
+  /// Parses the texts of `/proc/meminfo` and `/proc/cpuinfo`; the container's limit and use are in
+  /// bytes.
+  init(memory: String, processor: String, containerLimit: Int?, containerUse: Int?) {
+    func bytes(_ key: String) -> Int? {
+      let line = memory.split(separator: "\n").first { $0.hasPrefix(key + ":") }
+      return line?.split(whereSeparator: \.isWhitespace).dropFirst().first
+        .flatMap { Int($0) }.map { $0 * 1024 }
+    }
+    let physical = bytes("MemTotal") ?? Int(ProcessInfo.processInfo.physicalMemory)
+    let limit = Swift.min(containerLimit ?? .max, physical)
+    let flags = processor.split(separator: "\n").first { $0.hasPrefix("flags") }
+    self.init(
+      totalMemoryBytes: limit,
+      availableMemoryBytes: Swift.min(
+        bytes("MemAvailable") ?? physical, Swift.max(0, limit - (containerUse ?? 0))),
+      processorFeatures: flags.map {
+        Set($0.split(whereSeparator: \.isWhitespace).map(String.init))
+      })
+  }
+
+  /// Why a reconstruction can't run here: sentences with a remedy, none where it can.
+  package var shortfalls: [String] {
+    var sentences: [String] = []
+    if availableMemoryBytes < Self.neededMemoryBytes {
+      sentences.append(
+        "Only \(availableMemoryBytes >> 20) MB of memory are available and a reconstruction needs "
+          + "\(Self.neededMemoryBytes >> 20) MB; close other programs or add memory.")
+    }
+    if let processorFeatures {
+      let missing = Self.neededFeatures.filter { !processorFeatures.contains($0) }
+      if !missing.isEmpty {
+        sentences.append(
+          "The processor lacks \(missing.joined(separator: ", ")); "
+            + "use a machine with a 64-bit processor from 2009 or later.")
+      }
+    }
+    return sentences
+  }
+}
+
+// MARK: - Limits
+
+/// The limits that a machine's memory sets to a run. They depend on its total memory, not on what is
+/// free, so that runs do not differ.
+package struct MemoryLimits: Hashable, Sendable {
+  /// Photos beyond this number are refused.
+  package var maximumPhotos: Int
+  /// Photos with a longer side, in pixels, are refused.
+  package var maximumPhotoSide: Int
+  /// Bytes that decoded photos may occupy.
+  package var imageMemory: Int
+}
+
+extension Machine {
+  /// 1000 photos of at most 16384 pixels a side from 7.5 GiB of memory on.
+  package var limits: MemoryLimits {
+    let gibibytes = Double(totalMemoryBytes) / Double(1 << 30)
+    return MemoryLimits(
+      maximumPhotos: min(1000, max(100, Int(gibibytes * 134))),
+      maximumPhotoSide: gibibytes >= 7.5 ? 16384 : 8192,
+      imageMemory: min(1 << 30, max(256 << 20, totalMemoryBytes / 8)))
+  }
+}
+
+extension String {
+  fileprivate var trimmed: String { trimmingCharacters(in: .whitespacesAndNewlines) }
+}

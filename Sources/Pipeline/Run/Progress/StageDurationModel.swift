@@ -1,0 +1,75 @@
+import Foundation
+
+/// Expected durations of the stages of a run, before anything is measured.
+///
+/// Fitted to ten runs on two threads, from 8 to 40 photos of 0.5 to 6 megapixels, at all levels from
+/// preview to full. Meshing and texture mapping are single-threaded for the most part.
+package struct StageDurationModel: Sendable {
+  /// The work that yields cameras and sparse points.
+  package enum AlignmentWork: Sendable {
+    /// Structure from motion.
+    case search
+    /// Cameras are given; points are triangulated from matches.
+    case triangulation
+    /// Cameras and points are given.
+    case none
+  }
+
+  /// The photos of the run.
+  package var photos: PhotoTotals
+  /// The specification that stages without one of their own work for.
+  package var finest: DetailSpecification
+  package var threadCount: Int
+  package var alignment: AlignmentWork
+  /// The part of the views that the dense stage makes patches of: less than 1 for one of several
+  /// jobs.
+  package var denseShare: Double
+
+  package init(
+    photos: PhotoTotals, finest: DetailSpecification, threadCount: Int,
+    alignment: AlignmentWork = .search, denseShare: Double = 1
+  ) {
+    (self.photos, self.finest, self.threadCount) = (photos, finest, threadCount)
+    (self.alignment, self.denseShare) = (alignment, denseShare)
+  }
+
+  /// Expected seconds of a model, from the photos to the file.
+  package var total: Double { seconds(of: PipelineStage.allCases) }
+
+  /// Expected seconds of some stages together.
+  package func seconds(of stages: [PipelineStage]) -> Double {
+    stages.reduce(0) { $0 + seconds(of: WorkUnit(stage: $1)) }
+  }
+
+  /// Expected seconds of a unit of work.
+  package func seconds(of unit: WorkUnit) -> Double {
+    let specification = unit.specification ?? finest
+    let (count, megapixels) = (Double(max(1, photos.count)), max(0.1, photos.megapixels))
+    // Neither a view nor a texture has more pixels than the photos.
+    let view = min(Double(specification.viewPixels) / 1e6, megapixels / count)
+    let side = Double(specification.textureSide)
+    let texels = min(side * side / 1e6, 0.45 * megapixels)
+    let threads = Double(max(1, threadCount))
+    return switch unit.stage {
+    case .preProcessing: (0.01 * count + 0.015 * megapixels) / threads
+    case .imageAlignment: alignmentSeconds(count, megapixels) / threads
+    case .pointCloudGeneration: 0.4 + 1.84 * denseShare * count * view / threads
+    // The octree is mostly as deep for 0.2 MP as for 0.5 MP, and shallower below 0.12 MP.
+    case .meshGeneration: view < 0.12 ? 4.2 : 14.5 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
+    case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
+    case .optimization: 0.1 + 0.06 * texels
+    }
+  }
+
+  /// Thread seconds. Features and matches are two fifths of structure from motion, in runs of 11, 32
+  /// and 40 photos.
+  private func alignmentSeconds(_ count: Double, _ megapixels: Double) -> Double {
+    let pairs = min(count * (count - 1) / 2, count * 20)
+    let search = 0.4 * count + 0.09 * megapixels + 0.005 * pairs
+    return switch alignment {
+    case .search: search
+    case .triangulation: 0.4 * search
+    case .none: 0.002 * count
+    }
+  }
+}

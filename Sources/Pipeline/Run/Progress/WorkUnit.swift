@@ -1,0 +1,18 @@
+/// A piece of work that is done once, whichever requests need it.
+package struct WorkUnit: Hashable, Sendable {
+  package var stage: PipelineStage
+  /// The model that the unit is for; nil for stages that all models share.
+  package var specification: DetailSpecification?
+
+  package static let preProcessing = WorkUnit(stage: .preProcessing)
+  package static let alignment = WorkUnit(stage: .imageAlignment)
+  package static let densification = WorkUnit(stage: .pointCloudGeneration)
+
+  package init(stage: PipelineStage, specification: DetailSpecification? = nil) {
+    self.stage = stage
+    switch stage {
+    case .preProcessing, .imageAlignment, .pointCloudGeneration: self.specification = nil
+    case .meshGeneration, .textureMapping, .optimization: self.specification = specification
+    }
+  }
+}

@@ -1,0 +1,133 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// The method: from photos to a model file, for one detail level.
+///
+/// Each step takes the results of those before it and returns its own. The recorder measures it, and
+/// the cache returns the result of an earlier call or run where there is one.
+struct ReconstructionMethod {
+  let source: RunSource
+  /// Specialized for the detail level.
+  let configuration: PipelineConfiguration
+  let cache: StageCache
+  let recorder: RunRecorder
+
+  /// Pixels of a view in the dense stage.
+  var viewPixels: Int { configuration.pointCloudGeneration.maximumPixelsPerView }
+
+  /// Photos to file. A model takes the part of the surface inside the crop box, and is moved by the
+  /// transform.
+  func writeModel(in geometry: ModelGeometry, to url: URL) throws {
+    let photos = try ingest()
+    let reconstruction = try align(photos)
+    let surface = try surface(photos, reconstruction)
+    let model = try texture(surface, photos, reconstruction, inside: geometry.crop)
+    try export(model, reconstruction, movedBy: geometry.transform, to: url)
+  }
+
+  /// Reads and validates the photos.
+  func ingest() throws -> PhotoSet {
+    try recorder.recordingErrors { try cache.lockDirectory() }
+    return try cache.photos {
+      let ingested = try recorder.run(.preProcessing) { try source.ingest(configuration, $0) }
+      try recorder.record(
+        ingested, folder: source.photoFolder,
+        minimumPhotos: configuration.alignment.minimumPhotos)
+      return PhotoSet(ingested, readings: source.readings, byteBudget: configuration.imageMemory)
+    }
+  }
+
+  /// Finds cameras, poses and sparse points, in the frame that all results share.
+  func align(_ photos: PhotoSet) throws -> Reconstruction {
+    try cache.reconstruction {
+      let result = try source.cameras(of: photos, configuration, cache, recorder)
+      recorder.record(result)
+      // Cameras that are given may have been read from the checkpoint.
+      if source.isPhotosOnly { try cache.checkpoint?.write(result) }
+      return result
+    }
+  }
+
+  /// Makes the oriented, colored cloud.
+  func densify(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> PointCloud {
+    try cache.cloud(viewPixels: viewPixels) {
+      let cloud = try recorder.run(.pointCloudGeneration, images: photos.images) { context in
+        let cloud = try PointCloudGeneration(options: configuration.pointCloudGeneration)
+          .run(reconstruction, images: photos.images, folder: cache.checkpoint?.views, context)
+        CloudMetrics().run(cloud, reconstruction, context.notes)
+        return cloud
+      }
+      try cache.checkpoint?.write(cloud)
+      return cloud
+    }
+  }
+
+  /// Makes the surface of the object, or of the whole scene where masking is off, unsimplified.
+  func surface(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> Mesh {
+    try cache.surface(viewPixels: viewPixels) {
+      if case .savedRun(let saved) = source { return saved.surface(viewPixels, recorder) }
+      let surface = try cache.sealedSurface(of: photos, configuration) {
+        let cloud = try densify(photos, reconstruction)
+        return try mesh(cloud, photos, reconstruction)
+      }
+      try cache.writeSurfaceRecord(
+        of: photos, reconstruction, in: source.photoFolder, viewPixels: viewPixels)
+      return surface
+    }
+  }
+
+  private func mesh(
+    _ cloud: PointCloud, _ photos: PhotoSet, _ reconstruction: Reconstruction
+  ) throws -> Mesh {
+    try recorder.run(.meshGeneration, images: photos.images) { context in
+      let silhouettes = try Silhouettes(reconstruction, images: photos.images)
+      let share = configuration.photoRefinement == nil ? 1 : 0.4
+      let mesh = try MeshGeneration(configuration.meshGeneration)
+        .run(cloud, reconstruction, silhouettes: silhouettes, context.part(from: 0, to: share))
+      guard let refinement = configuration.photoRefinement else { return mesh }
+      return try PhotoRefinement(options: refinement).run(
+        mesh, source: ViewSource(reconstruction, images: photos.images),
+        context.part(from: share, to: 1))
+    }
+  }
+
+  /// Simplifies the surface inside a box to the triangle budget, and textures it.
+  func texture(
+    _ surface: Mesh, _ photos: PhotoSet, _ reconstruction: Reconstruction,
+    inside box: OrientedBox?
+  ) throws -> TexturedMesh {
+    try recorder.run(.textureMapping, images: photos.images) { context in
+      let parts = box.map { MeshCropping(box: $0).run(surface) }
+      let dense = parts?.inside ?? surface
+      guard !dense.triangles.isEmpty else { throw PipelineError.emptyCrop }
+      let mesh = try Simplification(options: configuration.simplification)
+        .run(dense, context.part(from: 0, to: 0.15))
+      return try TextureMapping(options: configuration.textureMapping).run(
+        mesh, dense: dense, occluders: parts?.outside ?? Mesh(), reconstruction: reconstruction,
+        images: photos.images, context.part(from: 0.15, to: 1))
+    }
+  }
+
+  /// Writes the model in the format that the URL names, and draws it where a preview is configured.
+  func export(
+    _ model: TexturedMesh, _ reconstruction: Reconstruction, movedBy transform: AffineMap,
+    to url: URL
+  ) throws {
+    try recorder.run(.optimization) { context in
+      let end = configuration.previewFile == nil ? 1 : 0.7
+      let faces =
+        switch configuration.meshPrimitive {
+        case .triangle: model
+        case .quad: try QuadPairing().run(model, context.part(from: 0, to: 0))
+        }
+      try ModelExport(options: configuration.export)
+        .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
+      guard let preview = configuration.previewFile else { return }
+      // In the frame of the cameras.
+      try ModelPreview(configuration.preview).write(
+        model, cameras: reconstruction.poses.compactMap { $0 }, to: preview,
+        context.part(from: end, to: 1))
+    }
+  }
+}

@@ -1,0 +1,124 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Records what a run does: sends its events, measures its stages and fills its report.
+///
+/// Used on the run's thread only; `onEvent` is called from any.
+final class RunRecorder {
+  private(set) var report: RunReport
+  /// What the latest run of each stage recorded.
+  private(set) var notes: [PipelineStage: StageNotes] = [:]
+
+  private let threadCount: Int
+  private let flag: CancellationFlag
+  private let onEvent: @Sendable (PipelineEvent) -> Void
+
+  init(
+    _ configuration: PipelineConfiguration, flag: CancellationFlag,
+    onEvent: @escaping @Sendable (PipelineEvent) -> Void
+  ) {
+    report = RunReport(configuration: configuration)
+    threadCount = configuration.threadCount
+    self.flag = flag
+    self.onEvent = onEvent
+  }
+
+  func send(_ event: PipelineEvent) { onEvent(event) }
+
+  /// Adds a sentence that concerns no single stage.
+  func warn(_ sentence: String) {
+    report.warnings.append(sentence)
+    onEvent(.warning(sentence))
+  }
+
+  /// Adds the reason to the report where `body` fails.
+  func recordingErrors<Value>(_ body: () throws -> Value) throws -> Value {
+    do {
+      return try body()
+    } catch {
+      report.note(error)
+      throw error
+    }
+  }
+
+  /// Runs one stage with its own progress and notes, and adds its cost to the report. `images` is the
+  /// store that the stage decodes photos with.
+  func run<Value>(
+    _ stage: PipelineStage, images: ImageStore? = nil, _ body: (StageContext) throws -> Value
+  ) throws -> Value {
+    let notes = StageNotes()
+    let control = KernelControl(threadCount: threadCount, flag: flag) { [onEvent] fraction in
+      onEvent(.progress(stage, fraction: fraction))
+    }
+    self.notes[stage] = notes
+    let start = ResourceUsage.now
+    let decodeCount = images?.decodeCount
+    try recordingErrors { try control.step(0) }
+    defer {
+      if let images, let decodeCount {
+        notes.record("decodedPhotos", Double(images.decodeCount - decodeCount))
+      }
+      add(stage, notes, since: start)
+    }
+    return try recordingErrors {
+      let value = try body(StageContext(control: control, notes: notes))
+      try control.step(1)
+      return value
+    }
+  }
+
+  private func add(_ stage: PipelineStage, _ notes: StageNotes, since start: ResourceUsage) {
+    let end = ResourceUsage.now
+    report.stages.append(
+      .init(
+        name: stage.rawValue, seconds: end.seconds - start.seconds,
+        cpuSeconds: end.cpuSeconds - start.cpuSeconds, peakMemoryBytes: end.peakMemoryBytes,
+        counts: notes.counts))
+    report.warnings += notes.warnings
+    report.details += notes.details
+    notes.warnings.forEach { onEvent(.warning($0)) }
+    notes.details.forEach { onEvent(.detail($0)) }
+  }
+}
+
+// MARK: - Photos
+
+extension RunRecorder {
+  /// Records which photos of a folder are used; throws where there are fewer than `minimumPhotos`.
+  func record(_ ingested: IngestedPhotos, folder: URL, minimumPhotos: Int) throws {
+    report.photos += ingested.refused.map {
+      .init(name: $0.name, status: .refused, reason: $0.reason)
+    }
+    ingested.refused.forEach { onEvent(.refused($0)) }
+    if ingested.isDownsampled { onEvent(.downsampled) }
+    try recordingErrors {
+      guard !ingested.photos.isEmpty else {
+        throw PipelineError.noPhotos(folder: folder.path, refused: ingested.refused.count)
+      }
+      onEvent(.ingested(PhotoTotals(ingested.photos)))
+      try PipelineError.checkCount(ingested.photos.count, needed: minimumPhotos)
+    }
+  }
+
+  /// Records cameras without a photo, by name.
+  func record(missing names: [String]) {
+    report.photos += names.map { .init(name: $0, status: .missing, reason: nil) }
+  }
+
+  /// Records which photos have a pose, and how accurate it is.
+  func record(_ reconstruction: Reconstruction) {
+    report.photos += reconstruction.registered.map {
+      .init(name: reconstruction.photos[$0.index].name, status: .registered, reason: nil)
+    }
+    report.photos += reconstruction.unregistered.map {
+      .init(name: $0.name, status: .notRegistered, reason: $0.reason)
+    }
+    report.photos.sort { $0.name < $1.name }
+    report.meanReprojectionError = reconstruction.meanReprojectionError
+    report.worldFrame = reconstruction.worldFrame
+    reconstruction.unregistered.forEach { onEvent(.refused($0)) }
+    let (registered, all) = (reconstruction.registered.count, reconstruction.photos.count)
+    if registered < all { onEvent(.stitchingIncomplete(registered: registered, of: all)) }
+  }
+}

@@ -1,0 +1,83 @@
+import Foundation
+import Kernels
+import SceneModel
+
+// How each kind of source gives photos, cameras and a surface.
+
+extension RunSource {
+  /// Gravity and depth by sample id, from the caller.
+  var readings: [Int: SensorReading] {
+    if case .photos(_, let readings) = self { readings } else { [:] }
+  }
+
+  func ingest(
+    _ configuration: PipelineConfiguration, _ context: StageContext
+  ) throws -> IngestedPhotos {
+    switch self {
+    case .photos(let folder, _), .photosWithCameras(let folder, _):
+      try PhotoIngestion(configuration.ingestion).run(folder: folder, context)
+    case .savedRun(let saved): try SavedPhotos().run(saved, context)
+    }
+  }
+
+  /// Cameras, poses and sparse points: found, given or saved.
+  func cameras(
+    of photos: PhotoSet, _ configuration: PipelineConfiguration, _ cache: StageCache,
+    _ recorder: RunRecorder
+  ) throws -> Reconstruction {
+    switch self {
+    case .photos:
+      return try recorder.run(.imageAlignment, images: photos.images) { context in
+        try cache.sealedAlignment(of: photos, configuration, context.notes) {
+          try Self.align(photos, configuration, context)
+        }
+      }
+    case .photosWithCameras(_, let known):
+      let (result, missing) = try recorder.run(.imageAlignment, images: photos.images) {
+        try Self.assign(known, to: photos, $0)
+      }
+      recorder.record(missing: missing)
+      return result
+    case .savedRun(let saved):
+      return saved.reconstruction(of: photos.ingested)
+    }
+  }
+
+  /// Structure from motion.
+  private static func align(
+    _ photos: PhotoSet, _ configuration: PipelineConfiguration, _ context: StageContext
+  ) throws -> Reconstruction {
+    var options = configuration.alignment
+    options.framing.readings = photos.readings
+    return try MaskedAlignment(ImageAlignment(options))
+      .run(photos.ingested, images: photos.images, context)
+  }
+
+  /// Assigns cameras to the photos, and finds sparse points where none came with them. Also returns
+  /// the names of cameras without a photo.
+  private static func assign(
+    _ known: KnownCameras, to photos: PhotoSet, _ context: StageContext
+  ) throws -> (Reconstruction, missing: [String]) {
+    let assigned = try CameraAssignment()
+      .run(known, to: photos.ingested, context.part(from: 0, to: 0.01))
+    let result = try KnownPoints()
+      .run(assigned.reconstruction, images: photos.images, context.part(from: 0.01, to: 1))
+    return (result, assigned.missing)
+  }
+}
+
+extension SavedRun {
+  /// The surface; with a warning where it was made from smaller views.
+  func surface(_ viewPixels: Int, _ recorder: RunRecorder) -> Mesh {
+    if record.viewPixels < viewPixels {
+      recorder.warn(
+        "The surface was made from views of \(megapixelText(record.viewPixels)), not "
+          + "\(megapixelText(viewPixels)) as for this level, and has no more detail than that. Run the "
+          + "photos again at this level for more.")
+    }
+    return surface
+  }
+}
+
+/// A number of pixels as megapixels, for instance `0.18 MP`.
+func megapixelText(_ pixels: Int) -> String { "\(Double(pixels / 10_000) / 100) MP" }

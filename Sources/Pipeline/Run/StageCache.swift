@@ -1,0 +1,152 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// The results of a run's stages. Each is made once; alignment and surface are taken from the
+/// checkpoint directory where an earlier run with the same photos and options sealed them there.
+///
+/// Holds the lock of the checkpoint directory, and writes results there for other tools. Used on the
+/// run's thread only.
+final class StageCache {
+  private struct AtResolution<Value> {
+    /// Pixels of a view in the dense stage.
+    var viewPixels: Int
+    var value: Value
+  }
+
+  let checkpoint: Checkpoint?
+  private let access: CheckpointAccess
+  /// Whether alignment and surface depend on the photos and options alone, so that another run may
+  /// reuse them.
+  private let sealsStages: Bool
+  private let recorder: RunRecorder
+  private var lock: DirectoryLock?
+
+  private var photos: PhotoSet?
+  private var reconstruction: Reconstruction?
+  private var cloud: AtResolution<PointCloud>?
+  private var surface: AtResolution<Mesh>?
+
+  init(
+    directory: URL?, access: CheckpointAccess, sealsStages: Bool, recorder: RunRecorder
+  ) {
+    checkpoint = directory.map(Checkpoint.init)
+    self.access = access
+    self.sealsStages = sealsStages
+    self.recorder = recorder
+  }
+
+  // MARK: - Lock
+
+  /// Locks the checkpoint directory until `unlock()`; throws `CheckpointError`.
+  func lockDirectory() throws {
+    guard lock == nil, let checkpoint else { return }
+    lock = try DirectoryLock(checkpoint.directory, isShared: access == .shared)
+    checkpoint.removeRemains()
+  }
+
+  /// Lets other runs use the checkpoint directory until this one continues.
+  func unlock() { lock = nil }
+
+  /// Writes the report; unless the directory is not locked, and may be another run's.
+  func writeReport() throws {
+    guard lock != nil else { return }
+    try checkpoint?.write(recorder.report)
+  }
+
+  // MARK: - Results
+
+  /// Drops decoded photos and the cloud, which can be made again.
+  func dropReproducible() {
+    cloud = nil
+    photos = photos?.emptied
+  }
+
+  func photos(_ make: () throws -> PhotoSet) throws -> PhotoSet {
+    if let photos { return photos }
+    let result = try make()
+    photos = result
+    return result
+  }
+
+  func reconstruction(_ make: () throws -> Reconstruction) throws -> Reconstruction {
+    if let reconstruction { return reconstruction }
+    let result = try make()
+    reconstruction = result
+    return result
+  }
+
+  /// A cloud from views of `viewPixels` pixels or more.
+  func cloud(viewPixels: Int, _ make: () throws -> PointCloud) throws -> PointCloud {
+    if let cloud, cloud.viewPixels >= viewPixels { return cloud.value }
+    let result = try make()
+    cloud = AtResolution(viewPixels: viewPixels, value: result)
+    return result
+  }
+
+  /// A surface from views of `viewPixels` pixels or more.
+  func surface(viewPixels: Int, _ make: () throws -> Mesh) throws -> Mesh {
+    if let surface, surface.viewPixels >= viewPixels { return surface.value }
+    let result = try make()
+    surface = AtResolution(viewPixels: viewPixels, value: result)
+    return result
+  }
+}
+
+// MARK: - Sealed stages
+
+extension StageCache {
+  /// The alignment that an earlier run sealed, or that `make` finds; then it is sealed.
+  func sealedAlignment(
+    of photos: PhotoSet, _ configuration: PipelineConfiguration, _ notes: StageNotes,
+    _ make: () throws -> Reconstruction
+  ) throws -> Reconstruction {
+    guard let store = try store(photos, configuration) else { return try make() }
+    if let found = store.reconstruction(of: photos.ingested.photos, notes) { return found }
+    let result = try make()
+    try store.save(result, notes)
+    return result
+  }
+
+  /// The surface that an earlier run sealed, or that `make` makes; then it is sealed.
+  func sealedSurface(
+    of photos: PhotoSet, _ configuration: PipelineConfiguration, _ make: () throws -> Mesh
+  ) throws -> Mesh {
+    let store = try store(photos, configuration)
+    let found = StageNotes()
+    if let mesh = store?.surface(found) {
+      recorder.send(.progress(.pointCloudGeneration, fraction: 1))
+      return try recorder.run(.meshGeneration) { context in
+        context.notes.add(found)
+        return mesh
+      }
+    }
+    let mesh = try make()
+    checkpoint?.removeRecord()
+    try checkpoint?.write(mesh)
+    try store?.sealSurface(
+      recorder.notes[.meshGeneration] ?? StageNotes(),
+      denseNotes: recorder.notes[.pointCloudGeneration] ?? StageNotes())
+    return mesh
+  }
+
+  private func store(
+    _ photos: PhotoSet, _ configuration: PipelineConfiguration
+  ) throws -> StageStore? {
+    guard sealsStages else { return nil }
+    return try checkpoint.map {
+      StageStore(checkpoint: $0, inputs: try RunInputs(photos, configuration))
+    }
+  }
+
+  /// Writes what the surface in the checkpoint is made of, for models from it later.
+  func writeSurfaceRecord(
+    of photos: PhotoSet, _ reconstruction: Reconstruction, in folder: URL, viewPixels: Int
+  ) throws {
+    guard let checkpoint, let sparseHash = checkpoint.sparseHash else { return }
+    try checkpoint.write(
+      SurfaceRecord(
+        reconstruction, of: photos.ingested, in: folder, viewPixels: viewPixels,
+        sparseHash: sparseHash))
+  }
+}

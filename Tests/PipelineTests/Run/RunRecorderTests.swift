@@ -1,0 +1,92 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct RunRecorderTests {
+  private let events = Locked<[String]>([])
+
+  private func recorder(flag: CancellationFlag = CancellationFlag()) -> RunRecorder {
+    RunRecorder(PipelineConfiguration(), flag: flag) { [events] event in
+      events.withLock { $0.append(Self.name(event)) }
+    }
+  }
+
+  private static func name(_ event: PipelineEvent) -> String {
+    switch event {
+    case .progress(let stage, let fraction): "\(stage.rawValue) \(fraction)"
+    case .ingested(let photos): "ingested \(photos.count)"
+    case .refused(let photo): "refused \(photo.name)"
+    case .downsampled: "downsampled"
+    case .stitchingIncomplete(let registered, let all): "stitched \(registered) of \(all)"
+    case .warning(let sentence): "warning \(sentence)"
+    case .detail(let sentence): "detail \(sentence)"
+    }
+  }
+
+  @Test func aStageSendsProgressThenItsNotes() throws {
+    let recorder = recorder()
+    let store = ImageStore(images: [TexturePattern.image(width: 40, height: 30, seed: 1)])
+    let value = try recorder.run(.meshGeneration, images: store) { context in
+      context.notes.record("triangles", 12)
+      context.notes.warn("A.")
+      context.notes.tell("B.")
+      for _ in 0..<2 { _ = try store.image(ID(0)) }
+      return 7
+    }
+    #expect(value == 7)
+    #expect(
+      events.withLock { $0 }
+        == ["meshGeneration 0.0", "meshGeneration 1.0", "warning A.", "detail B."])
+    let stage = try #require(recorder.report.stages.first)
+    // The store keeps nothing.
+    #expect(stage.counts == ["triangles": 12, "decodedPhotos": 2])
+    #expect(stage.name == "meshGeneration" && stage.seconds >= 0)
+    #expect(recorder.report.warnings == ["A."] && recorder.report.details == ["B."])
+    #expect(recorder.notes[.meshGeneration]?.counts == stage.counts)
+  }
+
+  @Test func aFailureIsInTheReportOnce() {
+    let recorder = recorder()
+    for _ in 0..<2 {
+      #expect(throws: PipelineError.emptyCrop) {
+        try recorder.run(.textureMapping) { _ in throw PipelineError.emptyCrop }
+      }
+    }
+    #expect(recorder.report.errors == [PipelineError.emptyCrop.errorDescription])
+    #expect(recorder.report.stages.count == 2)
+  }
+
+  @Test func aCancelledRunStartsNoStage() {
+    let flag = CancellationFlag()
+    flag.cancel()
+    let recorder = recorder(flag: flag)
+    #expect(throws: CancellationError.self) {
+      try recorder.run(.imageAlignment) { _ in Issue.record("the stage ran") }
+    }
+    #expect(recorder.report.stages.isEmpty && recorder.report.errors.count == 1)
+  }
+
+  @Test func tooFewPhotosAreReportedAfterTheirNumber() {
+    let recorder = recorder()
+    let scene = SphereScene(viewCount: 2, imageSize: 64) { _ in SIMD3(120, 130, 140) }
+    var photos = IngestedPhotos(
+      photos: scene.reconstruction.photos, cameras: scene.reconstruction.cameras,
+      refused: [
+        RefusedPhoto(sampleID: 2, name: "c.txt", fault: .unsupportedFormat, reason: "No photo.")
+      ], files: [], refusedMasks: [], contentHashes: [1, 2], processingPixels: 1000,
+      isDownsampled: true)
+    func record() throws {
+      try recorder.record(
+        photos, folder: URL(filePath: "/photos"), minimumPhotos: PipelineError.minimumPhotos)
+    }
+    #expect(throws: PipelineError.tooFewPhotos(found: 2, needed: 3)) { try record() }
+    #expect(events.withLock { $0 } == ["refused c.txt", "downsampled", "ingested 2"])
+    #expect(recorder.report.photos.map(\.status) == [.refused])
+    photos.photos = []
+    #expect(throws: PipelineError.noPhotos(folder: "/photos", refused: 1)) { try record() }
+  }
+}
