@@ -42,11 +42,6 @@ public typealias CVImageBuffer = CVPixelBuffer
 /// A buffer of any kind; always a pixel buffer here.
 public typealias CVBuffer = CVPixelBuffer
 
-/// A four-character code.
-public typealias OSType = UInt32
-/// The result code of a CoreVideo function: 0 means success.
-public typealias CVReturn = Int32
-
 private func bytesPerPixel(of format: OSType) -> Int? {
   switch format {
   case kCVPixelFormatType_32BGRA, kCVPixelFormatType_32ARGB, kCVPixelFormatType_32RGBA: 4
