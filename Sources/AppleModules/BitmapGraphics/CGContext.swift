@@ -1,5 +1,4 @@
 import Foundation
-import SceneModel
 
 /// Draws images and shapes into a bitmap with 8 bits per component: gray, alpha only, or RGB with a
 /// fourth byte.

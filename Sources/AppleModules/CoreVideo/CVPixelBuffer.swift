@@ -1,5 +1,3 @@
-import Kernels
-
 /// An image in memory with one plane.
 public final class CVPixelBuffer {
   /// The width in pixels.
