@@ -1,5 +1,3 @@
-import Kernels
-
 /// The pixels that a context draws into: memory of its own, or a caller's buffer that outlives it.
 struct Bitmap {
   let width: Int

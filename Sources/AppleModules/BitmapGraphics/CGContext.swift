@@ -1,5 +1,4 @@
 import Foundation
-import SceneModel
 
 /// Draws images and shapes into a bitmap with 8 bits per component: gray, alpha only, or RGB with a
 /// fourth byte.
@@ -96,7 +95,7 @@ public final class CGContext {
   /// Sets the pixels in a rectangle to zero.
   public func clear(_ rect: CGRect) {
     let box = rect.applying(state.transform.concatenating(flip))
-    bitmap.clear(pixels(box.minX, box.maxX, width), pixels(box.minY, box.maxY, height))
+    bitmap.clear(pixelRange(box.minX, box.maxX, width), pixelRange(box.minY, box.maxY, height))
   }
 
   /// Sets the fill color.
@@ -163,12 +162,12 @@ public final class CGContext {
 
   private var clippedColumns: Range<Int> {
     if state.clip.isInfinite { return 0..<width }
-    return state.clip.isNull ? 0..<0 : pixels(state.clip.minX, state.clip.maxX, width)
+    return state.clip.isNull ? 0..<0 : pixelRange(state.clip.minX, state.clip.maxX, width)
   }
 
   private var clippedRows: Range<Int> {
     if state.clip.isInfinite { return 0..<height }
-    return state.clip.isNull ? 0..<0 : pixels(state.clip.minY, state.clip.maxY, height)
+    return state.clip.isNull ? 0..<0 : pixelRange(state.clip.minY, state.clip.maxY, height)
   }
 
   private var flip: CGAffineTransform {
@@ -185,8 +184,8 @@ public final class CGContext {
     var color = color
     color.alpha = UInt8(Int(color.alpha) * Int(state.opacity) / 255)
     bitmap.draw(
-      pixels(box.minX, box.maxX, width).clamped(to: clippedColumns),
-      pixels(box.minY, box.maxY, height).clamped(to: clippedRows)
+      pixelRange(box.minX, box.maxX, width).clamped(to: clippedColumns),
+      pixelRange(box.minY, box.maxY, height).clamped(to: clippedRows)
     ) { x, y in
       let point = CGPoint(x: CGFloat(x) + 0.5, y: CGFloat(y) + 0.5).applying(userFromBitmap)
       guard rounded else { return rect.contains(point) ? color : nil }
@@ -194,28 +193,4 @@ public final class CGContext {
       return u * u + v * v <= 1 ? color : nil
     }
   }
-}
-
-/// How images are resampled when they are scaled.
-public enum CGInterpolationQuality: Int32, Hashable, Sendable {
-  /// The default quality.
-  case `default`
-  /// Nearest neighbor.
-  case none
-  /// Low quality, fast.
-  case low
-  /// High quality.
-  case high
-  /// Medium quality.
-  case medium
-}
-
-/// The pixels that an interval touches, clamped to `0..<count`.
-func pixels(_ lower: CGFloat, _ upper: CGFloat, _ count: Int) -> Range<Int> {
-  guard lower < upper else { return 0..<0 }
-  // An edge closer than this to a pixel boundary counts as on it.
-  let tolerance = 1e-6
-  let first = min(max((lower + tolerance).rounded(.down), 0), CGFloat(count))
-  let last = min(max((upper - tolerance).rounded(.up), 0), CGFloat(count))
-  return Int(first)..<max(Int(first), Int(last))
 }

@@ -1,4 +1,3 @@
-import Kernels
 import SceneModel
 
 /// An immutable image: gray or RGB, with or without alpha, 8 bits per component.

@@ -20,8 +20,8 @@ struct PlacedImage {
     guard transform.a * transform.d - transform.b * transform.c != 0, box.minX.isFinite,
       box.minY.isFinite, box.maxX.isFinite, box.maxY.isFinite
     else { return nil }
-    columns = pixels(box.minX, box.maxX, 65536)
-    rows = pixels(box.minY, box.maxY, 65536)
+    columns = pixelRange(box.minX, box.maxX, 65536)
+    rows = pixelRange(box.minY, box.maxY, 65536)
     imageFromBitmap = transform.inverted()
     guard quality != .none else {
       (self.raster, isSmooth) = (raster, false)

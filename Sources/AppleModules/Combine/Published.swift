@@ -82,3 +82,10 @@ public struct Published<Value> {
     }
   }
 }
+
+extension Publisher where Failure == Never {
+  /// Republishes each value through a published property for as long as the property exists.
+  public func assign(to published: inout Published<Output>.Publisher) {
+    published.assignValues(self)
+  }
+}

@@ -37,11 +37,6 @@ extension Publisher where Failure == Never {
     to keyPath: ReferenceWritableKeyPath<Root, Output>, on object: Root
   ) -> AnyCancellable { sink { object[keyPath: keyPath] = $0 } }
 
-  /// Republishes each value through a published property for as long as the property exists.
-  public func assign(to published: inout Published<Output>.Publisher) {
-    published.assignValues(self)
-  }
-
   /// The values as an asynchronous sequence.
   public var values: AsyncStream<Output> {
     AsyncStream { continuation in
@@ -54,6 +49,27 @@ extension Publisher where Failure == Never {
       continuation.onTermination = { _ in handle.cancel() }
     }
   }
+}
+
+/// A subscriber made of closures.
+struct ClosureSubscriber<Input, Failure: Error>: Subscriber {
+  let begin: (any Subscription) -> Void
+  let take: (Input) -> Subscribers.Demand
+  let end: (Subscribers.Completion<Failure>) -> Void
+
+  init(
+    begin: @escaping (any Subscription) -> Void, take: @escaping (Input) -> Subscribers.Demand,
+    end: @escaping (Subscribers.Completion<Failure>) -> Void
+  ) { (self.begin, self.take, self.end) = (begin, take, end) }
+
+  init(_ other: some Subscriber<Input, Failure>) {
+    self.init(
+      begin: other.receive(subscription:), take: other.receive, end: other.receive(completion:))
+  }
+
+  func receive(subscription: any Subscription) { begin(subscription) }
+  func receive(_ input: Input) -> Subscribers.Demand { take(input) }
+  func receive(completion: Subscribers.Completion<Failure>) { end(completion) }
 }
 
 /// Holds a subscription until it is canceled.

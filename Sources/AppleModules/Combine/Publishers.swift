@@ -59,27 +59,6 @@ public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendabl
   }
 }
 
-/// A subscriber made of closures.
-struct ClosureSubscriber<Input, Failure: Error>: Subscriber {
-  let begin: (any Subscription) -> Void
-  let take: (Input) -> Subscribers.Demand
-  let end: (Subscribers.Completion<Failure>) -> Void
-
-  init(
-    begin: @escaping (any Subscription) -> Void, take: @escaping (Input) -> Subscribers.Demand,
-    end: @escaping (Subscribers.Completion<Failure>) -> Void
-  ) { (self.begin, self.take, self.end) = (begin, take, end) }
-
-  init(_ other: some Subscriber<Input, Failure>) {
-    self.init(
-      begin: other.receive(subscription:), take: other.receive, end: other.receive(completion:))
-  }
-
-  func receive(subscription: any Subscription) { begin(subscription) }
-  func receive(_ input: Input) -> Subscribers.Demand { take(input) }
-  func receive(completion: Subscribers.Completion<Failure>) { end(completion) }
-}
-
 /// Publishes a transformed value for each upstream value, or none.
 struct TransformPublisher<Upstream: Publisher, Output>: Publisher {
   typealias Failure = Upstream.Failure

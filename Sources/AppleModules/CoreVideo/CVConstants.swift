@@ -2,6 +2,11 @@
 
 @_exported import CoreFoundationTypes
 
+/// A four-character code.
+public typealias OSType = UInt32
+/// The result code of a CoreVideo function: 0 means success.
+public typealias CVReturn = Int32
+
 /// The call succeeded.
 public let kCVReturnSuccess: CVReturn = 0
 /// A parameter of the call is not valid.

@@ -1,5 +1,3 @@
-import Kernels
-
 /// An image in memory with one plane.
 public final class CVPixelBuffer {
   /// The width in pixels.
@@ -41,11 +39,6 @@ extension CVPixelBuffer: Hashable {
 public typealias CVImageBuffer = CVPixelBuffer
 /// A buffer of any kind; always a pixel buffer here.
 public typealias CVBuffer = CVPixelBuffer
-
-/// A four-character code.
-public typealias OSType = UInt32
-/// The result code of a CoreVideo function: 0 means success.
-public typealias CVReturn = Int32
 
 private func bytesPerPixel(of format: OSType) -> Int? {
   switch format {

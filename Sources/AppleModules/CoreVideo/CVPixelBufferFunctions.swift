@@ -1,6 +1,5 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 import Foundation
-import Kernels
 
 // The part of CoreVideo's C interface that fills and reads the pixel buffers of samples. Its
 // signatures and those of CoreGraphics are the only ones outside of Kernels that contain unsafe

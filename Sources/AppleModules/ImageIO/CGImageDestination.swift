@@ -1,7 +1,6 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 import CoreFoundationTypes
 import ImageFiles
-import Kernels
 import SceneModel
 
 /// Writes the pixels of an image to a file or into memory as JPEG, PNG or HEIC. Metadata is not

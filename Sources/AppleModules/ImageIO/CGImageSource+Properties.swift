@@ -1,7 +1,5 @@
 import Foundation
 import ImageFiles
-import Kernels
-import Pipeline
 
 extension CGImageSource {
   /// The EXIF orientation; `up` if the file has none.

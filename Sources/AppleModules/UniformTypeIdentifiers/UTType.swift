@@ -10,16 +10,16 @@ public struct UTType: Hashable, Codable, Sendable {
 
   /// Creates a type from its identifier; nil if it isn't known.
   public init?(_ identifier: String) {
-    guard Self.known.contains(where: { $0.identifier == identifier }) else { return nil }
+    guard UniformType.known.contains(where: { $0.identifier == identifier }) else { return nil }
     self.identifier = identifier
   }
 
   /// Creates a type from a file extension; nil if it isn't known or doesn't conform to `supertype`.
   public init?(filenameExtension: String, conformingTo supertype: UTType = .data) {
     let suffix = filenameExtension.lowercased()
-    guard let entry = Self.known.first(where: { $0.filenameExtensions.contains(suffix) }) else {
-      return nil
-    }
+    guard
+      let entry = UniformType.known.first(where: { $0.filenameExtensions.contains(suffix) })
+    else { return nil }
     identifier = entry.identifier
     guard conforms(to: supertype) else { return nil }
   }
@@ -27,14 +27,14 @@ public struct UTType: Hashable, Codable, Sendable {
   /// Creates a type from a MIME type; nil if it isn't known or doesn't conform to `supertype`.
   public init?(mimeType: String, conformingTo supertype: UTType = .data) {
     let name = mimeType.lowercased()
-    guard let entry = Self.known.first(where: { $0.mimeType == name }) else { return nil }
+    guard let entry = UniformType.known.first(where: { $0.mimeType == name }) else { return nil }
     identifier = entry.identifier
     guard conforms(to: supertype) else { return nil }
   }
 
   init(known identifier: String) { self.identifier = identifier }
 
-  private var entry: UniformType? { Self.known.first { $0.identifier == identifier } }
+  private var entry: UniformType? { UniformType.known.first { $0.identifier == identifier } }
 
   /// The preferred file extension.
   public var preferredFilenameExtension: String? { entry?.filenameExtensions.first }

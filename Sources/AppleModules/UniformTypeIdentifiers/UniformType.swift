@@ -7,7 +7,7 @@ struct UniformType: Sendable {
   var mimeType: String?
 }
 
-extension UTType {
+extension UniformType {
   /// All known types.
   static let known: [UniformType] = [
     UniformType(identifier: "public.item", parents: []),

@@ -42,6 +42,11 @@ public final class OSLog: Sendable {
   }
 }
 
+extension Logger {
+  /// Creates a logger for an existing log.
+  public init(_ logObj: OSLog) { self = logObj.logger }
+}
+
 /// A log handler that discards all messages.
 private struct NullLogHandler: LogHandler {
   var logLevel = Logging.Logger.Level.critical

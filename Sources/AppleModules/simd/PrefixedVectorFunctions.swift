@@ -2,72 +2,90 @@
 // The vector functions under their C names.
 
 /// The dot product.
-public func simd_dot<V: SIMD>(_ x: V, _ y: V) -> V.Scalar where V.Scalar: FloatingPoint {
+@inlinable public func simd_dot<V: SIMD>(_ x: V, _ y: V) -> V.Scalar where V.Scalar: FloatingPoint {
   dot(x, y)
 }
 
 /// The cross product, right-handed.
-public func simd_cross<S: SIMDScalar & FloatingPoint>(_ x: SIMD3<S>, _ y: SIMD3<S>) -> SIMD3<S> {
-  cross(x, y)
-}
+@inlinable public func simd_cross<S: SIMDScalar & FloatingPoint>(
+  _ x: SIMD3<S>, _ y: SIMD3<S>
+) -> SIMD3<S> { cross(x, y) }
 
 /// The Euclidean length.
-public func simd_length<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint { length(x) }
+@inlinable public func simd_length<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint {
+  length(x)
+}
 
 /// The square of the Euclidean length.
-public func simd_length_squared<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint {
+@inlinable public func simd_length_squared<V: SIMD>(_ x: V) -> V.Scalar
+where V.Scalar: FloatingPoint {
   length_squared(x)
 }
 
 /// The Euclidean distance between two points.
-public func simd_distance<V: SIMD>(_ x: V, _ y: V) -> V.Scalar where V.Scalar: FloatingPoint {
+@inlinable public func simd_distance<V: SIMD>(_ x: V, _ y: V) -> V.Scalar
+where V.Scalar: FloatingPoint {
   distance(x, y)
 }
 
 /// The square of the Euclidean distance between two points.
-public func simd_distance_squared<V: SIMD>(
+@inlinable public func simd_distance_squared<V: SIMD>(
   _ x: V, _ y: V
 ) -> V.Scalar where V.Scalar: FloatingPoint {
   distance_squared(x, y)
 }
 
 /// The unit vector of the same direction; NaN for the zero vector.
-public func simd_normalize<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { normalize(x) }
+@inlinable public func simd_normalize<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint {
+  normalize(x)
+}
 
 /// The projection of `x` onto `y`.
-public func simd_project<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: FloatingPoint {
+@inlinable public func simd_project<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: FloatingPoint {
   project(x, y)
 }
 
 /// The reflection of `x` at the plane with the unit normal `n`.
-public func simd_reflect<V: SIMD>(_ x: V, _ n: V) -> V where V.Scalar: FloatingPoint {
+@inlinable public func simd_reflect<V: SIMD>(_ x: V, _ n: V) -> V where V.Scalar: FloatingPoint {
   reflect(x, n: n)
 }
 
 /// The absolute value of each component.
-public func simd_abs<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { abs(x) }
+@inlinable public func simd_abs<V: SIMD>(_ x: V) -> V where V.Scalar: FloatingPoint { abs(x) }
 
 /// The componentwise minimum.
-public func simd_min<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: Comparable { min(x, y) }
+@inlinable public func simd_min<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: Comparable {
+  min(x, y)
+}
 
 /// The componentwise maximum.
-public func simd_max<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: Comparable { max(x, y) }
+@inlinable public func simd_max<V: SIMD>(_ x: V, _ y: V) -> V where V.Scalar: Comparable {
+  max(x, y)
+}
 
 /// Each component clamped to a range.
-public func simd_clamp<V: SIMD>(_ x: V, _ lower: V, _ upper: V) -> V where V.Scalar: Comparable {
+@inlinable public func simd_clamp<V: SIMD>(_ x: V, _ lower: V, _ upper: V) -> V
+where V.Scalar: Comparable {
   clamp(x, min: lower, max: upper)
 }
 
 /// Linear interpolation from `x` (t = 0) to `y` (t = 1), componentwise.
-public func simd_mix<V: SIMD>(_ x: V, _ y: V, _ t: V) -> V where V.Scalar: FloatingPoint {
+@inlinable public func simd_mix<V: SIMD>(_ x: V, _ y: V, _ t: V) -> V
+where V.Scalar: FloatingPoint {
   mix(x, y, t: t)
 }
 
 /// The sum of all components.
-public func simd_reduce_add<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint { x.sum() }
+@inlinable public func simd_reduce_add<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint {
+  x.sum()
+}
 
 /// The smallest component.
-public func simd_reduce_min<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: Comparable { x.min() }
+@inlinable public func simd_reduce_min<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: Comparable {
+  x.min()
+}
 
 /// The largest component.
-public func simd_reduce_max<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: Comparable { x.max() }
+@inlinable public func simd_reduce_max<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: Comparable {
+  x.max()
+}

@@ -1,2 +1,4 @@
 /// A component of an entity.
 public protocol Component {}
+
+extension Transform: Component {}

@@ -1,5 +1,5 @@
 /// A scale, then a rotation, then a translation.
-@frozen public struct Transform: Hashable, Codable, Sendable, Component {
+@frozen public struct Transform: Hashable, Codable, Sendable {
   /// The factors along the axes.
   public var scale: SIMD3<Float>
   /// The rotation, a unit quaternion.
