@@ -127,7 +127,7 @@ var cliDependencies: [Target.Dependency] = [
       name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation"],
       path: "Tests/CancelBenchmark", swiftSettings: strict),
     .testTarget(
-      name: "KernelsTests", dependencies: ["Kernels", "SceneModel", "TestSupport"],
+      name: "KernelsTests", dependencies: ["CKernels", "Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
       name: "ImageFilesTests",

@@ -171,9 +171,7 @@ package enum ImageCodec {
           color_profile: profile.isEmpty ? nil : profile.baseAddress,
           color_profile_count: profile.count)
         try withKernel(KernelControl()) { _ in
-          ck_heif_encode(
-            image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), &options,
-            &encoded)
+          image.withKernelPixels { ck_heif_encode($0, &options, &encoded) }
         }
       }
     }
@@ -190,9 +188,7 @@ package enum ImageCodec {
   ) throws -> [UInt8] {
     var encoded: OpaquePointer?
     try withKernel(KernelControl()) { _ in
-      ck_image_encode(
-        image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels), codec,
-        quality, &encoded)
+      image.withKernelPixels { ck_image_encode($0, codec, quality, &encoded) }
     }
     return [UInt8](taking: encoded)
   }

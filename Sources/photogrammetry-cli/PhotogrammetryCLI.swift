@@ -1,6 +1,10 @@
 import ArgumentParser
 import Foundation
 
+#if canImport(Kernels)
+  import Kernels
+#endif
+
 @main
 struct PhotogrammetryCLI: AsyncParsableCommand {
   static let configuration = CommandConfiguration(
@@ -33,6 +37,9 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
   /// Runs the command that the arguments name and ends the process with its exit code.
   static func main() async {
     Terminal.shared.ignoreBrokenPipes()
+    #if canImport(Kernels)
+      NativeLibraries.silence()
+    #endif
     do {
       try await execute()
     } catch {

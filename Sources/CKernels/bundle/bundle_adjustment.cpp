@@ -7,6 +7,7 @@
 #include "bundle/reprojection_cost.h"
 #include "ck_bundle.h"
 #include "core/guard.h"
+#include "core/span.h"
 
 namespace ck {
 namespace {
@@ -80,7 +81,9 @@ class Adjustment {
     for (size_t i = 0; i < bundle_.camera_count; ++i) {
       if (!used_cameras_[i]) continue;
       const double* c = camera(i);
-      bundle_.cameras[i] = {c[0], c[0] * aspects_[i], c[1], c[2], c[3], c[4], c[5], c[6]};
+      ck_camera& adjusted = bundle_.cameras[i];
+      adjusted = {c[0], c[0] * aspects_[i], c[1],           c[2], c[3], c[4], c[5],
+                  c[6], adjusted.width,     adjusted.height};
     }
     for (size_t i = 0; i < bundle_.photo_count; ++i) {
       const double* p = pose(i);
@@ -105,15 +108,12 @@ class Adjustment {
     return {p[3], p[0], p[1], p[2]};
   }
   Vector3 translation(size_t i) { return Eigen::Map<const Vector3>(pose(i) + 4); }
-  double* point(size_t i) const {
-    return reinterpret_cast<double*>(reinterpret_cast<char*>(bundle_.points) +
-                                     i * bundle_.point_stride);
-  }
+  double* point(size_t i) const { return MutableStrided<double>(bundle_.points)[i]; }
 
   void load() {
     for (size_t i = 0; i < bundle_.camera_count; ++i) {
-      const ck_camera_model& c = bundle_.cameras[i];
-      require(c.fx > 0 && c.fy > 0, "a camera has no positive focal length");
+      const ck_camera& c = bundle_.cameras[i];
+      require(c.fx > 0 && c.fy > 0, "a camera without a focal length");
       blocks_.push_back({c.fx, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2});
       aspects_.push_back(c.fy / c.fx);
     }
@@ -127,12 +127,12 @@ class Adjustment {
   }
 
   void add_observations() {
-    std::vector<bool> used_points(bundle_.point_count);
+    std::vector<bool> used_points(bundle_.points.count);
     for (size_t i = 0; i < bundle_.observation_count; ++i) {
       const ck_observation& o = bundle_.observations[i];
       require(o.photo >= 0 && size_t(o.photo) < bundle_.photo_count && o.point >= 0 &&
-                  size_t(o.point) < bundle_.point_count,
-              "an observation refers to a photo or point that does not exist");
+                  size_t(o.point) < bundle_.points.count,
+              "an observation names a photo or point that isn't there");
       const int32_t index = bundle_.photo_cameras[o.photo];
       require(index >= 0 && size_t(index) < bundle_.camera_count,
               "a photo refers to a camera that does not exist");
@@ -144,7 +144,7 @@ class Adjustment {
                                 camera(size_t(index)));
     }
     ordering_ = std::make_shared<ceres::ParameterBlockOrdering>();
-    for (size_t i = 0; i < bundle_.point_count; ++i) {
+    for (size_t i = 0; i < bundle_.points.count; ++i) {
       if (!used_points[i]) continue;
       if (bundle_.point_freedom[i]) {
         ordering_->AddElementToGroup(point(i), 0);
@@ -228,8 +228,8 @@ class Adjustment {
 }  // namespace
 }  // namespace ck
 
-ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
-                           const ck_bundle_options* options, const ck_control* control) {
+ck_status ck_bundle_adjust(ck_bundle* bundle, const ck_bundle_options* options,
+                           const ck_control* control, ck_bundle_summary* summary) {
   return ck::guarded([&] {
     using namespace ck;
     require(bundle && summary && options, "bundle adjustment needs a scene");
@@ -251,9 +251,10 @@ ck_status ck_bundle_adjust(ck_bundle* bundle, ck_bundle_summary* summary,
   });
 }
 
-ck_status ck_reprojection_jacobians(double* residual, double* pose_jacobian, double* point_jacobian,
-                                    double* camera_jacobian, const ck_camera_model* camera,
-                                    const ck_pose* pose, const double* point, const double* pixel) {
+ck_status ck_reprojection_jacobians(const ck_camera* camera, const ck_pose* pose,
+                                    const double* point, const double* pixel, double* residual,
+                                    double* pose_jacobian, double* point_jacobian,
+                                    double* camera_jacobian) {
   return ck::guarded([&] {
     using namespace ck;
     require(residual && pose_jacobian && point_jacobian && camera_jacobian && camera && pose &&

@@ -50,9 +50,16 @@ bool ReprojectionCost::Evaluate(double const* const* parameters, double* residua
                                 double** jacobians) const {
   const double* pose = parameters[0];
   const double* intrinsics = parameters[2];
-  const ck_camera_model camera = {
-      intrinsics[0], aspect_ * intrinsics[0], intrinsics[1], intrinsics[2],
-      intrinsics[3], intrinsics[4],           intrinsics[5], intrinsics[6]};
+  const ck_camera camera = {intrinsics[0],
+                            aspect_ * intrinsics[0],
+                            intrinsics[1],
+                            intrinsics[2],
+                            intrinsics[3],
+                            intrinsics[4],
+                            intrinsics[5],
+                            intrinsics[6],
+                            0,
+                            0};
   const Eigen::Quaterniond rotation(pose[3], pose[0], pose[1], pose[2]);
   const Vector3 rotated = rotation * Vector3(parameters[1][0], parameters[1][1], parameters[1][2]);
   const Vector3 point = rotated + Vector3(pose[4], pose[5], pose[6]);

@@ -6,6 +6,7 @@
 #include "ck_bundle.h"
 #include "core/guard.h"
 #include "core/parallel.h"
+#include "core/span.h"
 #include "geometry/camera_model.h"
 
 namespace ck {
@@ -15,16 +16,16 @@ namespace {
 struct Views {
   std::vector<Pose> poses;
   std::vector<Vector3> centers;
-  const ck_views& raw;
+  const ck_posed_photos& raw;
 
-  explicit Views(const ck_views& views) : raw(views) {
+  explicit Views(const ck_posed_photos& views) : raw(views) {
     for (size_t i = 0; i < views.photo_count; ++i) {
       poses.push_back(pose_from(views.poses[i]));
       centers.push_back(poses.back().center());
     }
   }
 
-  const ck_camera_model& camera(int photo) const { return raw.cameras[raw.photo_cameras[photo]]; }
+  const ck_camera& camera(int photo) const { return raw.cameras[raw.photo_cameras[photo]]; }
 };
 
 /// One track with its viewing rays.
@@ -127,18 +128,18 @@ struct Track {
     return chosen;
   }
 
-  double score(const Vector3& point, double maximum_squared_error) const {
+  double score(const Vector3& point, double maximum_square) const {
     double sum = 0;
     for (size_t i = 0; i < count; ++i) {
       const double e = error(point, i);
-      sum += std::min(e * e, maximum_squared_error);
+      sum += std::min(e * e, maximum_square);
     }
     return sum;
   }
 
   /// The inliers of the best hypothesis from two rays.
   std::vector<size_t> robust_inliers(double maximum_error, double minimum_angle) const {
-    const double maximum_squared_error = maximum_error * maximum_error;
+    const double maximum_square = maximum_error * maximum_error;
     double best_score = std::numeric_limits<double>::infinity();
     Vector3 best = Vector3::Zero();
     // Pairs in order of descending distance within the track, up to a fixed number.
@@ -149,7 +150,7 @@ struct Track {
         ++tried;
         Vector3 point;
         if (!intersect({i, i + separation}, point)) continue;
-        const double s = score(point, maximum_squared_error);
+        const double s = score(point, maximum_square);
         if (s < best_score) {
           best_score = s;
           best = point;
@@ -184,23 +185,14 @@ struct Track {
   }
 };
 
-double* strided(double* base, size_t stride, size_t i) {
-  return reinterpret_cast<double*>(reinterpret_cast<char*>(base) + i * stride);
-}
-
-const double* strided(const double* base, size_t stride, size_t i) {
-  return reinterpret_cast<const double*>(reinterpret_cast<const char*>(base) + i * stride);
-}
-
-void check(const int32_t* offsets, size_t track_count, const ck_observation* observations,
-           const ck_views* views) {
-  require(offsets && observations && views && views->cameras && views->poses, "missing argument");
-  for (size_t t = 0; t < track_count; ++t)
-    require(offsets[t] <= offsets[t + 1], "the track offsets are not ascending");
-  for (int32_t i = 0; i < offsets[track_count]; ++i) {
+void check(const ck_tracks& tracks, const ck_posed_photos* photos) {
+  const auto [offsets, count, observations] = tracks;
+  require(offsets && observations && photos && photos->cameras && photos->poses, "missing tracks");
+  for (size_t t = 0; t < count; ++t) require(offsets[t] <= offsets[t + 1], "bad offsets");
+  for (int32_t i = 0; i < offsets[count]; ++i) {
     require(observations[i].photo >= 0 &&
-                static_cast<size_t>(observations[i].photo) < views->photo_count,
-            "an observation refers to a photo that does not exist");
+                static_cast<size_t>(observations[i].photo) < photos->photo_count,
+            "an observation names a photo that isn't there");
   }
 }
 
@@ -216,42 +208,43 @@ void for_each_track(const ck_control* control, size_t count, Body&& body) {
 }  // namespace
 }  // namespace ck
 
-ck_status ck_triangulate(double* positions, size_t position_stride, uint8_t* found,
-                         uint8_t* inliers, const int32_t* offsets, size_t track_count,
-                         const ck_observation* observations, const ck_views* views,
-                         const ck_triangulation_options* options, const ck_control* control) {
+ck_status ck_triangulate(const ck_tracks* tracks, const ck_posed_photos* photos,
+                         const ck_triangulation_options* options, const ck_control* control,
+                         ck_mutable_span positions, uint8_t* found, uint8_t* inliers) {
   return ck::guarded([&] {
     using namespace ck;
-    if (track_count == 0) return;
-    require(positions && found && inliers && options, "missing output");
-    check(offsets, track_count, observations, views);
-    const Views prepared(*views);
-    for_each_track(control, track_count, [&](size_t t) {
-      const int32_t begin = offsets[t], end = offsets[t + 1];
+    if (tracks->count == 0) return;
+    require(positions.count == tracks->count && found && inliers && options, "missing output");
+    check(*tracks, photos);
+    const Views prepared(*photos);
+    const MutableStrided<double> points(positions);
+    for_each_track(control, tracks->count, [&](size_t t) {
+      const int32_t begin = tracks->offsets[t], end = tracks->offsets[t + 1];
       std::fill(inliers + begin, inliers + end, uint8_t(0));
-      const Track track(prepared, observations + begin, static_cast<size_t>(end - begin));
+      const Track track(prepared, tracks->observations + begin, static_cast<size_t>(end - begin));
       Vector3 point = Vector3::Zero();
       std::vector<size_t> chosen;
       found[t] = track.triangulate(*options, point, chosen);
       if (!found[t]) return;
       for (const size_t i : chosen) inliers[begin + static_cast<int32_t>(i)] = 1;
-      for (int k = 0; k < 3; ++k) strided(positions, position_stride, t)[k] = point[k];
+      for (int k = 0; k < 3; ++k) points[t][k] = point[k];
     });
   });
 }
 
-ck_status ck_measure_tracks(double* errors, double* angles, const double* positions,
-                            size_t position_stride, const int32_t* offsets, size_t track_count,
-                            const ck_observation* observations, const ck_views* views,
-                            double maximum_error, const ck_control* control) {
+ck_status ck_measure_tracks(const ck_tracks* tracks, ck_span positions,
+                            const ck_posed_photos* photos, double maximum_error,
+                            const ck_control* control, double* errors, double* angles) {
   return ck::guarded([&] {
     using namespace ck;
-    if (track_count == 0) return;
-    require(errors && angles && positions, "missing output");
-    check(offsets, track_count, observations, views);
-    const Views prepared(*views);
-    for_each_track(control, track_count, [&](size_t t) {
-      const double* p = strided(positions, position_stride, t);
+    if (tracks->count == 0) return;
+    require(errors && angles && positions.count == tracks->count, "missing output");
+    check(*tracks, photos);
+    const auto [offsets, count, observations] = *tracks;
+    const Views prepared(*photos);
+    const Strided<double> points(positions);
+    for_each_track(control, count, [&, offsets = offsets, observations = observations](size_t t) {
+      const double* p = points[t];
       const Vector3 point(p[0], p[1], p[2]);
       std::vector<Vector3> rays;
       double cosine = 1;

@@ -4,20 +4,59 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "core/guard.h"
 
 namespace ck {
 
+/// Threads that are joined at the end of their scope, even if an exception ends it.
+class ThreadGroup {
+ public:
+  ThreadGroup() = default;
+  ThreadGroup(const ThreadGroup&) = delete;
+  ThreadGroup& operator=(const ThreadGroup&) = delete;
+  ~ThreadGroup() {
+    for (std::thread& thread : threads_) thread.join();
+  }
+
+  /// Starts at most `count` threads, each made by `create()`; fewer where the system has no room
+  /// for more, which is not an error.
+  template <typename Create>
+  void start(size_t count, Create&& create) noexcept {
+    try {
+      threads_.reserve(count);
+      for (size_t i = 0; i < count; ++i) threads_.push_back(create());
+    } catch (const std::exception&) {
+      // std::system_error or std::bad_alloc: the work is done by the threads that exist.
+    }
+  }
+
+ private:
+  std::vector<std::thread> threads_;
+};
+
+/// Makes a thread that runs `work`.
+struct StandardThreads {
+  template <typename Work>
+  std::thread operator()(Work& work) const {
+    return std::thread(std::ref(work));
+  }
+};
+
 /// Calls `body(i)` for every i in 0..<count on the control's threads and reports progress.
 ///
-/// Calls of `body` must not depend on each other's order, so that the result is the same with any
-/// number of threads. The first exception stops the rest and is rethrown.
-template <typename Body>
-void parallel_for(const ck_control* control, size_t count, Body&& body) {
+/// The calling thread takes part; where the system refuses more threads it works with those it got.
+/// Bodies must not depend on each other's order, so that the result is the same at any number of
+/// threads. The first exception stops the rest and is rethrown. `create(work)` makes a thread that
+/// runs `work`.
+template <typename Body, typename Create = StandardThreads>
+void parallel_for(const ck_control* control, size_t count, Body&& body,
+                  const Create& create = Create()) {
   const size_t threads = std::min<size_t>(static_cast<size_t>(thread_count(control)), count);
   if (threads <= 1) {
     for (size_t i = 0; i < count; ++i) {
@@ -44,10 +83,11 @@ void parallel_for(const ck_control* control, size_t count, Body&& body) {
       }
     }
   };
-  std::vector<std::thread> pool;
-  for (size_t t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  for (auto& thread : pool) thread.join();
+  {
+    ThreadGroup group;
+    group.start(threads - 1, [&] { return create(work); });
+    work();
+  }
   if (error) std::rethrow_exception(error);
 }
 

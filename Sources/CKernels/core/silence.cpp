@@ -8,17 +8,13 @@
 #include "ck_core.h"
 
 void ck_silence_libraries(void) {
-  static const bool once = [] {
-    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-    cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
-    // Kernels manage threads themselves; a second level of threads would break determinism.
-    cv::setNumThreads(1);
-    // OpenCV's decoders bypass its logger and write to this stream.
-    std::cerr.rdbuf(nullptr);
-    FLAGS_minloglevel = google::GLOG_FATAL;
-    open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);
-    open3d::utility::Logger::GetInstance().SetPrintFunction([](const std::string&) {});
-    return true;
-  }();
-  (void)once;
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::redirectError([](int, const char*, const char*, const char*, int, void*) { return 0; });
+  // Kernels distribute work over threads themselves.
+  cv::setNumThreads(1);
+  // OpenCV's decoders bypass its logger and write to this stream.
+  std::cerr.rdbuf(nullptr);
+  FLAGS_minloglevel = google::GLOG_FATAL;
+  open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);
+  open3d::utility::Logger::GetInstance().SetPrintFunction([](const std::string&) {});
 }

@@ -19,4 +19,6 @@ typedef uint32_t U16 __attribute__((ext_vector_type(16)));
 typedef uint16_t H16 __attribute__((ext_vector_type(16)));
 typedef uint8_t B16 __attribute__((ext_vector_type(16)));
 
+#define CK_INLINE inline __attribute__((always_inline))
+
 }  // namespace ck

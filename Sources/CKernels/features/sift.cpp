@@ -4,6 +4,7 @@
 
 #include "ck_features.h"
 #include "core/guard.h"
+#include "core/span.h"
 #include "features/scale_space.h"
 #include "features/selection.h"
 
@@ -167,34 +168,33 @@ void validate(const Photo& photo, const ck_sift_options& options) {
 }  // namespace
 }  // namespace ck::sift
 
-ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                         size_t row_stride, const uint8_t* mask, const ck_sift_options* options,
-                         const ck_control* control, float* positions, float* scales,
-                         float* orientations, uint8_t* descriptors, uint8_t* colors,
-                         size_t color_stride, size_t* count) {
+ck_status ck_sift_detect(const ck_pixels* photo, const uint8_t* mask,
+                         const ck_sift_options* options, const ck_control* control,
+                         const ck_sift_output* features, size_t* count) {
   return ck::guarded([&] {
-    ck::require(options && count, "options and count are needed");
+    ck::require(photo && options && features && count, "photo, options and outputs are needed");
     *count = 0;
-    const ck::sift::Photo photo{pixels, width, height, channels, row_stride};
-    ck::sift::validate(photo, *options);
+    const ck::sift::Photo image{photo->data, photo->width, photo->height, photo->channels,
+                                photo->row_stride};
+    ck::sift::validate(image, *options);
     const ck::sift::Kernels& kernels = ck::sift::kernels(options->instructions);
-    if (std::min(width, height) < 8 || options->maximum_features == 0) return;
-    ck::sift::ScaleSpace space = ck::sift::searched(photo, *options, kernels, control);
+    if (std::min(image.width, image.height) < 8 || options->maximum_features == 0) return;
+    ck::sift::ScaleSpace space = ck::sift::searched(image, *options, kernels, control);
     ck::sift::remove_repetitions(space.extrema);
-    if (mask) ck::sift::remove_masked(space, photo, mask);
-    const auto features =
-        ck::sift::oriented(space, ck::sift::selected(space, photo, *options),
-                           static_cast<size_t>(options->maximum_features), kernels);
+    if (mask) ck::sift::remove_masked(space, image, mask);
+    const auto found = ck::sift::oriented(space, ck::sift::selected(space, image, *options),
+                                          static_cast<size_t>(options->maximum_features), kernels);
     ck::step(control, 0.8);
-    for (const ck::sift::Feature& f : features) {
+    const ck::MutableStrided<uint8_t> colors(features->colors);
+    for (const ck::sift::Feature& f : found) {
       const size_t n = (*count)++;
-      positions[2 * n] = f.x;
-      positions[2 * n + 1] = f.y;
-      scales[n] = f.sigma;
-      orientations[n] = f.orientation;
+      features->positions[2 * n] = f.x;
+      features->positions[2 * n + 1] = f.y;
+      features->scales[n] = f.sigma;
+      features->orientations[n] = f.orientation;
       kernels.describe(space.octaves[f.extremum.octave], f.extremum, f.orientation,
-                       descriptors + n * CK_DESCRIPTOR_LENGTH);
-      ck::sift::write_color(photo, f.x, f.y, colors + n * color_stride);
+                       features->descriptors + n * CK_DESCRIPTOR_LENGTH);
+      ck::sift::write_color(image, f.x, f.y, colors[n]);
     }
   });
 }

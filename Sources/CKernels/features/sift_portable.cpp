@@ -25,6 +25,8 @@ inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base
 }  // namespace
 }  // namespace ck::sift
 
+#include "features/gaussian_blur.inl"
+
 #include "features/scale_space.inl"
 
 #include "features/describe.inl"

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "ck_texture.h"
+#include "ck_camera.h"
+#include "geometry/pose.h"
 #include "geometry/vec.h"
 
 namespace ck::texture {
@@ -13,15 +15,19 @@ namespace ck::texture {
 struct Projection {
   double rows[3][4];
   Vec3 center;
+  /// `cameraFromWorld` by rows.
+  std::array<double, 9> rotation;
 
-  explicit Projection(const ck_pinhole& view) {
-    const double* r = view.rotation;
-    const double* t = view.translation;
+  explicit Projection(const ck_view& view) : rotation(rotation_rows(view.camera_from_world)) {
+    const ck_camera& camera = view.camera;
+    const ck_pose& pose = view.camera_from_world;
+    const double* r = rotation.data();
+    const double t[3] = {pose.tx, pose.ty, pose.tz};
     for (int c = 0; c < 4; ++c) {
       const auto entry = [&](int row) { return c < 3 ? r[3 * row + c] : t[row]; };
       rows[2][c] = entry(2);
-      rows[0][c] = view.focal[0] * entry(0) + view.center[0] * entry(2);
-      rows[1][c] = view.focal[1] * entry(1) + view.center[1] * entry(2);
+      rows[0][c] = camera.fx * entry(0) + camera.cx * entry(2);
+      rows[1][c] = camera.fy * entry(1) + camera.cy * entry(2);
     }
     center = {static_cast<float>(-(r[0] * t[0] + r[3] * t[1] + r[6] * t[2])),
               static_cast<float>(-(r[1] * t[0] + r[4] * t[1] + r[7] * t[2])),

@@ -29,12 +29,12 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float near, float far) {
   return ray;
 }
 
-void copy_geometry(ck_ray_scene& scene, const float* positions, size_t position_count,
-                   size_t stride, const uint32_t* triangles, size_t triangle_count) {
-  scene.positions.resize(position_count);
+void copy_geometry(ck_ray_scene& scene, const ck_mesh& mesh) {
+  const auto [positions, triangles, triangle_count] = mesh;
+  scene.positions.resize(positions.count);
   Vec3 low, high;
-  for (size_t i = 0; i < position_count; ++i) {
-    const Vec3 p = vec_at(positions, stride, i);
+  for (size_t i = 0; i < positions.count; ++i) {
+    const Vec3 p = vec_at(positions, i);
     require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
             "a mesh vertex is not finite");
     if (i == 0) low = high = p;
@@ -47,8 +47,7 @@ void copy_geometry(ck_ray_scene& scene, const float* positions, size_t position_
   scene.face_normals.resize(triangle_count);
   for (size_t t = 0; t < triangle_count; ++t) {
     for (size_t i = 0; i < 3; ++i) {
-      require(triangles[3 * t + i] < position_count,
-              "a triangle refers to a vertex that does not exist");
+      require(triangles[3 * t + i] < positions.count, "a triangle names a vertex that isn't there");
       scene.triangles[t][i] = triangles[3 * t + i];
     }
     const Vec3 a = scene.corner(t, 0);
@@ -116,17 +115,15 @@ bool intersect(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float nea
 
 }  // namespace ck::texture
 
-ck_status ck_ray_scene_create(const float* positions, size_t position_count, size_t position_stride,
-                              const uint32_t* triangles, size_t triangle_count,
-                              const ck_control* control, ck_ray_scene** scene) {
+ck_status ck_ray_scene_create(const ck_mesh* mesh, const ck_control* control,
+                              ck_ray_scene** scene) {
   return ck::guarded([&] {
-    ck::require(scene != nullptr, "null pointer");
+    ck::require(mesh && scene, "no place for the scene");
     *scene = nullptr;
-    ck::require(position_count > 0 && triangle_count > 0, "the mesh has no triangles");
+    ck::require(mesh->positions.count > 0 && mesh->triangle_count > 0, "the mesh has no triangles");
     ck::step(control, 0);
     auto result = std::make_unique<ck_ray_scene>();
-    ck::texture::copy_geometry(*result, positions, position_count, position_stride, triangles,
-                               triangle_count);
+    ck::texture::copy_geometry(*result, *mesh);
     ck::texture::build(*result);
     *scene = result.release();
   });

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "ck_texture.h"
+#include "ck_rays.h"
 #include "geometry/vec.h"
 
 /// A triangle mesh with its bounding volume hierarchy.

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/span.h"
+
 namespace ck::texture {
 
 /// Three floats with vector arithmetic.
@@ -28,10 +30,9 @@ inline Vec3 normalized(Vec3 a) {
   return l > 0 ? a * (1 / l) : a;
 }
 
-/// Element `index` of vectors stored every `stride` bytes.
-inline Vec3 vec_at(const float* base, size_t stride, size_t index) {
-  const auto* p =
-      reinterpret_cast<const float*>(reinterpret_cast<const char*>(base) + stride * index);
+/// The vector at `index` of a span of three floats.
+inline Vec3 vec_at(const ck_span& span, size_t index) {
+  const float* p = Strided<float>(span)[index];
   return {p[0], p[1], p[2]};
 }
 

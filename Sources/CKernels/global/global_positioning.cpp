@@ -6,6 +6,7 @@
 
 #include "ck_global.h"
 #include "core/guard.h"
+#include "core/span.h"
 #include "geometry/camera_model.h"
 #include "global/block_cholesky.h"
 
@@ -250,16 +251,28 @@ class Positioning {
   std::vector<double> weights_;
 };
 
-Unknowns read(const double* centers, size_t photo_count, const double* points, size_t point_count,
+std::vector<Vector3> read(const Strided<double>& values) {
+  std::vector<Vector3> vectors;
+  for (size_t i = 0; i < values.count; ++i) vectors.emplace_back(values[i]);
+  return vectors;
+}
+
+void write(const std::vector<Vector3>& vectors, const MutableStrided<double>& values) {
+  for (size_t i = 0; i < vectors.size(); ++i) {
+    for (int k = 0; k < 3; ++k) values[i][k] = vectors[i][k];
+  }
+}
+
+Unknowns read(const ck_mutable_span& centers, const ck_mutable_span& points,
               const ck_direction* directions, size_t direction_count) {
   Unknowns unknowns;
-  for (size_t i = 0; i < photo_count; ++i) unknowns.centers.emplace_back(centers + 3 * i);
-  for (size_t i = 0; i < point_count; ++i) unknowns.points.emplace_back(points + 3 * i);
+  unknowns.centers = read(centers);
+  unknowns.points = read(points);
   for (size_t k = 0; k < direction_count; ++k) {
     const ck_direction& d = directions[k];
-    require(d.photo >= 0 && size_t(d.photo) < photo_count && d.point >= 0 &&
-                size_t(d.point) < point_count && (k == 0 || d.point >= directions[k - 1].point),
-            "a direction refers to a missing photo or point, or is not grouped by point");
+    require(d.photo >= 0 && size_t(d.photo) < centers.count && d.point >= 0 &&
+                size_t(d.point) < points.count && (k == 0 || d.point >= directions[k - 1].point),
+            "a direction names a photo or point that isn't there");
   }
   unknowns.factors.assign(direction_count, 1);
   return unknowns;
@@ -268,23 +281,19 @@ Unknowns read(const double* centers, size_t photo_count, const double* points, s
 }  // namespace
 }  // namespace ck
 
-ck_status ck_position_globally(double* centers, size_t photo_count, double* points,
-                               size_t point_count, const ck_direction* directions,
-                               size_t direction_count, ck_positioning_summary* summary,
-                               const ck_positioning_options* options, const ck_control* control) {
+ck_status ck_position_globally(const ck_direction* directions, size_t direction_count,
+                               const ck_positioning_options* options, const ck_control* control,
+                               ck_mutable_span centers, ck_mutable_span points,
+                               ck_positioning_summary* summary) {
   return ck::guarded([&] {
     using namespace ck;
-    require(centers && points && directions && summary && options, "positioning needs directions");
+    require(centers.data && points.data && directions && summary && options,
+            "positioning needs directions");
     require(direction_count > 0 && options->huber_width > 0, "positioning needs directions");
-    Positioning positioning(
-        read(centers, photo_count, points, point_count, directions, direction_count), directions,
-        direction_count, *options);
+    Positioning positioning(read(centers, points, directions, direction_count), directions,
+                            direction_count, *options);
     *summary = positioning.solve(control);
-    for (size_t i = 0; i < photo_count; ++i) {
-      for (int k = 0; k < 3; ++k) centers[3 * i + size_t(k)] = positioning.unknowns().centers[i][k];
-    }
-    for (size_t i = 0; i < point_count; ++i) {
-      for (int k = 0; k < 3; ++k) points[3 * i + size_t(k)] = positioning.unknowns().points[i][k];
-    }
+    write(positioning.unknowns().centers, centers);
+    write(positioning.unknowns().points, points);
   });
 }

@@ -5,6 +5,7 @@
 
 #include "ck_global.h"
 #include "core/guard.h"
+#include "core/span.h"
 #include "geometry/camera_model.h"
 
 namespace ck {
@@ -22,11 +23,12 @@ Vector3 logarithm(Eigen::Quaterniond q) {
 /// all axes.
 class RotationGraph {
  public:
-  RotationGraph(const double* rotations, size_t photo_count, const ck_relative_rotation* pairs,
+  RotationGraph(const Strided<double>& rotations, const ck_relative_rotation* pairs,
                 size_t pair_count)
       : pairs_(pairs), pair_count_(pair_count) {
+    const size_t photo_count = rotations.count;
     for (size_t i = 0; i < photo_count; ++i) {
-      const double* q = rotations + 4 * i;
+      const double* q = rotations[i];
       rotations_.push_back(Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized());
     }
     for (size_t k = 0; k < pair_count; ++k) {
@@ -144,20 +146,20 @@ void average(RotationGraph& graph, const ck_rotation_averaging_options& options,
 }  // namespace
 }  // namespace ck
 
-ck_status ck_average_rotations(double* rotations, size_t photo_count, double* errors,
-                               const ck_relative_rotation* pairs, size_t pair_count,
+ck_status ck_average_rotations(const ck_relative_rotation* pairs, size_t pair_count,
                                const ck_rotation_averaging_options* options,
-                               const ck_control* control) {
+                               const ck_control* control, ck_mutable_span rotations,
+                               double* errors) {
   return ck::guarded([&] {
     using namespace ck;
-    require(rotations && errors && pairs && options, "rotation averaging needs pairs");
-    require(photo_count > 1 && pair_count > 0, "rotation averaging needs pairs");
-    RotationGraph graph(rotations, photo_count, pairs, pair_count);
+    require(rotations.data && errors && pairs && options, "rotation averaging needs pairs");
+    require(rotations.count > 1 && pair_count > 0, "rotation averaging needs pairs");
+    RotationGraph graph(rotations, pairs, pair_count);
     average(graph, *options, control);
-    for (size_t i = 0; i < photo_count; ++i) {
+    for (size_t i = 0; i < rotations.count; ++i) {
       const Eigen::Quaterniond& q = graph.rotations()[i];
       const double values[4] = {q.x(), q.y(), q.z(), q.w()};
-      std::copy(values, values + 4, rotations + 4 * i);
+      std::copy(values, values + 4, MutableStrided<double>(rotations)[i]);
     }
     const std::vector<double> angles = graph.angles();
     std::copy(angles.begin(), angles.end(), errors);

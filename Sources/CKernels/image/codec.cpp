@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/guard.h"
+#include "core/opencv.h"
 #include "image/buffers.h"
 
 namespace ck {
@@ -71,7 +72,7 @@ void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& li
   image.height = bgr.rows;
   image.pixels.resize(bgr.total() * 3);
   cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data());
-  cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB);
+  on_one_thread([&] { cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB); });
 }
 
 /// Decodes the alpha channel; leaves the image without pixels if the file has none.
@@ -157,21 +158,23 @@ void ck_image_copy(const ck_image* image, uint8_t* destination) {
 }
 void ck_image_free(ck_image* image) { delete image; }
 
-ck_status ck_image_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                          ck_codec codec, int32_t quality, ck_bytes** encoded) {
+ck_status ck_image_encode(const ck_pixels* pixels, ck_codec codec, int32_t quality,
+                          ck_bytes** encoded) {
   return ck::guarded([&] {
+    const auto [data, width, height, channels, row_stride] = *pixels;
     ck::require(width > 0 && height > 0, "an image without pixels can't be encoded");
+    ck::require(row_stride == static_cast<size_t>(width) * channels, "rows have padding");
     ck::require(channels == 1 || channels == 3 || (channels == 4 && codec == ck_codec_png),
                 "this number of channels can't be encoded");
     auto result = std::make_unique<ck_bytes>();
     if (codec == ck_codec_png) {
-      result->data = ck::encode_png(pixels, width, height, channels);
+      result->data = ck::encode_png(data, width, height, channels);
     } else {
-      const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels));
-      // A separate matrix: OpenCV would write into an existing one of the same size.
+      const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(data));
+      // Of its own, since OpenCV would write into a matrix of the right size that it is given.
       cv::Mat swapped;
       if (channels == 3) {
-        cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR);
+        ck::on_one_thread([&] { cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR); });
       } else {
         swapped = source;
       }

@@ -12,7 +12,8 @@ using namespace heif;
 using Encoder = std::unique_ptr<heif_encoder, Free<heif_encoder_release>>;
 using EncodingOptions = std::unique_ptr<heif_encoding_options, Free<heif_encoding_options_free>>;
 
-Image make_image(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels) {
+Image make_image(const ck_pixels& pixels) {
+  const auto [data, width, height, channels, row_stride] = pixels;
   heif_image* made = nullptr;
   check(heif_image_create(
       width, height, heif_colorspace_RGB,
@@ -24,7 +25,7 @@ Image make_image(const uint8_t* pixels, int32_t width, int32_t height, int32_t c
   if (!rows) throw std::bad_alloc();
   const size_t row = static_cast<size_t>(width) * static_cast<size_t>(channels);
   for (size_t y = 0; y < static_cast<size_t>(height); ++y) {
-    std::memcpy(rows + y * static_cast<size_t>(stride), pixels + y * row, row);
+    std::memcpy(rows + y * static_cast<size_t>(stride), data + y * row_stride, row);
   }
   return image;
 }
@@ -39,14 +40,15 @@ heif_error append(heif_context*, const void* data, size_t size, void* user) {
 }  // namespace
 }  // namespace ck
 
-ck_status ck_heif_encode(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                         const ck_heif_options* options, ck_bytes** encoded) {
+ck_status ck_heif_encode(const ck_pixels* pixels, const ck_heif_options* options,
+                         ck_bytes** encoded) {
   return ck::guarded([&] {
     using namespace ck;
-    require(width > 0 && height > 0, "an image without pixels can't be encoded");
-    require(channels == 3 || channels == 4, "this number of channels can't be encoded");
+    require(pixels->width > 0 && pixels->height > 0, "an image without pixels can't be encoded");
+    require(pixels->channels == 3 || pixels->channels == 4,
+            "this number of channels can't be encoded");
     const Context context = make_context();
-    const Image image = make_image(pixels, width, height, channels);
+    const Image image = make_image(*pixels);
     if (options->color_profile) {
       check(heif_image_set_raw_color_profile(image.get(), "prof", options->color_profile,
                                              options->color_profile_count));

@@ -6,6 +6,7 @@
 
 #include "ck_image.h"
 #include "core/guard.h"
+#include "core/opencv.h"
 
 namespace {
 
@@ -51,14 +52,14 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-ck_status ck_image_sharpness(const uint8_t* gray, int32_t width, int32_t height,
-                             double* sharpness) {
+ck_status ck_image_sharpness(const ck_pixels* gray, double* sharpness) {
   return ck::guarded([&] {
-    ck::require(width > 0 && height > 0, "the image has no pixels");
-    const cv::Mat bytes(height, width, CV_8U, const_cast<uint8_t*>(gray));
+    const auto [data, width, height, channels, row_stride] = *gray;
+    ck::require(width > 0 && height > 0 && channels == 1, "the image has no pixels");
+    const cv::Mat bytes(height, width, CV_8U, const_cast<uint8_t*>(data), row_stride);
     cv::Mat image, blurred;
     bytes.convertTo(image, CV_32F);
-    cv::GaussianBlur(image, blurred, cv::Size(), blur);
+    ck::on_one_thread([&] { cv::GaussianBlur(image, blurred, cv::Size(), blur); });
     struct Block {
       Tensor before, after;
       size_t index;

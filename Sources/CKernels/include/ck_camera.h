@@ -7,34 +7,55 @@
 extern "C" {
 #endif
 
-/// A pinhole camera with OpenCV's distortion model, in pixels. The origin is the corner of the
-/// top-left pixel.
+/// A pinhole camera with OpenCV's distortion.
+///
+/// `pixel = (fx, fy) · distorted (x / z, y / z) + (cx, cy)`; the pixel origin is the corner of the
+/// top-left pixel. x points right, y down, z forward.
 typedef struct {
   double fx, fy, cx, cy;
+  /// Radial and tangential distortion.
   double k1, k2, p1, p2;
-} ck_camera_model;
+  /// Pixels of the photo.
+  int32_t width, height;
+} ck_camera;
 
-/// `cameraFromWorld`: a unit quaternion and a translation. x right, y down, z forward.
+/// `cameraFromWorld`: a unit quaternion and a translation.
 typedef struct {
   double qx, qy, qz, qw;
   double tx, ty, tz;
 } ck_pose;
 
-/// The pixel position at which photo `photo` observes point `point`.
+/// A photo without lens distortion: where it was taken, and by which camera, whose distortion is
+/// not read.
+typedef struct {
+  ck_camera camera;
+  ck_pose camera_from_world;
+} ck_view;
+
+/// The pixel at which photo `photo` shows point `point`.
 typedef struct {
   int32_t photo;
   int32_t point;
   double x, y;
 } ck_observation;
 
-/// Cameras and photos with poses; `photo_cameras` holds an index into `cameras` for each photo.
+/// Cameras and posed photos.
 typedef struct {
-  const ck_camera_model* cameras;
+  const ck_camera* cameras;
   size_t camera_count;
   const ck_pose* poses;
+  /// An index into `cameras` for each photo.
   const int32_t* photo_cameras;
   size_t photo_count;
-} ck_views;
+} ck_posed_photos;
+
+/// Tracks: track i has the observations `offsets[i]..<offsets[i + 1]`, whose `point` is not read.
+typedef struct {
+  /// `count + 1` ascending indices, the first 0.
+  const int32_t* offsets;
+  size_t count;
+  const ck_observation* observations;
+} ck_tracks;
 
 #ifdef __cplusplus
 }

@@ -30,7 +30,39 @@ typedef struct {
   int32_t threads;
 } ck_control;
 
-/// Instruction sets that a kernel may use; each includes those listed before it.
+/// `count` elements, each `stride` bytes after the one before; `data` may be null without elements.
+///
+/// The function that takes a span says what an element is.
+typedef struct {
+  const void* data;
+  size_t count;
+  size_t stride;
+} ck_span;
+
+/// A span that a kernel writes.
+typedef struct {
+  void* data;
+  size_t count;
+  size_t stride;
+} ck_mutable_span;
+
+/// 8-bit pixels, top row first, channels interleaved, `row_stride` bytes from one row to the next.
+typedef struct {
+  const uint8_t* data;
+  int32_t width, height;
+  /// 1: gray, 3: RGB, 4: RGBA.
+  int32_t channels;
+  size_t row_stride;
+} ck_pixels;
+
+/// Pixels that a kernel writes, without padding between rows.
+typedef struct {
+  uint8_t* data;
+  int32_t width, height;
+  int32_t channels;
+} ck_mutable_pixels;
+
+/// Sets of instructions that a kernel may use, each with all of those before it.
 typedef enum {
   /// The most capable set that the processor supports.
   ck_instructions_automatic = 0,
@@ -56,7 +88,11 @@ const char* ck_last_error(void);
 /// changes, not forgery.
 uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 
-/// Suppresses the terminal output of OpenCV, glog and Open3D. Call once.
+/// Suppresses the messages of OpenCV, glog and Open3D and everything that C++ code writes to
+/// `std::cerr`, and keeps OpenCV on one thread, for the whole process.
+///
+/// For the `main` of an executable: no kernel changes such a setting of the process that it runs
+/// in. Call once, before the first kernel.
 void ck_silence_libraries(void);
 
 #ifdef __cplusplus

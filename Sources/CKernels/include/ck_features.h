@@ -35,22 +35,29 @@ typedef struct {
   ck_instructions instructions;
 } ck_sift_options;
 
-/// Detects SIFT features (Lowe, IJCV 2004) and computes root-SIFT descriptors (Arandjelović and
-/// Zisserman, CVPR 2012): `min(255, round(512 √(d / |d|₁)))` as bytes.
+/// Where detected features go. The caller owns the arrays, which hold `maximum_features` elements.
+typedef struct {
+  /// x, y in pixels.
+  float* positions;
+  /// σ in pixels.
+  float* scales;
+  /// Radians from x to y.
+  float* orientations;
+  /// `CK_DESCRIPTOR_LENGTH` bytes each.
+  uint8_t* descriptors;
+  /// RGB, 3 bytes.
+  ck_mutable_span colors;
+} ck_sift_output;
+
+/// Detects SIFT features (Lowe, IJCV 2004) and describes them by root-SIFT bytes (Arandjelović and
+/// Zisserman, CVPR 2012): `min(255, round(512 √(d / |d|₁)))`.
 ///
-/// `pixels` is 8-bit with 1, 3 (RGB) or 4 (RGBA) channels and `row_stride` bytes per row. Positions
-/// (x, y) are in pixels with the origin at the corner of the top-left pixel, scales are σ in
-/// pixels, orientations are in radians from x to y. The features are sorted by scale, largest
-/// first.
-///
-/// The caller owns the outputs, which hold `maximum_features` elements each: 2 floats, 1 float, 1
-/// float, 128 bytes, and `color_stride` bytes of which 3 are written (RGB). `mask` is null, or has
-/// one byte per pixel, `width` per row: features at pixels where it is 0 are discarded.
-ck_status ck_sift_detect(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                         size_t row_stride, const uint8_t* mask, const ck_sift_options* options,
-                         const ck_control* control, float* positions, float* scales,
-                         float* orientations, uint8_t* descriptors, uint8_t* colors,
-                         size_t color_stride, size_t* count);
+/// `photo` has 1, 3 or 4 channels. `mask` is null, or has a byte per pixel, `width` per row: no
+/// feature is detected where it is 0. `count` receives the number of features, which are sorted by
+/// scale, largest first.
+ck_status ck_sift_detect(const ck_pixels* photo, const uint8_t* mask,
+                         const ck_sift_options* options, const ck_control* control,
+                         const ck_sift_output* features, size_t* count);
 
 #ifdef __cplusplus
 }

@@ -30,13 +30,13 @@ typedef struct {
 /// Averages relative rotations: L1 averaging first, then a robust loss (Chatterjee and Govindu,
 /// "Efficient and robust large-scale rotation averaging", ICCV 2013).
 ///
-/// `rotations` holds a quaternion x, y, z, w of `cameraFromWorld` for each photo; on entry, the
-/// initial values. The pairs must connect all photos; photo 0 keeps its rotation. `errors` receives
-/// the angular residual of each pair in radians.
-ck_status ck_average_rotations(double* rotations, size_t photo_count, double* errors,
-                               const ck_relative_rotation* pairs, size_t pair_count,
+/// The pairs must connect all photos; photo 0 keeps its rotation. `rotations` are quaternions of
+/// `cameraFromWorld` (4 doubles x, y, z, w), one per photo, the start on entry. `errors` receives
+/// for each pair the angle in radians by which it disagrees.
+ck_status ck_average_rotations(const ck_relative_rotation* pairs, size_t pair_count,
                                const ck_rotation_averaging_options* options,
-                               const ck_control* control);
+                               const ck_control* control, ck_mutable_span rotations,
+                               double* errors);
 
 /// The direction in world coordinates from the camera of photo `photo` to point `point`.
 typedef struct {
@@ -66,13 +66,12 @@ typedef struct {
 /// "Global structure-from-motion revisited", ECCV 2024): minimizes Σ ρ(v − d (X − c)) over centers
 /// c, points X and one factor d > 0 per direction, where ρ is the Huber loss.
 ///
-/// `centers` and `points` are triples x, y, z; on entry, the initial values. The gauge of the
-/// result (a similarity: position, orientation and scale) is arbitrary. The directions are grouped
-/// by point, ascending. Runs on one thread.
-ck_status ck_position_globally(double* centers, size_t photo_count, double* points,
-                               size_t point_count, const ck_direction* directions,
-                               size_t direction_count, ck_positioning_summary* summary,
-                               const ck_positioning_options* options, const ck_control* control);
+/// The directions are grouped by point, ascending. `centers` and `points` (3 doubles) hold the
+/// start on entry; the gauge of the result, a similarity, is arbitrary. Runs on one thread.
+ck_status ck_position_globally(const ck_direction* directions, size_t direction_count,
+                               const ck_positioning_options* options, const ck_control* control,
+                               ck_mutable_span centers, ck_mutable_span points,
+                               ck_positioning_summary* summary);
 
 #ifdef __cplusplus
 }

@@ -1,33 +1,28 @@
 #ifndef CK_PATCHES_H
 #define CK_PATCHES_H
 
-#include "ck_core.h"
+#include "ck_camera.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/// An undistorted photo with its pinhole camera.
+/// A photo without lens distortion, as patch stereo takes it.
 typedef struct {
-  int32_t width, height;
-  /// `width × height` bytes, top row first.
+  ck_camera camera;
+  ck_pose camera_from_world;
+  /// A byte per pixel, top row first, without padding.
   const uint8_t* luma;
-  /// Focal lengths and principal point in pixels; the origin is the corner of the top-left pixel.
-  double fx, fy, cx, cy;
-  /// `cameraFromWorld`: row-major rotation, then translation. x right, y down, z forward.
-  double rotation[9];
-  double translation[3];
-  /// Standard deviation of the luma noise, in gray levels (0…255).
+  /// Standard deviation of the luma's noise in gray levels.
   float noise;
 } ck_patch_view;
 
-/// Halves a `width × height` luma image by averaging 2 × 2 pixels; `result` holds `(width / 2) ×
-/// (height / 2)` bytes.
-void ck_patches_halve(uint8_t* result, const uint8_t* luma, int32_t width, int32_t height);
+/// Averages 2 × 2 pixels of `width × height` bytes; `result` holds `(width / 2) × (height / 2)`.
+void ck_patches_halve(const uint8_t* luma, int32_t width, int32_t height, uint8_t* result);
 
-/// Estimates the standard deviation of the noise of a `width × height` luma image in gray levels,
-/// from the deviation from a smooth surface in its smoothest parts (after Immerkær, CVIU 1996); at
-/// least the standard deviation of rounding.
+/// Estimates the standard deviation of the noise of `width × height` bytes in gray levels, from the
+/// deviation from a smooth surface in the smoothest parts (after Immerkær, CVIU 1996); at least
+/// that of rounding.
 float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height);
 
 /// A sparse point in a reference view: pixel position and inverse depth.
@@ -57,11 +52,11 @@ typedef struct {
   int32_t refinement_steps;
   /// Difference in gray levels at which the bilateral weight is one half.
   float bilateral_contrast;
-  /// Nonzero to propagate patches across views.
-  int32_t expands_across_views;
-  /// Nonzero for fronto-parallel patches instead of slanted ones.
-  int32_t is_fronto_parallel;
-  /// Random seed; the same seed gives the same patches.
+  /// Views offer each other their patches.
+  bool expands_across_views;
+  /// Patches face the camera instead of following the surface.
+  bool is_fronto_parallel;
+  /// The same seed gives the same patches.
   uint32_t seed;
   /// Instruction set of the inner loops. Results differ by rounding only.
   ck_instructions instructions;
@@ -71,11 +66,11 @@ typedef struct {
 /// with one plane per pixel as in Bleyer et al., BMVC 2011).
 ///
 /// `sources` are at most 8 views, the best first. `patches` holds `width × height` values of the
-/// reference. Runs on one thread; may be called for several views at once.
-ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* reference,
-                                 const ck_patch_view* sources, size_t source_count,
-                                 const ck_patch_seed* seeds, size_t seed_count,
-                                 const ck_patch_options* options, const ck_control* control);
+/// reference. Runs on one thread: call it for several views at once.
+ck_status ck_patches_reconstruct(const ck_patch_view* reference, const ck_patch_view* sources,
+                                 size_t source_count, const ck_patch_seed* seeds, size_t seed_count,
+                                 const ck_patch_options* options, const ck_control* control,
+                                 ck_patch* patches);
 
 /// The patches of one view.
 typedef struct {
@@ -97,13 +92,12 @@ typedef struct {
 ///
 /// `coarse` holds the filtered patches of the reference halved by `ck_patches_halve`, with half its
 /// focal lengths and principal point; its neighbors were the halved `sources`, in the same order.
-/// Each patch is compared with the sources that are consistent with the surrounding coarse patches
-/// (its visible photos; Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width ×
-/// height` values.
-ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
-                            const ck_patch_view* sources, size_t source_count,
-                            const ck_patch_map* coarse, const ck_patch_options* options,
-                            const ck_control* control);
+/// Each patch is compared with the sources that agree with the coarse ones around (its visible
+/// photos, Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width × height` values.
+ck_status ck_patches_refine(const ck_patch_view* reference, const ck_patch_view* sources,
+                            size_t source_count, const ck_patch_map* coarse,
+                            const ck_patch_options* options, const ck_control* control,
+                            ck_patch* patches);
 
 /// Thresholds of the patch filter and of fusion.
 typedef struct {
@@ -138,13 +132,13 @@ typedef struct {
 /// Marks the patches of `reference` that enough neighbors confirm and not too many contradict
 /// (geometric consistency).
 ///
-/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint,
-/// which determines the view that resolves a surface element best. `states` holds `width × height`
-/// bytes, and so does `visibility` unless it is null; `neighbors` are the views to compare with,
-/// the best first. Runs on one thread; may be called for several views at once.
-ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch_map* reference,
-                            const ck_patch_map* neighbors, size_t neighbor_count,
-                            const ck_patch_filter_options* options, const ck_control* control);
+/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint, so
+/// that views tell which of them shows a piece of surface finest. `states` holds `width × height`
+/// bytes, and `visibility` as many, or is null; `neighbors` are the views that may confirm, the
+/// best first. Runs on one thread: call it for several views at once.
+ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* neighbors,
+                            size_t neighbor_count, const ck_patch_filter_options* options,
+                            const ck_control* control, uint8_t* states, uint8_t* visibility);
 
 /// Propagates patches across views and into holes: tests the accepted patches of the neighbors, and
 /// those of adjacent cells, at the cells of `reference` that the filter rejected, and optimizes
@@ -153,11 +147,11 @@ ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch
 /// surrounding patches. Finally patches are smoothed; the weaker the texture, the stronger the
 /// smoothing.
 ///
-/// All maps have states; `completed` holds `width × height` patches, which have to be filtered
-/// again. Runs on one thread.
-ck_status ck_patches_complete(ck_patch* completed, const ck_patch_map* reference,
-                              const ck_patch_map* neighbors, size_t neighbor_count,
-                              const ck_patch_options* options, const ck_control* control);
+/// All maps have states; `completed` holds `width × height` patches, for the filter to judge. Runs
+/// on one thread.
+ck_status ck_patches_complete(const ck_patch_map* reference, const ck_patch_map* neighbors,
+                              size_t neighbor_count, const ck_patch_options* options,
+                              const ck_control* control, ck_patch* completed);
 
 /// A fused patch.
 typedef struct {
@@ -175,13 +169,14 @@ typedef struct {
 
 /// Fuses the accepted patches of `reference` with the consistent patches of its neighbors.
 ///
-/// A surface element seen by several views becomes a point of the view with the smallest footprint,
-/// on a tie of the lowest photo. Each view determines its points independently, so views can be
-/// fused in any order, or concurrently. `fused` has room for as many patches as the view has
-/// accepted. Runs on one thread.
-ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* reference,
-                          const ck_patch_map* neighbors, size_t neighbor_count,
-                          const ck_patch_filter_options* options, const ck_control* control);
+/// A piece of surface that several views show becomes a point of the view that shows it at the
+/// smallest footprint, of the lowest photo among equals. Each view decides by itself which points
+/// it owns, so views are fused in any order, or concurrently. `fused` has room for `capacity`
+/// points; as many as the view has accepted patches suffice. Runs on one thread.
+ck_status ck_patches_fuse(const ck_patch_map* reference, const ck_patch_map* neighbors,
+                          size_t neighbor_count, const ck_patch_filter_options* options,
+                          const ck_control* control, ck_fused_patch* fused, size_t capacity,
+                          size_t* fused_count);
 
 #ifdef __cplusplus
 }

@@ -9,9 +9,9 @@ extern "C" {
 
 /// Solves the perspective-three-point problem (Persson and Nordberg, "Lambda Twist", ECCV 2018).
 ///
-/// `rays` are three vectors (x, y, z) of any length in the camera frame, `points` three points in
-/// the world. `poses` holds at least four elements. Degenerate input gives no pose.
-ck_status ck_p3p(ck_pose* poses, size_t* pose_count, const double* rays, const double* points);
+/// `rays` are three vectors (x, y, z) in the camera frame of any length, `points` three points in
+/// the world. `poses` holds at least four. Degenerate input gives no pose.
+ck_status ck_p3p(const double* rays, const double* points, ck_pose* poses, size_t* pose_count);
 
 /// Options of pose estimation.
 typedef struct {
@@ -30,12 +30,11 @@ typedef struct {
 /// Estimates the pose of a photo from 2D–3D correspondences (LO-RANSAC on P3P, scored by the
 /// truncated squared reprojection error).
 ///
-/// `pixels` are pairs x, y without padding, `points` start every `point_stride` bytes. `inliers`
-/// holds `count` bytes that are set to 1 or 0.
-ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const double* pixels,
-                    const double* points, size_t point_stride, size_t count,
-                    const ck_camera_model* camera, const ck_resection_options* options,
-                    const ck_control* control);
+/// `pixels` (2 doubles) and `points` (3 doubles) are equal in number. `inliers` receives 1 or 0 for
+/// each of them.
+ck_status ck_resect(const ck_camera* camera, ck_span pixels, ck_span points,
+                    const ck_resection_options* options, const ck_control* control, ck_pose* pose,
+                    uint8_t* inliers, size_t* inlier_count);
 
 #ifdef __cplusplus
 }

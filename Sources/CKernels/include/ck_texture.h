@@ -1,91 +1,63 @@
 #ifndef CK_TEXTURE_H
 #define CK_TEXTURE_H
 
-#include "ck_core.h"
+#include "ck_rays.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-// Positions and normals are three floats every `stride` bytes. Triangles are three vertex indices
-// in 12 bytes, counter-clockwise seen from outside. Texel and pixel coordinates have their origin
-// at the corner of the top-left one, y down.
+// Texels have their origin at the corner of the top-left one, y down.
 
-/// A triangle mesh with a ray casting structure. Immutable; may be used by several threads.
-typedef struct ck_ray_scene ck_ray_scene;
-
-/// Builds a ray casting structure; copies the arrays. Free with `ck_ray_scene_free`.
-ck_status ck_ray_scene_create(const float* positions, size_t position_count, size_t position_stride,
-                              const uint32_t* triangles, size_t triangle_count,
-                              const ck_control* control, ck_ray_scene** scene);
-
-/// Frees the scene; null does nothing.
-void ck_ray_scene_free(ck_ray_scene* scene);
-
-/// A pinhole view without lens distortion: `pixel = focal * (x, y) / z + center` of the point
-/// `rotation * world + translation`; the rotation is row-major.
+/// A choice of one label for every node of a graph.
 typedef struct {
-  double focal[2];
-  double center[2];
-  double rotation[9];
-  double translation[3];
-  int32_t width;
-  int32_t height;
-} ck_pinhole;
+  size_t node_count;
+  /// Node i has the candidates `offsets[i]..<offsets[i + 1]`.
+  const uint32_t* offsets;
+  /// The candidates' labels, ascending for each node.
+  const int32_t* labels;
+  /// Cost of each candidate.
+  const float* costs;
+  size_t edge_count;
+  /// Two nodes per edge.
+  const uint32_t* edges;
+  /// Cost of an edge whose nodes have different labels.
+  const float* edge_weights;
+} ck_label_problem;
 
-/// One triangle as observed in one view.
-typedef struct {
-  /// Projected area in pixels; 0 if any part of the triangle is not visible.
-  float area;
-  /// Cosine of the angle between the triangle's normal and the direction to the camera.
-  float cosine;
-  /// Mean magnitude of the luminance gradient in the triangle, in gray levels (0…255) per pixel.
-  float gradient;
-  /// 0 if the silhouette of an occluder in front of the triangle is within the margin, otherwise 1:
-  /// with a small error of the pose or the surface, the triangle would take the occluder's color.
-  float clearance;
-  /// 0 if within the margin the surface ends in front of a distant background or of empty space, or
-  /// the mask ends, otherwise 1: the same error would take the background's color.
-  float interior;
-  /// Mean RGB color, 0…255.
-  float color[3];
-} ck_face_observation;
-
-/// Visibility thresholds of a triangle in a view.
-typedef struct {
-  /// Triangles observed at a smaller cosine count as not visible.
-  float minimum_cosine;
-  /// Smallest distance of a triangle from the image border, in pixels; also used for `clearance`
-  /// and `interior`.
-  float margin;
-} ck_observe_options;
-
-/// Determines which triangles of the scene are entirely visible in a view, and measures them. `rgb`
-/// has 3 bytes per pixel, `observations` holds one entry for every triangle of the scene. `mask` is
-/// null, or has one byte per pixel: triangles that reach pixels below 128 are not visible.
-ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
-                           const uint8_t* mask, const ck_observe_options* options,
-                           const ck_control* control, ck_face_observation* observations);
-
-/// Selects one candidate label for every node such that the sum of the nodes' costs and of the
-/// weights of edges between different labels is small: a Potts model, minimized by sequential
+/// Chooses one of its candidates for every node, so that the sum of the costs of the nodes and of
+/// the weights of edges between different labels is small: a Potts model, minimized by sequential
 /// tree-reweighted message passing (Kolmogorov, PAMI 2006).
 ///
-/// Node i has the candidates `offsets[i]..<offsets[i + 1]` of `labels` (ascending) and `costs`;
-/// `edges` are pairs of nodes. `choices` receives the index of the selected candidate, −1 for nodes
-/// without candidates.
-ck_status ck_select_labels(size_t node_count, const uint32_t* offsets, const int32_t* labels,
-                           const float* costs, size_t edge_count, const uint32_t* edges,
-                           const float* edge_weights, size_t iterations, const ck_control* control,
-                           int32_t* choices);
+/// `choices` receives the index of each node's candidate, −1 for nodes without candidates.
+ck_status ck_select_labels(const ck_label_problem* problem, size_t iterations,
+                           const ck_control* control, int32_t* choices);
 
-/// Solves a sparse symmetric positive definite system for several right-hand sides by conjugate
-/// gradients. The entries are those of the lower triangle and the diagonal; entries at equal
-/// positions are added. `values` holds `size × channels` numbers, row-major: the right-hand sides
-/// on entry, the solution on return. The initial value is zero.
-ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, const uint32_t* rows,
-                          const uint32_t* columns, const double* entries, double tolerance,
-                          size_t iterations, const ck_control* control, double* values);
+/// A sparse symmetric positive definite matrix: entries of the lower triangle and the diagonal, of
+/// which those at equal positions are added.
+typedef struct {
+  /// Rows and columns.
+  size_t size;
+  size_t entry_count;
+  const uint32_t* rows;
+  const uint32_t* columns;
+  const double* entries;
+} ck_sparse_matrix;
+
+/// When the method of conjugate gradients stops.
+typedef struct {
+  /// Residual relative to the right side.
+  double tolerance;
+  size_t maximum_iterations;
+} ck_conjugate_gradient_options;
+
+/// Solves a system for several right sides by conjugate gradients from zero.
+///
+/// `values` holds `size × channels` numbers, row by row: the right sides on entry, the solutions on
+/// return.
+ck_status ck_solve_sparse(const ck_sparse_matrix* matrix, size_t channels,
+                          const ck_conjugate_gradient_options* options, const ck_control* control,
+                          double* values);
 
 /// Limits on the charts.
 typedef struct {
@@ -101,13 +73,11 @@ typedef struct {
 /// boundary shortening by multilevel refinement (after Karypis and Kumar, SIAM J. Sci. Comput.
 /// 1998).
 ///
-/// `charts` receives the chart index of every triangle, numbered consecutively from 0; `axes` three
-/// floats per chart: the unit projection direction. `axes` has room for as many charts as there are
-/// triangles.
-ck_status ck_cluster_faces(const float* positions, size_t position_count, size_t position_stride,
-                           const uint32_t* triangles, size_t triangle_count,
-                           const ck_chart_options* options, const ck_control* control,
-                           int32_t* charts, float* axes, size_t* chart_count);
+/// `charts` receives a chart for every triangle, dense from 0; `axes` three floats a chart, the
+/// unit direction to project along, for at most as many charts as there are triangles.
+ck_status ck_cluster_faces(const ck_mesh* mesh, const ck_chart_options* options,
+                           const ck_control* control, int32_t* charts, float* axes,
+                           size_t* chart_count);
 
 /// Placement of a chart in an atlas: `texel = scale · R(quarter_turns) · plane + offset`.
 typedef struct {
@@ -165,9 +135,8 @@ typedef struct {
   float offsets[9];
 } ck_paint;
 
-/// Adds a view's colors, multiplied by `gain` per channel. If `rgb` is null, only the offsets are
-/// painted.
-ck_status ck_atlas_paint(ck_atlas* atlas, const ck_pinhole* view, const uint8_t* rgb,
+/// Adds a view's colours, times `gain` a channel. Without `rgb` the offsets alone are painted.
+ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rgb,
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control);
 
@@ -185,9 +154,8 @@ typedef struct {
   /// bitangent.
   const float* corner_tangents;
   const ck_ray_scene* dense;
-  /// One normal for each position of `dense`.
-  const float* dense_normals;
-  size_t dense_normals_stride;
+  /// One normal (3 floats) for each position of `dense`.
+  ck_span dense_normals;
 } ck_bake_source;
 
 /// Bakes a tangent-space normal map of `side² × 3` bytes: the normals of the dense surface in the
@@ -203,17 +171,6 @@ ck_status ck_atlas_bake(const ck_atlas* atlas, const ck_bake_source* source,
 ck_status ck_atlas_occlusion(const ck_atlas* atlas, const ck_bake_source* source,
                              size_t rays_per_texel, float maximum_distance,
                              const ck_control* control, uint8_t* gray);
-
-/// Simplifies a mesh by edge collapse with quadric error metrics (Garland and Heckbert, SIGGRAPH
-/// 1997) until at most `maximum_count` triangles are left, then fits the vertices to the original
-/// surface (after Hoppe et al., SIGGRAPH 1993). Preserves the topology and never folds the surface;
-/// it may therefore stop at more triangles.
-///
-/// The first `*position_count` positions of `positions` are moved and compacted in place, and so
-/// are the first `*triangle_count` triangles.
-ck_status ck_simplify(float* positions, size_t* position_count, size_t position_stride,
-                      uint32_t* triangles, size_t* triangle_count, size_t maximum_count,
-                      const ck_control* control);
 
 #ifdef __cplusplus
 }

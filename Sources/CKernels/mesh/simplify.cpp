@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
-#include "ck_texture.h"
+#include "ck_mesh.h"
+#include "core/disjoint_sets.h"
 #include "core/guard.h"
 #include "mesh/collapse_mesh.h"
 #include "mesh/collapse_queue.h"
@@ -21,9 +21,14 @@ using Face = CollapseMesh::Face;
 /// its planes, and is at most this many edge lengths from it: nearly parallel planes intersect far
 /// away.
 constexpr double kPull = 1e-4, kReach = 2;
+/// Cosine of the largest angle by which a collapse may turn a triangle, in each of the passes; the
+/// last one accepts what the others left. Empirical.
+constexpr double kTurnCosines[] = {0.2, 0.2, 0.0};
+/// The number of pieces is limited to one per this many triangles of the result. Empirical.
+constexpr size_t kTrianglesPerPiece = 16;
 
 std::vector<Point> load_points(const InputMesh& input) {
-  std::vector<Point> points(input.position_count);
+  std::vector<Point> points(input.positions.count);
   for (size_t i = 0; i < points.size(); ++i) {
     points[i] = input.point(i);
     require(
@@ -41,7 +46,7 @@ std::vector<Face> load_faces(const InputMesh& input) {
     const uint32_t* corners = input.triangles + 3 * t;
     Face f = {corners[0], corners[1], corners[2]};
     for (const uint32_t v : f) {
-      require(v < input.position_count, "a triangle refers to a vertex that does not exist");
+      require(v < input.positions.count, "a triangle names a vertex that isn't there");
     }
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
     std::sort(f.begin(), f.end());
@@ -67,11 +72,10 @@ class Simplifier {
   explicit Simplifier(const InputMesh& input)
       : input_(input),
         mesh_(load_points(input), load_faces(input)),
-        vertices_(input.position_count),
-        versions_(input.position_count, 0),
-        representatives_(input.position_count),
+        vertices_(input.positions.count),
+        versions_(input.positions.count, 0),
+        representatives_(input.positions.count),
         alive_(mesh_.face_count()) {
-    std::iota(representatives_.begin(), representatives_.end(), 0u);
     find_borders();
     add_quadrics();
   }
@@ -96,20 +100,16 @@ class Simplifier {
   /// Removes the smallest components until at most `maximum` triangles and `maximum_pieces`
   /// components are left.
   void drop_components(size_t maximum, size_t maximum_pieces) {
-    std::vector<uint32_t> parents(mesh_.vertex_count());
-    std::iota(parents.begin(), parents.end(), 0u);
+    DisjointSets pieces(mesh_.vertex_count());
     for_alive([&](uint32_t i) {
       const Face& f = mesh_.face(i);
-      for (size_t k = 1; k < 3; ++k) {
-        const uint32_t a = root(&parents, f[0]), b = root(&parents, f[k]);
-        parents[std::max(a, b)] = std::min(a, b);
-      }
+      for (size_t k = 1; k < 3; ++k) pieces.join(f[0], f[k]);
     });
-    std::vector<double> areas(parents.size(), 0);
-    std::vector<size_t> counts(parents.size(), 0);
+    std::vector<double> areas(pieces.count(), 0);
+    std::vector<size_t> counts(pieces.count(), 0);
     for_alive([&](uint32_t i) {
       const Point n = mesh_.normal(mesh_.face(i));
-      const uint32_t piece = root(&parents, mesh_.face(i)[0]);
+      const uint32_t piece = pieces.root(mesh_.face(i)[0]);
       areas[piece] += std::sqrt(dot(n, n));
       ++counts[piece];
     });
@@ -120,14 +120,14 @@ class Simplifier {
     std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
       return areas[a] != areas[b] ? areas[a] < areas[b] : a < b;
     });
-    std::vector<bool> is_dropped(parents.size(), false);
+    std::vector<bool> is_dropped(pieces.count(), false);
     for (size_t k = 0; k + 1 < order.size(); ++k) {
       if (alive_ <= maximum && order.size() - k <= maximum_pieces) break;
       is_dropped[order[k]] = true;
       alive_ -= counts[order[k]];
     }
     for_alive([&](uint32_t i) {
-      if (is_dropped[root(&parents, mesh_.face(i)[0])]) mesh_.remove(i);
+      if (is_dropped[pieces.root(mesh_.face(i)[0])]) mesh_.remove(i);
     });
   }
 
@@ -135,27 +135,27 @@ class Simplifier {
   /// collapses.
   void fit(const ck_control* control) {
     if (!has_collapsed_) return;
-    for (uint32_t v = 0; v < representatives_.size(); ++v) root(&representatives_, v);
-    SurfaceFit(input_, representatives_, &mesh_).run(control);
+    const std::vector<uint32_t> homes = representatives_.roots();
+    SurfaceFit(input_, homes, &mesh_).run(control);
   }
 
-  void copy(float* positions, size_t* position_count, size_t stride, uint32_t* triangles,
-            size_t* triangle_count) const {
+  void copy(ck_mutable_mesh* result) const {
+    const MutableStrided<float> positions(result->positions);
     std::vector<uint32_t> ids(mesh_.vertex_count());
     uint32_t vertex_count = 0;
     for (uint32_t v = 0; v < ids.size(); ++v) {
       if (!mesh_.is_used(v)) continue;
       ids[v] = vertex_count++;
-      auto* p = reinterpret_cast<float*>(reinterpret_cast<char*>(positions) + stride * ids[v]);
+      float* p = positions[ids[v]];
       for (size_t k = 0; k < 3; ++k) p[k] = static_cast<float>(mesh_.point(v)[k]);
     }
     size_t count = 0;
     for_alive([&](uint32_t i) {
-      for (size_t k = 0; k < 3; ++k) triangles[3 * count + k] = ids[mesh_.face(i)[k]];
+      for (size_t k = 0; k < 3; ++k) result->triangles[3 * count + k] = ids[mesh_.face(i)[k]];
       ++count;
     });
-    *position_count = vertex_count;
-    *triangle_count = count;
+    result->positions.count = vertex_count;
+    result->triangle_count = count;
   }
 
  private:
@@ -171,14 +171,6 @@ class Simplifier {
     Point position;
     double error;
   };
-
-  static uint32_t root(std::vector<uint32_t>* parents, uint32_t i) {
-    std::vector<uint32_t>& p = *parents;
-    uint32_t top = i;
-    while (p[top] != top) top = p[top];
-    while (p[i] != top) i = std::exchange(p[i], top);
-    return top;
-  }
 
   template <typename Body>
   void for_alive(Body&& body) const {
@@ -295,7 +287,7 @@ class Simplifier {
     vertices_[a] = {t.quadric, t.error, vertices_[a].is_border || vertices_[b].is_border};
     ++versions_[a];
     ++versions_[b];
-    representatives_[b] = a;
+    representatives_.attach(b, a);
     has_collapsed_ = true;
     mesh_.for_neighbors(a, [&](uint32_t v) { push(a, v); });
   }
@@ -320,8 +312,8 @@ class Simplifier {
   InputMesh input_;
   CollapseMesh mesh_;
   std::vector<Vertex> vertices_;
-  std::vector<uint32_t> versions_;         ///< number of changes of each vertex
-  std::vector<uint32_t> representatives_;  ///< the vertex that each one was merged into
+  std::vector<uint32_t> versions_;  ///< how often each vertex has changed
+  DisjointSets representatives_;    ///< which vertex each one went into
   CollapseQueue queue_;
   size_t alive_ = 0;
   double minimum_cosine_ = 0;
@@ -331,23 +323,21 @@ class Simplifier {
 }  // namespace
 }  // namespace ck::texture
 
-ck_status ck_simplify(float* positions, size_t* position_count, size_t position_stride,
-                      uint32_t* triangles, size_t* triangle_count, size_t maximum_count,
-                      const ck_control* control) {
+ck_status ck_simplify(ck_mutable_mesh* mesh, size_t maximum_triangles, const ck_control* control) {
   return ck::guarded([&] {
-    ck::require(positions && position_count && triangles && triangle_count,
-                "an argument is missing");
+    ck::require(mesh && mesh->positions.data && mesh->triangles, "an argument is missing");
     ck::step(control, 0);
-    ck::texture::Simplifier simplifier(
-        {positions, *position_count, position_stride, triangles, *triangle_count});
-    // A closed component has at least four triangles: many tiny components would use up the budget.
-    simplifier.drop_components(*triangle_count, std::max<size_t>(1, maximum_count / 16));
-    // A collapse that is rejected in one pass may be permitted after its surroundings have changed.
-    // A limit on triangle shape is harmful: it prevents collapses that would repair slivers of the
-    // input.
-    for (const double cosine : {0.2, 0.2, 0.0}) simplifier.run(maximum_count, cosine, control);
-    simplifier.drop_components(maximum_count, maximum_count);
+    ck::texture::Simplifier simplifier({mesh->positions, mesh->triangles, mesh->triangle_count});
+    // No closed piece has fewer than four triangles: many crumbs would take the budget.
+    simplifier.drop_components(
+        mesh->triangle_count,
+        std::max<size_t>(1, maximum_triangles / ck::texture::kTrianglesPerPiece));
+    // What is refused in one pass may be allowed after its surroundings have changed. A limit on
+    // the triangles' shape does harm: it stops what would mend the slivers of the input.
+    for (const double cosine : ck::texture::kTurnCosines)
+      simplifier.run(maximum_triangles, cosine, control);
+    simplifier.drop_components(maximum_triangles, maximum_triangles);
     simplifier.fit(control);
-    simplifier.copy(positions, position_count, position_stride, triangles, triangle_count);
+    simplifier.copy(mesh);
   });
 }

@@ -58,8 +58,8 @@ Point unit(const Point& n) {
 SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& representatives,
                        CollapseMesh* mesh)
     : mesh_(*mesh), initial_normals_(mesh->face_count()), normals_(mesh->face_count()) {
-  samples_.reserve(input.triangle_count + input.position_count);
-  std::vector<double> areas(input.position_count, 0);
+  samples_.reserve(input.triangle_count + input.positions.count);
+  std::vector<double> areas(input.positions.count, 0);
   for (size_t t = 0; t < input.triangle_count; ++t) {
     const uint32_t* f = input.triangles + 3 * t;
     const Point a = input.point(f[0]), b = input.point(f[1]), c = input.point(f[2]);

@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "ck_core.h"
+#include "core/span.h"
 #include "mesh/collapse_mesh.h"
 
 namespace ck::texture {
 
-/// The caller's mesh.
+/// A mesh as the caller stores it.
 struct InputMesh {
-  const float* positions;
-  size_t position_count, stride;
+  Strided<float> positions;
   const uint32_t* triangles;
   size_t triangle_count;
 
   Point point(size_t index) const {
-    const auto* p =
-        reinterpret_cast<const float*>(reinterpret_cast<const char*>(positions) + stride * index);
+    const float* p = positions[index];
     return {p[0], p[1], p[2]};
   }
 };

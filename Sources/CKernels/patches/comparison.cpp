@@ -51,16 +51,16 @@ Comparison Pyramids::compare(int level, const InverseDepthRange& range, float ma
   c.height = image.height;
   c.luma = image.luma.data();
   c.bilateral_contrast = options.bilateral_contrast;
-  c.is_fronto_parallel = options.is_fronto_parallel != 0;
-  // Averaging 2 × 2 pixels halves the standard deviation of the noise.
+  c.is_fronto_parallel = options.is_fronto_parallel;
+  // Averaging 2 × 2 pixels halves the noise.
   const double noise = reference_.noise * scale;
   c.noise_variance = static_cast<float>(noise * noise);
   c.minimum_w = range.lowest / margin;
   c.maximum_w = range.highest * margin;
-  c.fx = static_cast<float>(reference_.fx * scale);
-  c.fy = static_cast<float>(reference_.fy * scale);
-  c.cx = static_cast<float>(reference_.cx * scale);
-  c.cy = static_cast<float>(reference_.cy * scale);
+  c.fx = static_cast<float>(reference_.camera.fx * scale);
+  c.fy = static_cast<float>(reference_.camera.fy * scale);
+  c.cx = static_cast<float>(reference_.camera.cx * scale);
+  c.cy = static_cast<float>(reference_.camera.cy * scale);
   for (size_t s = 0; s + 1 < images_.size(); ++s) {
     add_source(c.warps, reference_, sources_[s], scale, images_[s + 1][level]);
   }
@@ -70,7 +70,7 @@ Comparison Pyramids::compare(int level, const InverseDepthRange& range, float ma
 
 void check_views(const ck_patch_view& reference, size_t source_count) {
   require(source_count >= 1 && source_count <= kMaxSources, "1 to 8 sources are needed");
-  require(std::min(reference.width, reference.height) >= 16, "the view is smaller than 16 pixels");
+  require(std::min(reference.camera.width, reference.camera.height) >= 16, "the view is too small");
 }
 
 }  // namespace ck::patches

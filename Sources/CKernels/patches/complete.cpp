@@ -57,14 +57,14 @@ class PatchTransfer {
 /// a cell, the nearest to the camera.
 std::vector<Plane> proposals_from_neighbors(const ck_patch_map& reference,
                                             const ck_patch_map* neighbors, size_t count) {
-  const size_t width = static_cast<size_t>(reference.view.width);
-  std::vector<Plane> proposals(width * reference.view.height);
+  const size_t width = static_cast<size_t>(reference.view.camera.width);
+  std::vector<Plane> proposals(width * reference.view.camera.height);
   for (size_t n = 0; n < count; ++n) {
     const ck_patch_map& neighbor = neighbors[n];
     const PatchTransfer transfer(neighbor, reference);
-    for (int y = 0; y < neighbor.view.height; ++y) {
-      for (int x = 0; x < neighbor.view.width; ++x) {
-        const size_t from = static_cast<size_t>(y) * neighbor.view.width + x;
+    for (int y = 0; y < neighbor.view.camera.height; ++y) {
+      for (int x = 0; x < neighbor.view.camera.width; ++x) {
+        const size_t from = static_cast<size_t>(y) * neighbor.view.camera.width + x;
         if (!neighbor.states[from]) continue;
         int to_x, to_y;
         Plane plane;
@@ -86,7 +86,7 @@ class Completion {
       : comparison_(comparison),
         proposals_(proposals),
         steps_(options.refinement_steps),
-        grid_(reference.view.width, reference.view.height),
+        grid_(reference.view.camera.width, reference.view.camera.height),
         is_good_(grid_.planes.size()),
         is_edge_(grid_.planes.size()),
         optimizer_(grid_, comparison, kernels(options.instructions)) {
@@ -155,7 +155,6 @@ class Completion {
   /// best one was obtained from there.
   template <typename Propose>
   void attempt(const Cell* cells, int count, BestPatch* found, const Propose& propose) {
-    constexpr float kSame = 0.4f;  // pixels; within reach of Gauss–Newton
     Cell tried[kWaveSize];
     Plane planes[kWaveSize];
     float support[kWaveSize][kTexels];
@@ -164,7 +163,7 @@ class Completion {
     for (int i = 0; i < count; ++i) {
       planes[n] = propose(cells[i]);
       if (!(planes[n].w > 0)) continue;
-      if (found[i].is_new && distance(found[i].plane, planes[n]) < kSame) continue;
+      if (found[i].is_new && distance(found[i].plane, planes[n]) < kSamePlaneMotion) continue;
       weigh(cells[i], planes[n], support[n]);
       tried[n] = cells[i];
       results[n++] = &found[i];
@@ -213,7 +212,7 @@ class Completion {
         const size_t cell = grid_.index(at.x + dx, at.y + dy);
         const Plane there = plane.at(static_cast<float>(dx), static_cast<float>(dy));
         const float apart = distance(grid_.planes[cell], there) / kDiscontinuity;
-        *weights++ = is_good_[cell] ? 1 / (1 + apart * apart * apart * apart) : 0.5f;
+        *weights++ = is_good_[cell] ? 1 / (1 + apart * apart * apart * apart) : kUnknownTexelWeight;
       }
     }
   }
@@ -247,7 +246,7 @@ void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch
   std::vector<ck_patch_view> sources;
   for (size_t i = 0; i < count; ++i) sources.push_back(neighbors[i].view);
   const Pyramids pyramids(reference.view, sources.data(), count, 1);
-  const Comparison comparison = pyramids.compare(0, range, 1.1f, options);
+  const Comparison comparison = pyramids.compare(0, range, kCompletionRangeMargin, options);
   Completion completion(reference, comparison, proposals, options);
   completion.sweep(true, control, 0, 0.7);
   completion.sweep(false, control, 0.7, 1);
@@ -258,9 +257,9 @@ void complete(ck_patch* completed, const ck_patch_map& reference, const ck_patch
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_complete(ck_patch* completed, const ck_patch_map* reference,
-                              const ck_patch_map* neighbors, size_t neighbor_count,
-                              const ck_patch_options* options, const ck_control* control) {
+ck_status ck_patches_complete(const ck_patch_map* reference, const ck_patch_map* neighbors,
+                              size_t neighbor_count, const ck_patch_options* options,
+                              const ck_control* control, ck_patch* completed) {
   return ck::guarded([&] {
     using namespace ck::patches;
     ck::require(completed && reference && reference->states && options &&

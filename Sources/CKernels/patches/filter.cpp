@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/guard.h"
+#include "patches/constants.h"
 #include "patches/geometric_consistency.h"
 
 namespace ck::patches {
@@ -21,15 +22,15 @@ int required_views(int neighbors, const ck_patch& patch, const ck_patch_filter_o
 ///
 /// Depends on the patch alone, so that any two views rank their patches consistently.
 uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int y) {
-  const auto fx = static_cast<float>(view.fx), fy = static_cast<float>(view.fy);
-  const float dx = x + 0.5f - static_cast<float>(view.cx),
-              dy = y + 0.5f - static_cast<float>(view.cy);
+  const auto fx = static_cast<float>(view.camera.fx), fy = static_cast<float>(view.camera.fy);
+  const float dx = x + 0.5f - static_cast<float>(view.camera.cx),
+              dy = y + 0.5f - static_cast<float>(view.camera.cy);
   const float nx = p.gradient_x * fx, ny = p.gradient_y * fy;
   const float nz = p.inverse_depth - p.gradient_x * dx - p.gradient_y * dy;
   const float normal = nx * nx + ny * ny + nz * nz;
   const float ray = dx * dx / (fx * fx) + dy * dy / (fy * fy) + 1;
-  const float cosine = std::max(0.1f, p.inverse_depth / std::sqrt(normal * ray));
-  // The side is 1 / (w · fx · sqrt(cosine)); four steps per octave, centered on 128.
+  const float cosine = std::max(kLeastFootprintCosine, p.inverse_depth / std::sqrt(normal * ray));
+  // The side is 1 / (w · fx · sqrt(cosine)); four steps an octave, 1 in the middle.
   const float steps = -4 * std::log2(p.inverse_depth * fx) - 2 * std::log2(cosine);
   return static_cast<uint8_t>(std::clamp(std::floor(steps) + 128, 1.0f, 255.0f));
 }
@@ -55,8 +56,8 @@ class VisibilityFilter {
         options_(options),
         thresholds_(reference.view, options),
         check_(consistency_check(options.instructions)),
-        row_(reference.view.width),
-        results_(reference.view.width),
+        row_(reference.view.camera.width),
+        results_(reference.view.camera.width),
         consistent_(row_.w.size()),
         violating_(row_.w.size()),
         visibility_(row_.w.size()) {
@@ -64,7 +65,7 @@ class VisibilityFilter {
   }
 
   void run(uint8_t* states, uint8_t* visibility, const ck_control* control) {
-    const int width = reference_.view.width, height = reference_.view.height;
+    const int width = reference_.view.camera.width, height = reference_.view.camera.height;
     for (int y = 0; y < height; ++y) {
       step(control, static_cast<double>(y) / height);
       row_.read(reference_.patches, y, options_.weak_texture_threshold);
@@ -119,7 +120,7 @@ class DepthEdgeFilter {
   }
 
   void remove(uint8_t* states, const ck_patch_view& view) const {
-    const int w = view.width, h = view.height;
+    const int w = view.camera.width, h = view.camera.height;
     const std::vector<uint8_t> before(states, states + static_cast<size_t>(w) * h);
     std::vector<int32_t> rejected(static_cast<size_t>(w));
     for (int y = kRadius; y < h - kRadius; ++y) {
@@ -153,7 +154,7 @@ class DepthEdgeFilter {
     const int luma = view.luma[cell];
     int32_t balance = 0;
     for (int dy = -kRadius; dy <= kRadius; ++dy) {
-      const size_t row = cell + static_cast<ptrdiff_t>(dy) * view.width;
+      const size_t row = cell + static_cast<ptrdiff_t>(dy) * view.camera.width;
       for (int dx = -kRadius; dx <= kRadius; ++dx) {
         const int32_t similarity = similarity_[std::abs(view.luma[row + dx] - luma)];
         balance += states[row + dx] ? similarity : -similarity;
@@ -169,7 +170,7 @@ class DepthEdgeFilter {
 /// Removes small connected components; adjacent patches are connected if their inverse depths
 /// differ by at most 2 %.
 void remove_islands(uint8_t* states, const ck_patch_map& map, int minimum) {
-  const int w = map.view.width, h = map.view.height;
+  const int w = map.view.camera.width, h = map.view.camera.height;
   std::vector<uint8_t> visited(static_cast<size_t>(w) * h, 0);
   std::vector<int> island;
   for (int start = 0; start < w * h; ++start) {
@@ -183,7 +184,7 @@ void remove_islands(uint8_t* states, const ck_patch_map& map, int minimum) {
                              y > 0 ? cell - w : -1, y + 1 < h ? cell + w : -1};
       for (int other : around) {
         if (other < 0 || visited[other] || !states[other]) continue;
-        if (std::abs(map.patches[other].inverse_depth - depth) > 0.02f * depth) continue;
+        if (std::abs(map.patches[other].inverse_depth - depth) > kIslandDepthStep * depth) continue;
         visited[other] = 1;
         island.push_back(other);
       }
@@ -196,9 +197,9 @@ void remove_islands(uint8_t* states, const ck_patch_map& map, int minimum) {
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_filter(uint8_t* states, uint8_t* visibility, const ck_patch_map* reference,
-                            const ck_patch_map* neighbors, size_t neighbor_count,
-                            const ck_patch_filter_options* options, const ck_control* control) {
+ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* neighbors,
+                            size_t neighbor_count, const ck_patch_filter_options* options,
+                            const ck_control* control, uint8_t* states, uint8_t* visibility) {
   return ck::guarded([&] {
     using namespace ck::patches;
     ck::require(states && reference && options && (neighbors || neighbor_count == 0),

@@ -1,8 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
 #include "core/guard.h"
+#include "geometry/pose.h"
+#include "patches/constants.h"
 #include "patches/geometric_consistency.h"
 
 namespace ck::patches {
@@ -40,8 +43,7 @@ struct Group {
   /// Adds the patch of a view.
   void add(const ck_patch_map& map, size_t cell, const Estimate& estimate) {
     const float c = map.patches[cell].cost;
-    constexpr float kPerfect = 0.05f;  // matching cost below which patches are equally good
-    const float weight = 1 / (kPerfect + c);
+    const float weight = 1 / (kFusionCostOffset + c);
     sum.w += weight * estimate.w;
     for (int i = 0; i < 3; ++i) sum.normal[i] += weight * estimate.normal[i];
     sum.weight += weight;
@@ -51,28 +53,41 @@ struct Group {
   }
 };
 
+/// `cameraFromWorld` with the rotation by rows.
+struct Frame {
+  std::array<double, 9> rotation;
+  double translation[3];
+
+  explicit Frame(const ck_pose& pose)
+      : rotation(rotation_rows(pose)), translation{pose.tx, pose.ty, pose.tz} {}
+};
+
 /// Fuses the accepted patches of one view.
 class Fusion {
  public:
   Fusion(const ck_patch_map& reference, const ck_patch_map* neighbors, size_t count,
          const ck_patch_filter_options& options)
       : reference_(reference),
+        frame_(reference.view.camera_from_world),
         options_(options),
         thresholds_(reference.view, options),
         check_(consistency_check(options.instructions)),
-        row_(reference.view.width) {
+        row_(reference.view.camera.width) {
     for (size_t i = 0; i < count; ++i) neighbors_.push_back(&neighbors[i]);
     // Sorted by photo, so that the result does not depend on the order of the input.
     std::sort(neighbors_.begin(), neighbors_.end(),
               [](const auto* a, const auto* b) { return a->photo < b->photo; });
     for (const ck_patch_map* map : neighbors_) {
+      neighbor_frames_.emplace_back(map->view.camera_from_world);
       projections_.emplace_back(reference.view, *map);
-      results_.emplace_back(reference.view.width);
+      results_.emplace_back(reference.view.camera.width);
     }
   }
 
-  ck_fused_patch* run(ck_fused_patch* fused, const ck_control* control) {
-    const int width = reference_.view.width, height = reference_.view.height;
+  /// Writes at most `capacity` points; returns their number.
+  size_t run(ck_fused_patch* fused, size_t capacity, const ck_control* control) {
+    size_t count = 0;
+    const int width = reference_.view.camera.width, height = reference_.view.camera.height;
     for (int y = 0; y < height; ++y) {
       step(control, static_cast<double>(y) / height);
       const size_t start = static_cast<size_t>(y) * width;
@@ -83,10 +98,13 @@ class Fusion {
         check_(projections_[i], thresholds_, row_, results_[i]);
       }
       for (int x = 0; x < width; ++x) {
-        if (states[x] && collect(x, y) && fuse(*fused, x, y)) ++fused;
+        ck_fused_patch point;
+        if (!states[x] || !collect(x, y) || !fuse(point, x, y)) continue;
+        require(count < capacity, "there is no room for all points");
+        fused[count++] = point;
       }
     }
-    return fused;
+    return count;
   }
 
  private:
@@ -102,7 +120,7 @@ class Fusion {
   /// Collects the accepted patches that are consistent with one of the reference; false if the
   /// point belongs to another view (smaller footprint, or equal footprint and lower photo).
   bool collect(int x, int y) {
-    const size_t cell = static_cast<size_t>(y) * reference_.view.width + x;
+    const size_t cell = static_cast<size_t>(y) * reference_.view.camera.width + x;
     group_.clear();
     group_.add(reference_, cell, estimate(x, y, row_.w[x], row_.gx[x], row_.gy[x]));
     const int reference_footprint = reference_.states[cell];
@@ -127,13 +145,13 @@ class Fusion {
     result = {};
     const Estimate& sum = group_.sum;
     const double depth = sum.weight / sum.w;
-    const ck_patch_view& view = reference_.view;
-    const double p[3] = {(x + 0.5 - view.cx) / view.fx * depth - view.translation[0],
-                         (y + 0.5 - view.cy) / view.fy * depth - view.translation[1],
-                         depth - view.translation[2]};
+    const ck_camera& camera = reference_.view.camera;
+    const double* t = frame_.translation;
+    const double p[3] = {(x + 0.5 - camera.cx) / camera.fx * depth - t[0],
+                         (y + 0.5 - camera.cy) / camera.fy * depth - t[1], depth - t[2]};
     const double n[3] = {-sum.normal[0], -sum.normal[1], -sum.normal[2]};
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    const double* r = view.rotation;
+    const auto& r = frame_.rotation;
     const int count = group_.count;
     for (int i = 0; i < 3; ++i) {
       result.position[i] = static_cast<float>(r[i] * p[0] + r[3 + i] * p[1] + r[6 + i] * p[2]);
@@ -142,7 +160,7 @@ class Fusion {
       result.color[i] = static_cast<uint8_t>((group_.color[i] + count / 2) / count);
     }
     result.consistency = 1 - group_.cost / static_cast<float>(count);
-    result.footprint = static_cast<float>(depth / view.fx);
+    result.footprint = static_cast<float>(depth / camera.fx);
     list_photos(result);
     return result.photo_count > 1;
   }
@@ -156,7 +174,7 @@ class Fusion {
     };
     bool is_listed = false;
     for (size_t i : group_.neighbors) {
-      if (!is_in_front(neighbors_[i]->view, result)) continue;
+      if (!is_in_front(neighbor_frames_[i], result)) continue;
       if (!is_listed && neighbors_[i]->photo > reference_.photo) {
         add(reference_.photo);
         is_listed = true;
@@ -166,11 +184,11 @@ class Fusion {
     if (!is_listed) add(reference_.photo);
   }
 
-  static bool is_in_front(const ck_patch_view& view, const ck_fused_patch& patch) {
+  static bool is_in_front(const Frame& view, const ck_fused_patch& patch) {
     const float *n = patch.normal, *p = patch.position;
     double dot = 0;
     for (int i = 0; i < 3; ++i) {
-      const double* r = view.rotation + 3 * i;
+      const double* r = view.rotation.data() + 3 * i;
       const double seen = r[0] * p[0] + r[1] * p[1] + r[2] * p[2] + view.translation[i];
       dot += (r[0] * n[0] + r[1] * n[1] + r[2] * n[2]) * seen;
     }
@@ -178,10 +196,12 @@ class Fusion {
   }
 
   const ck_patch_map& reference_;
+  const Frame frame_;
   const ck_patch_filter_options& options_;
   const ConsistencyThresholds thresholds_;
   const ConsistencyCheck check_;
   std::vector<const ck_patch_map*> neighbors_;
+  std::vector<Frame> neighbor_frames_;
   std::vector<RelativeProjection> projections_;
   PatchRow row_;
   std::vector<ConsistencyRow> results_;
@@ -191,15 +211,16 @@ class Fusion {
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_fuse(ck_fused_patch* fused, size_t* fused_count, const ck_patch_map* reference,
-                          const ck_patch_map* neighbors, size_t neighbor_count,
-                          const ck_patch_filter_options* options, const ck_control* control) {
+ck_status ck_patches_fuse(const ck_patch_map* reference, const ck_patch_map* neighbors,
+                          size_t neighbor_count, const ck_patch_filter_options* options,
+                          const ck_control* control, ck_fused_patch* fused, size_t capacity,
+                          size_t* fused_count) {
   return ck::guarded([&] {
     using namespace ck::patches;
     ck::require(fused && fused_count && reference && reference->states && options &&
                     (neighbors || neighbor_count == 0),
                 "missing argument");
     Fusion fusion(*reference, neighbors, neighbor_count, *options);
-    *fused_count = static_cast<size_t>(fusion.run(fused, control) - fused);
+    *fused_count = fusion.run(fused, capacity, control);
   });
 }

@@ -16,17 +16,17 @@ size_t padded(int width) { return (static_cast<size_t>(width) + kLanes - 1) / kL
 
 RelativeProjection::RelativeProjection(const ck_patch_view& reference, const ck_patch_map& neighbor)
     : PixelTransfer(reference, neighbor.view, 1),
-      magnification(static_cast<float>(neighbor.view.fx / reference.fx)),
-      width(neighbor.view.width),
-      height(neighbor.view.height),
+      magnification(static_cast<float>(neighbor.view.camera.fx / reference.camera.fx)),
+      width(neighbor.view.camera.width),
+      height(neighbor.view.camera.height),
       patches(neighbor.patches) {}
 
 ConsistencyThresholds::ConsistencyThresholds(const ck_patch_view& reference,
                                              const ck_patch_filter_options& options)
-    : fx(static_cast<float>(reference.fx)),
-      fy(static_cast<float>(reference.fy)),
-      cx(static_cast<float>(reference.cx - 0.5)),
-      cy(static_cast<float>(reference.cy - 0.5)),
+    : fx(static_cast<float>(reference.camera.fx)),
+      fy(static_cast<float>(reference.camera.fy)),
+      cx(static_cast<float>(reference.camera.cx - 0.5)),
+      cy(static_cast<float>(reference.camera.cy - 0.5)),
       cost(options.weak_texture_threshold),
       reprojection(options.reprojection_threshold),
       depth(options.depth_threshold),

@@ -2,21 +2,10 @@
 // set. The including file defines CK_CONSISTENCY_KERNELS (the name of the table) and `gather`, and
 // sets the target.
 
+#include "core/vectors.inl"
+
 namespace ck::patches {
 namespace {
-
-#define CK_INLINE inline __attribute__((always_inline))
-
-CK_INLINE F16 load(const float* p) {
-  F16 v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-template <typename Vector, typename T>
-CK_INLINE void store(T* p, const Vector& v) {
-  __builtin_memcpy(p, &v, sizeof v);
-}
 
 CK_INLINE F16 clamped(const F16& v, float low, float high) {
   return __builtin_elementwise_min(__builtin_elementwise_max(v, F16(low)), F16(high));

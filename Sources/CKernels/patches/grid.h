@@ -1,5 +1,6 @@
 #pragma once
 
+#include "patches/constants.h"
 #include "patches/view.h"
 
 namespace ck::patches {
@@ -12,11 +13,7 @@ struct Plane {
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
-/// Lower bound of the cost of a weakly textured patch; patches of this cost are not propagated into
-/// holes.
-constexpr float kWeakCost = 0.4f;
-
-/// Bit mask of all sources.
+/// All sources, a bit each.
 constexpr uint8_t kAllSources = 0xff;
 
 /// Number of pixels optimized together: enough to hide memory latency, few enough for the
@@ -150,8 +147,7 @@ inline bool is_plausible(const Comparison& c, int x, int y, const Plane& p) {
   const float nz = p.w + p.gx * (c.cx - x - 0.5f) + p.gy * (c.cy - y - 0.5f);
   const float normal2 = nx * nx + ny * ny + nz * nz;
   const float ray2 = rx * rx + ry * ry + 1;
-  constexpr float kGrazing = 0.17f;  // cosine of 80°
-  return p.w * p.w > kGrazing * kGrazing * normal2 * ray2;
+  return p.w * p.w > kGrazingCosine * kGrazingCosine * normal2 * ray2;
 }
 
 }  // namespace ck::patches

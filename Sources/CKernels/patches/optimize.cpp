@@ -70,26 +70,24 @@ void PatchOptimizer::run(Trials& trials) {
 }
 
 void PatchOptimizer::test_each(const Plane* planes) {
-  constexpr float kSame = 0.4f;  // Pixels; within reach of Gauss–Newton.
   Trials trials;
   for (int i = 0; i < count_; ++i) {
     const Candidate& pixel = pixels_[i];
-    if (pixel.is_empty() || motion(pixel.plane, planes[i]) > kSame) add(trials, i, planes[i]);
+    if (pixel.is_empty() || motion(pixel.plane, planes[i]) > kSamePlaneMotion)
+      add(trials, i, planes[i]);
   }
   run(trials);
 }
 
 void PatchOptimizer::revert_to_coarse_if_weak() {
-  constexpr float kDistinct = 0.95f;  // confidence at a signal-to-noise ratio of about 3
-  constexpr float kMargin = 0.1f;     // required difference in 1 − ZNCC
   for (int i = 0; i < count_; ++i) {
     Candidate& pixel = pixels_[i];
     const auto& inherited = pixel.inherited;
-    const bool is_weak = pixel.reference.confidence < kDistinct;
-    if (inherited.plane.w > 0 && is_weak && inherited.cost + kMargin < pixel.cost) {
+    const bool is_weak = pixel.reference.confidence < kDistinctConfidence;
+    if (inherited.plane.w > 0 && is_weak && inherited.cost + kInheritedCostMargin < pixel.cost) {
       pixel.plane = inherited.plane;
       pixel.cost = inherited.cost;
-      if (pixel.cost < kWeakCost) pixel.cost = kWeakCost + 0.25f * pixel.cost;
+      if (pixel.cost < kWeakCost) pixel.cost = kWeakCost + kWeakCostSlope * pixel.cost;
     }
   }
 }
@@ -111,7 +109,7 @@ void PatchOptimizer::perturb(int count, uint32_t seed) {
   }
   float range = 1;
   for (int round = 0; round < count; ++round, range *= 0.5f) {
-    const float depth = 0.02f * range, slant = 0.7f * range;
+    const float depth = kPerturbedDepth * range, slant = kPerturbedSlant * range;
     Trials trials;
     for (int i = 0; i < count_; ++i) {
       if (pixels_[i].is_empty()) continue;
@@ -127,7 +125,6 @@ void PatchOptimizer::perturb(int count, uint32_t seed) {
 }
 
 void PatchOptimizer::refine(int steps, bool only_new) {
-  constexpr float kClose = 0.2f;  // Pixels; shorter steps are accepted without verification.
   Trials moving;
   for (int i = 0; i < count_; ++i) {
     if (pixels_[i].is_new || !only_new) moving.pixels[moving.count++] = i;
@@ -146,7 +143,7 @@ void PatchOptimizer::refine(int steps, bool only_new) {
       if (!is_determined[n]) continue;
       Candidate& pixel = pixels_[moving.pixels[n]];
       if (comparison_.is_fronto_parallel) next[n] = {next[n].w, 0, 0};
-      if (motion(pixel.plane, next[n]) >= kClose) {
+      if (motion(pixel.plane, next[n]) >= kUnverifiedMotion) {
         add(trials, moving.pixels[n], next[n]);
       } else if (is_plausible(comparison_, pixel.cell.x, pixel.cell.y, next[n])) {
         pixel.plane = next[n];

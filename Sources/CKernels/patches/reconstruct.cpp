@@ -14,8 +14,10 @@ namespace {
 /// 32 pixels.
 int level_count(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,
                 int requested) {
-  int side = std::min(reference.width, reference.height);
-  for (size_t i = 0; i < count; ++i) side = std::min({side, sources[i].width, sources[i].height});
+  int side = std::min(reference.camera.width, reference.camera.height);
+  for (size_t i = 0; i < count; ++i) {
+    side = std::min({side, sources[i].camera.width, sources[i].camera.height});
+  }
   int levels = 1;
   while (levels < requested && (side >> levels) >= 32) ++levels;
   return levels;
@@ -33,7 +35,7 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
   Grid grid;
   double progress = 0;
   for (int level = levels - 1; level >= 0; --level) {
-    const Comparison comparison = pyramids.compare(level, range, 2, options);
+    const Comparison comparison = pyramids.compare(level, range, kSeedRangeMargin, options);
     const bool is_coarsest = level == levels - 1;
     if (is_coarsest) {
       grid = Grid(comparison.width, comparison.height);
@@ -63,10 +65,10 @@ Grid reconstruct(const ck_patch_view& reference, const ck_patch_view* sources, s
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_reconstruct(ck_patch* patches, const ck_patch_view* reference,
-                                 const ck_patch_view* sources, size_t source_count,
-                                 const ck_patch_seed* seeds, size_t seed_count,
-                                 const ck_patch_options* options, const ck_control* control) {
+ck_status ck_patches_reconstruct(const ck_patch_view* reference, const ck_patch_view* sources,
+                                 size_t source_count, const ck_patch_seed* seeds, size_t seed_count,
+                                 const ck_patch_options* options, const ck_control* control,
+                                 ck_patch* patches) {
   return ck::guarded([&] {
     using namespace ck::patches;
     ck::require(patches && reference && sources && options, "missing argument");

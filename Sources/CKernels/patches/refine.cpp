@@ -11,7 +11,8 @@ namespace {
 /// Initializes finer patches from filtered coarse ones.
 class Parents {
  public:
-  explicit Parents(const ck_patch_map& map) : map_(map), grid_(map.view.width, map.view.height) {
+  explicit Parents(const ck_patch_map& map)
+      : map_(map), grid_(map.view.camera.width, map.view.camera.height) {
     grid_.read(map.patches);
     for (const Plane& plane : grid_.planes) range_.include(plane.w);
   }
@@ -39,15 +40,14 @@ class Parents {
   /// around and none of them has a low cost: nothing that would pass the filter can grow from
   /// these.
   uint8_t sources_at(int x, int y) const {
-    constexpr float kPromising = 0.3f;  // cost, 1 − ZNCC
-    constexpr int kEnough = 3;          // sources
+    constexpr int kEnough = 3;
     bool is_promising = false;
     unsigned consistent = 0;
     for (int j = std::max(0, y - 1); j <= std::min(grid_.height - 1, y + 1); ++j) {
       for (int i = std::max(0, x - 1); i <= std::min(grid_.width - 1, x + 1); ++i) {
         const size_t cell = grid_.index(i, j);
         if (map_.states[cell]) consistent |= map_.visibility[cell];
-        is_promising |= map_.states[cell] != 0 || grid_.costs[cell] < kPromising;
+        is_promising |= map_.states[cell] != 0 || grid_.costs[cell] < kPromisingCost;
       }
     }
     if (!is_promising) return 0;
@@ -71,10 +71,11 @@ Grid refine(const ck_patch_view& reference, const ck_patch_view* sources, size_t
             const ck_patch_map& coarse, const ck_patch_options& options,
             const ck_control* control) {
   const Parents parents(coarse);
-  Grid grid = parents.children(reference.width, reference.height);
+  Grid grid = parents.children(reference.camera.width, reference.camera.height);
   if (parents.range().is_empty()) return grid;
   const Pyramids pyramids(reference, sources, count, 1);
-  const Comparison comparison = pyramids.compare(0, parents.range(), 1.5f, options);
+  const Comparison comparison =
+      pyramids.compare(0, parents.range(), kRefinementRangeMargin, options);
   Sweep sweep;
   sweep.refinement_steps = options.refinement_steps;
   sweep.may_inherit = true;
@@ -86,19 +87,19 @@ Grid refine(const ck_patch_view& reference, const ck_patch_view* sources, size_t
 }  // namespace
 }  // namespace ck::patches
 
-ck_status ck_patches_refine(ck_patch* patches, const ck_patch_view* reference,
-                            const ck_patch_view* sources, size_t source_count,
-                            const ck_patch_map* coarse, const ck_patch_options* options,
-                            const ck_control* control) {
+ck_status ck_patches_refine(const ck_patch_view* reference, const ck_patch_view* sources,
+                            size_t source_count, const ck_patch_map* coarse,
+                            const ck_patch_options* options, const ck_control* control,
+                            ck_patch* patches) {
   return ck::guarded([&] {
     using namespace ck::patches;
     ck::require(patches && reference && sources && coarse && coarse->states && coarse->visibility &&
                     options,
                 "missing argument");
     check_views(*reference, source_count);
-    ck::require(
-        coarse->view.width == reference->width / 2 && coarse->view.height == reference->height / 2,
-        "the coarse patches do not have half the resolution");
+    const ck_camera &half = coarse->view.camera, &whole = reference->camera;
+    ck::require(half.width == whole.width / 2 && half.height == whole.height / 2,
+                "the coarse patches are not of half the resolution");
     refine(*reference, sources, source_count, *coarse, *options, control).write(patches);
   });
 }

@@ -2,10 +2,10 @@
 // including file defines CK_PATCH_KERNELS (the name of the table) and `gather`, and sets the
 // target.
 
+#include "core/vectors.inl"
+
 namespace ck::patches {
 namespace {
-
-#define CK_INLINE inline __attribute__((always_inline))
 
 // A vector of 16 lanes holds one row of four texels for each of four sources.
 constexpr int kSlots = 4;
@@ -21,22 +21,6 @@ CK_INLINE float sum(const F16& v) {
   const F4 b = a.lo + a.hi;
   return (b.x + b.z) + (b.y + b.w);
 }
-
-CK_INLINE F16 load(const float* p) {
-  F16 v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-CK_INLINE void store(float* p, const F16& v) { __builtin_memcpy(p, &v, sizeof v); }
-
-CK_INLINE F8 load8(const float* p) {
-  F8 v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-CK_INLINE void store8(float* p, const F8& v) { __builtin_memcpy(p, &v, sizeof v); }
 
 CK_INLINE F8 absolute(const F8& v) { return __builtin_elementwise_abs(v); }
 
@@ -69,8 +53,9 @@ CK_INLINE void locate(const Warps& t, int x, int y, const Plane& p, Footprints& 
   const F8 area = f.ax * f.by - f.ay * f.bx;
   const F8 eu = 2.0f * (absolute(f.ax) + absolute(f.bx));
   const F8 ev = 2.0f * (absolute(f.ay) + absolute(f.by));
-  f.is_valid = (qz > 1e-6f) & (area > 0.1f) & (area < 8.0f) & (f.u - eu > 0.5f) &
-               (f.v - ev > 0.5f) & (f.u + eu < load8(t.limit_u)) & (f.v + ev < load8(t.limit_v));
+  f.is_valid = (qz > 1e-6f) & (area > kSmallestFootprint) & (area < kLargestFootprint) &
+               (f.u - eu > 0.5f) & (f.v - ev > 0.5f) & (f.u + eu < load8(t.limit_u)) &
+               (f.v + ev < load8(t.limit_v));
   const F8 du = (ex - f.u * ez) * inverse_z, dv = (ey - f.v * ez) * inverse_z;
   const F8 inverse_area = 1.0f / area;
   f.motion_x = (f.by * du - f.bx * dv) * inverse_area;
@@ -294,11 +279,10 @@ CK_INLINE void conclude(const Comparison& c, Trial& trial, int count, const Mome
   const float second = std::min(std::max(one.first, more.first), std::min(one.second, more.second));
   trial.cost = c.warps.count == 1 ? first : 0.5f * (first + second);
   Samples& samples = *trial.samples;
-  store8(samples.mean, mean);
-  store8(samples.inverse_deviation, inverse_deviation);
-  // Sources with a much higher cost than the best one are occluded and do not contribute to the
-  // step.
-  samples.visible_slots = mask(costs < std::min(1.0f, 1.5f * first + 0.05f));
+  store(samples.mean, mean);
+  store(samples.inverse_deviation, inverse_deviation);
+  // Those that see the patch much worse than the best one, for what is in front of it, don't vote.
+  samples.visible_slots = mask(costs < std::min(1.0f, kVoterFactor * first + kVoterOffset));
   samples.group_count = (count + kSlots - 1) / kSlots;
 }
 
@@ -316,8 +300,8 @@ void score(const Comparison& c, Trial* trials, int count) {
     locate(c.warps, trial.cell.x, trial.cell.y, trial.plane, footprints[i]);
     const unsigned valid = mask(footprints[i].is_valid) & trial.sources;
     sources[i] = {kSourcesOf.sources[valid], __builtin_popcount(valid)};
-    store8(trial.samples->motion_x, permute(footprints[i].motion_x, sources[i].of_slot));
-    store8(trial.samples->motion_y, permute(footprints[i].motion_y, sources[i].of_slot));
+    store(trial.samples->motion_x, permute(footprints[i].motion_x, sources[i].of_slot));
+    store(trial.samples->motion_y, permute(footprints[i].motion_y, sources[i].of_slot));
     for (int g = 0; g < 2; ++g) {
       groups[group_count] = {i, g};
       group_count += sources[i].count > kSlots * g;

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "geometry/pose.h"
+
 namespace ck::patches {
 
 Image image_of(const ck_patch_view& view) {
   Image image;
-  image.width = view.width;
-  image.height = view.height;
+  image.width = view.camera.width;
+  image.height = view.camera.height;
   image.luma.assign(view.luma, view.luma + image.pixel_count());
   return image;
 }
@@ -20,7 +22,7 @@ Image half(const Image& image) {
   result.width = image.width / 2;
   result.height = image.height / 2;
   result.luma.resize(result.pixel_count());
-  ck_patches_halve(result.luma.data(), image.luma.data(), image.width, image.height);
+  ck_patches_halve(image.luma.data(), image.width, image.height, result.luma.data());
   return result;
 }
 
@@ -44,18 +46,22 @@ using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 /// The camera matrix K of a view reduced to `scale` of its size.
 Matrix calibration(const ck_patch_view& view, double scale) {
   Matrix k = Matrix::Identity();
-  k(0, 0) = view.fx * scale;
-  k(1, 1) = view.fy * scale;
-  k(0, 2) = view.cx * scale;
-  k(1, 2) = view.cy * scale;
+  k(0, 0) = view.camera.fx * scale;
+  k(1, 1) = view.camera.fy * scale;
+  k(0, 2) = view.camera.cx * scale;
+  k(1, 2) = view.camera.cy * scale;
   return k;
 }
 
 }  // namespace
 
 PixelTransfer::PixelTransfer(const ck_patch_view& from, const ck_patch_view& to, double scale) {
-  const Eigen::Map<const Matrix> r_from(from.rotation), r_to(to.rotation);
-  const Eigen::Map<const Eigen::Vector3d> t_from(from.translation), t_to(to.translation);
+  const ck_pose &from_world = from.camera_from_world, &to_world = to.camera_from_world;
+  const std::array<double, 9> rows_from = rotation_rows(from_world);
+  const std::array<double, 9> rows_to = rotation_rows(to_world);
+  const Eigen::Map<const Matrix> r_from(rows_from.data()), r_to(rows_to.data());
+  const Eigen::Vector3d t_from(from_world.tx, from_world.ty, from_world.tz);
+  const Eigen::Vector3d t_to(to_world.tx, to_world.ty, to_world.tz);
   const Matrix rotation = r_to * r_from.transpose();
   const Eigen::Vector3d translation = t_to - rotation * t_from;
   const Matrix k_to = calibration(to, scale);
@@ -91,7 +97,7 @@ void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_vie
 
 }  // namespace ck::patches
 
-void ck_patches_halve(uint8_t* result, const uint8_t* luma, int32_t width, int32_t height) {
+void ck_patches_halve(const uint8_t* luma, int32_t width, int32_t height, uint8_t* result) {
   for (int y = 0; y < height / 2; ++y) {
     const uint8_t* upper = luma + static_cast<ptrdiff_t>(2 * y) * width;
     const uint8_t* lower = upper + width;

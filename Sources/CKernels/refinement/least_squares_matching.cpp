@@ -129,24 +129,22 @@ ck_template_match search(const LumaPyramid& image, const Template& model,
   return nothing;
 }
 
-void check_image(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                 size_t row_stride) {
+LumaPyramid pyramid_of(const ck_pixels& photo) {
+  const auto [pixels, width, height, channels, row_stride] = photo;
   require(pixels && width > 0 && height > 0, "an image is needed");
   require(channels == 1 || channels == 3 || channels == 4, "1, 3 or 4 channels are needed");
   require(row_stride >= static_cast<size_t>(width) * channels, "the row stride is too small");
+  return LumaPyramid(pixels, width, height, channels, row_stride);
 }
 
 }  // namespace
 }  // namespace ck
 
-ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t height,
-                               int32_t channels, size_t row_stride,
-                               const ck_template_location* locations, size_t count,
-                               uint16_t* samples, uint8_t* valid) {
+ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_location* locations,
+                               size_t place_count, uint16_t* samples, uint8_t* valid) {
   return ck::guarded([&] {
-    ck::check_image(pixels, width, height, channels, row_stride);
-    const ck::LumaPyramid image(pixels, width, height, channels, row_stride);
-    for (size_t i = 0; i < count; ++i) {
+    const ck::LumaPyramid image = ck::pyramid_of(*photo);
+    for (size_t i = 0; i < place_count; ++i) {
       const ck_template_location& p = locations[i];
       float values[CK_TEMPLATE_SAMPLES];
       uint16_t* out = samples + i * CK_TEMPLATE_SAMPLES;
@@ -162,14 +160,12 @@ ck_status ck_extract_templates(const uint8_t* pixels, int32_t width, int32_t hei
   });
 }
 
-ck_status ck_match_templates(const uint8_t* pixels, int32_t width, int32_t height, int32_t channels,
-                             size_t row_stride, const uint16_t* samples, size_t template_count,
-                             const ck_template_search* searches, size_t count, double maximum_shift,
-                             ck_template_match* matches) {
+ck_status ck_match_templates(const ck_pixels* photo, const uint16_t* samples, size_t template_count,
+                             const ck_template_search* searches, size_t search_count,
+                             double maximum_shift, ck_template_match* matches) {
   return ck::guarded([&] {
-    ck::check_image(pixels, width, height, channels, row_stride);
-    const ck::LumaPyramid image(pixels, width, height, channels, row_stride);
-    for (size_t i = 0; i < count; ++i) {
+    const ck::LumaPyramid image = ck::pyramid_of(*photo);
+    for (size_t i = 0; i < search_count; ++i) {
       const ck_template_search& s = searches[i];
       ck::require(s.index >= 0 && static_cast<size_t>(s.index) < template_count,
                   "a search refers to a template that does not exist");

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
+#include "core/opencv.h"
+
 namespace ck {
 namespace {
 
@@ -35,7 +37,9 @@ LumaPyramid::LumaPyramid(const uint8_t* pixels, int width, int height, int chann
   if (channels == 1) {
     photo.copyTo(luma);
   } else {
-    cv::cvtColor(photo, luma, channels == 4 ? cv::COLOR_RGBA2GRAY : cv::COLOR_RGB2GRAY);
+    on_one_thread([&] {
+      cv::cvtColor(photo, luma, channels == 4 ? cv::COLOR_RGBA2GRAY : cv::COLOR_RGB2GRAY);
+    });
   }
   levels_.push_back(std::move(base));
   while (levels_.size() < kLevels && std::min(levels_.back().width, levels_.back().height) >= 32) {

@@ -174,7 +174,7 @@ int p3p(const std::array<Vector3, 3>& rays, const std::array<Vector3, 3>& points
 
 }  // namespace ck
 
-ck_status ck_p3p(ck_pose* poses, size_t* pose_count, const double* rays, const double* points) {
+ck_status ck_p3p(const double* rays, const double* points, ck_pose* poses, size_t* pose_count) {
   return ck::guarded([&] {
     ck::require(poses && pose_count && rays && points, "p3p needs rays and points");
     std::array<ck::Vector3, 3> r, p;

@@ -7,6 +7,7 @@
 
 #include "core/guard.h"
 #include "core/random.h"
+#include "core/span.h"
 #include "resection/p3p.h"
 
 namespace ck {
@@ -14,12 +15,12 @@ namespace {
 
 /// The 2D–3D correspondences of a photo.
 struct Resection {
-  const ck_camera_model& camera;
+  const ck_camera& camera;
   std::vector<Vector3> points;
   std::vector<Vector2> pixels;
   /// Unit rays in the camera frame.
   std::vector<Vector3> rays;
-  double maximum_squared_error;
+  double maximum_square;
 
   size_t size() const { return points.size(); }
 
@@ -34,7 +35,7 @@ struct Resection {
   double score(const Pose& pose, double best) const {
     double sum = 0;
     for (size_t i = 0; i < size(); ++i) {
-      sum += std::min(square_error(pose, i), maximum_squared_error);
+      sum += std::min(square_error(pose, i), maximum_square);
       if (sum >= best) return sum;
     }
     return sum;
@@ -42,7 +43,7 @@ struct Resection {
 
   size_t count_inliers(const Pose& pose) const {
     size_t count = 0;
-    for (size_t i = 0; i < size(); ++i) count += square_error(pose, i) <= maximum_squared_error;
+    for (size_t i = 0; i < size(); ++i) count += square_error(pose, i) <= maximum_square;
     return count;
   }
 
@@ -75,13 +76,13 @@ struct Resection {
       const Vector3 rotated = pose.rotation * points[i];
       const Vector3 p = rotated + pose.translation;
       if (!(p.z() > 1e-9)) {
-        cost += maximum_squared_error;
+        cost += maximum_square;
         continue;
       }
       const Vector2 r = project(camera, p) - pixels[i];
       const double square = r.squaredNorm();
-      cost += std::min(square, maximum_squared_error);
-      if (square > maximum_squared_error) continue;
+      cost += std::min(square, maximum_square);
+      if (square > maximum_square) continue;
       const Eigen::Matrix<double, 2, 3> jp = project_jacobian(camera, p);
       Eigen::Matrix<double, 2, 6> j;
       for (int row = 0; row < 2; ++row) {
@@ -157,7 +158,7 @@ bool search(const Resection& problem, const ck_resection_options& options,
       if (!(score < best_score)) continue;
       best = poses[k];
       best_score = score;
-      const Pose local = problem.refine(poses[k], 8, std::sqrt(problem.maximum_squared_error) / 3);
+      const Pose local = problem.refine(poses[k], 8, std::sqrt(problem.maximum_square) / 3);
       score = problem.score(local, best_score);
       if (score < best_score) {
         best = local;
@@ -173,25 +174,24 @@ bool search(const Resection& problem, const ck_resection_options& options,
 }  // namespace
 }  // namespace ck
 
-ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const double* pixels,
-                    const double* points, size_t point_stride, size_t count,
-                    const ck_camera_model* camera, const ck_resection_options* options,
-                    const ck_control* control) {
+ck_status ck_resect(const ck_camera* camera, ck_span pixels, ck_span points,
+                    const ck_resection_options* options, const ck_control* control, ck_pose* pose,
+                    uint8_t* inliers, size_t* inlier_count) {
   return ck::guarded([&] {
     using namespace ck;
-    require(pose && inliers && inlier_count && pixels && points && camera && options,
+    require(pose && inliers && inlier_count && points.count == pixels.count && camera && options,
             "resection needs pixels, points and a camera");
     require(options->maximum_error > 0 && options->maximum_iterations > 0,
             "a resection option is out of range");
     *inlier_count = 0;
+    const size_t count = points.count;
     if (count < 4) throw Degenerate("resection needs at least four points");
     Resection problem{*camera, {}, {}, {}, options->maximum_error * options->maximum_error};
     for (size_t i = 0; i < count; ++i) {
-      const auto* p =
-          reinterpret_cast<const double*>(reinterpret_cast<const char*>(points) + i * point_stride);
+      const double *p = Strided<double>(points)[i], *pixel = Strided<double>(pixels)[i];
       problem.points.emplace_back(p[0], p[1], p[2]);
-      problem.pixels.emplace_back(pixels[2 * i], pixels[2 * i + 1]);
-      const Vector2 ray = unproject(*camera, pixels[2 * i], pixels[2 * i + 1]);
+      problem.pixels.emplace_back(pixel[0], pixel[1]);
+      const Vector2 ray = unproject(*camera, pixel[0], pixel[1]);
       problem.rays.push_back(Vector3(ray.x(), ray.y(), 1).normalized());
       require(problem.points.back().allFinite() && problem.rays.back().allFinite(),
               "resection needs finite points and pixels");
@@ -201,7 +201,7 @@ ck_status ck_resect(ck_pose* pose, uint8_t* inliers, size_t* inlier_count, const
       throw Degenerate("no pose agrees with the points");
     best = problem.refine(best, 20, std::min(1.0, options->maximum_error));
     for (size_t i = 0; i < count; ++i) {
-      inliers[i] = problem.square_error(best, i) <= problem.maximum_squared_error;
+      inliers[i] = problem.square_error(best, i) <= problem.maximum_square;
       *inlier_count += inliers[i];
     }
     *pose = pose_to(best);

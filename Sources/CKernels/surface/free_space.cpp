@@ -7,7 +7,7 @@
 #include "ck_surface.h"
 #include "core/guard.h"
 #include "core/parallel.h"
-#include "surface/points.h"
+#include "core/span.h"
 
 namespace {
 
@@ -92,14 +92,14 @@ class CrossedCells {
   std::vector<uint64_t> words_;
 };
 
-/// The indices of the points that each photo sees.
-std::vector<std::vector<uint32_t>> points_of_photos(const uint32_t* offsets, const uint16_t* photos,
-                                                    size_t point_count, size_t photo_count) {
+/// The points that each photo sees.
+std::vector<std::vector<uint32_t>> points_of_photos(const ck_seen_points& seen,
+                                                    size_t photo_count) {
   std::vector<std::vector<uint32_t>> points(photo_count);
-  for (size_t i = 0; i < point_count; ++i) {
-    for (uint32_t k = offsets[i]; k < offsets[i + 1]; ++k) {
-      ck::require(photos[k] < photo_count, "a point refers to a photo that does not exist");
-      points[photos[k]].push_back(static_cast<uint32_t>(i));
+  for (size_t i = 0; i < seen.positions.count; ++i) {
+    for (uint32_t k = seen.photo_offsets[i]; k < seen.photo_offsets[i + 1]; ++k) {
+      ck::require(seen.photos[k] < photo_count, "a point names a photo that does not exist");
+      points[seen.photos[k]].push_back(static_cast<uint32_t>(i));
     }
   }
   return points;
@@ -107,27 +107,26 @@ std::vector<std::vector<uint32_t>> points_of_photos(const uint32_t* offsets, con
 
 }  // namespace
 
-ck_status ck_free_space(const ck_free_space_grid* grid, const float* points, size_t point_stride,
-                        const float* clearances, size_t point_count, const uint32_t* photo_offsets,
-                        const uint16_t* photos, const float* centers, size_t photo_count,
-                        const ck_control* control, uint8_t* counts) {
+ck_status ck_free_space(const ck_free_space_grid* grid, const ck_seen_points* points,
+                        ck_span centers, const ck_control* control, uint8_t* counts) {
   return ck::guarded([&] {
-    ck::require(grid && counts, "null pointer");
-    ck::require(grid->cell_size > 0, "the cell size must be positive");
+    ck::require(grid && points && counts, "null pointer");
+    ck::require(grid->cell_size > 0, "the cells need a size");
     size_t cells = 1;
     for (int size : grid->size) {
       ck::require(size > 0 && size <= 4096, "the grid must have 1 to 4096 cells per side");
       cells *= static_cast<size_t>(size);
     }
     std::fill(counts, counts + cells, 0);
-    if (point_count == 0) return;
-    ck::require(points && clearances && photo_offsets && photos && centers, "null pointer");
-    const auto seen = points_of_photos(photo_offsets, photos, point_count, photo_count);
-    const ck::StridedPoints p{points, point_stride, point_count};
+    const ck::Strided<float> p(points->positions), from(centers);
+    if (p.count == 0) return;
+    ck::require(points->clearances && points->photo_offsets && points->photos && centers.data,
+                "null pointer");
+    const auto seen = points_of_photos(*points, centers.count);
     std::mutex mutex;
-    ck::parallel_for(control, photo_count, [&](size_t photo) {
+    ck::parallel_for(control, centers.count, [&](size_t photo) {
       CrossedCells crossed(*grid);
-      for (uint32_t i : seen[photo]) crossed.cast(centers + 3 * photo, p[i], clearances[i]);
+      for (uint32_t i : seen[photo]) crossed.cast(from[photo], p[i], points->clearances[i]);
       std::lock_guard<std::mutex> lock(mutex);
       crossed.add_to(counts);
     });

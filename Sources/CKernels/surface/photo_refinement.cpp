@@ -6,6 +6,7 @@
 
 #include "core/guard.h"
 #include "core/parallel.h"
+#include "core/span.h"
 
 namespace ck::surface {
 
@@ -98,13 +99,13 @@ struct ck_photo_refinement {
   ck_photo_refinement_options options;
 };
 
-ck_status ck_photo_refinement_create(const float* positions, size_t stride, size_t position_count,
-                                     const uint32_t* triangles, size_t triangle_count,
+ck_status ck_photo_refinement_create(const ck_mesh* input,
                                      const ck_photo_refinement_options* options,
                                      const ck_control* control, ck_photo_refinement** refinement) {
   return ck::guarded([&] {
-    ck::require(positions && triangles && options && refinement, "null pointer");
-    ck::require(position_count > 0 && triangle_count > 0, "the mesh has no triangles");
+    ck::require(input && options && refinement, "null pointer");
+    const auto [positions, triangles, triangle_count] = *input;
+    ck::require(positions.count > 0 && triangle_count > 0, "the mesh has no triangles");
     ck::require(options->rounds >= 0 && options->neighbors >= 0 && options->radius > 0 &&
                     options->noise > 0 && options->minimum_correlation < 1 &&
                     options->smoothness >= 0,
@@ -114,16 +115,16 @@ ck_status ck_photo_refinement_create(const float* positions, size_t stride, size
     auto result = std::make_unique<ck_photo_refinement>();
     result->options = *options;
     auto& mesh = result->mesh;
-    for (size_t i = 0; i < position_count; ++i) {
-      const auto p = ck::texture::vec_at(positions, stride, i);
+    for (size_t i = 0; i < positions.count; ++i) {
+      const auto p = ck::texture::vec_at(positions, i);
       ck::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                   "a mesh vertex is not finite");
       mesh.positions.push_back(p);
     }
     for (size_t t = 0; t < triangle_count; ++t) {
       const uint32_t* v = triangles + 3 * t;
-      ck::require(std::max({v[0], v[1], v[2]}) < position_count,
-                  "a triangle refers to a vertex that does not exist");
+      ck::require(std::max({v[0], v[1], v[2]}) < positions.count,
+                  "a triangle names a vertex that isn't there");
       mesh.triangles.push_back({v[0], v[1], v[2]});
     }
     mesh.find_neighbors();
@@ -131,12 +132,13 @@ ck_status ck_photo_refinement_create(const float* positions, size_t stride, size
   });
 }
 
-ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_pinhole* view,
+ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_view* view,
                                   const uint8_t* rgb, const uint8_t* mask,
                                   const ck_control* control) {
   return ck::guarded([&] {
     ck::require(refinement && view && rgb, "null pointer");
-    ck::require(view->width > 0 && view->height > 0 && view->focal[0] > 0, "the view has no size");
+    ck::require(view->camera.width > 0 && view->camera.height > 0 && view->camera.fx > 0,
+                "the view has no size");
     ck::step(control, 0);
     refinement->views.emplace_back(*view, rgb, mask);
     refinement->views.back().find_depths(refinement->mesh);
@@ -144,9 +146,9 @@ ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_pinh
 }
 
 ck_status ck_photo_refinement_run(ck_photo_refinement* refinement, const ck_control* control,
-                                  float* positions, size_t stride, size_t* moved) {
+                                  ck_mutable_span positions, size_t* moved) {
   return ck::guarded([&] {
-    ck::require(refinement && positions, "null pointer");
+    ck::require(refinement && positions.data, "null pointer");
     auto& mesh = refinement->mesh;
     auto& views = refinement->views;
     const int rounds = refinement->options.rounds;
@@ -162,7 +164,7 @@ ck_status ck_photo_refinement_run(ck_photo_refinement* refinement, const ck_cont
       for (size_t v = 0; v < now.size(); ++v) is_moved[v] |= now[v];
     }
     for (size_t v = 0; v < mesh.positions.size(); ++v) {
-      auto* p = reinterpret_cast<float*>(reinterpret_cast<char*>(positions) + v * stride);
+      float* p = ck::MutableStrided<float>(positions)[v];
       p[0] = mesh.positions[v].x;
       p[1] = mesh.positions[v].y;
       p[2] = mesh.positions[v].z;

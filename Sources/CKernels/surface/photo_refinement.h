@@ -42,7 +42,7 @@ struct RefinementView {
   /// Side in pixels of the squares that share a depth.
   static constexpr int kShrink = 2;
 
-  ck_pinhole pinhole;
+  ck_view view;
   texture::Projection projection;
   std::vector<uint8_t> luminance;
   /// The smallest depth of the surface around each square of pixels; 0 outside the mask, infinity
@@ -51,7 +51,7 @@ struct RefinementView {
   /// Indices of the views to compare with.
   std::vector<uint32_t> partners;
 
-  RefinementView(const ck_pinhole& view, const uint8_t* rgb, const uint8_t* mask);
+  RefinementView(const ck_view& view, const uint8_t* rgb, const uint8_t* mask);
 
   /// Renders the surface and stores the smallest depths.
   void find_depths(const RefinedMesh& mesh);
@@ -60,11 +60,11 @@ struct RefinementView {
   /// Whether a point with this projection is at least `margin` pixels from the image border and not
   /// occluded.
   bool sees(Vec3 projected, float margin) const;
-  /// The side of a pixel at a depth, in world units.
-  float footprint(float depth) const { return depth / static_cast<float>(pinhole.focal[0]); }
+  /// The length at a depth that a pixel shows.
+  float footprint(float depth) const { return depth / static_cast<float>(view.camera.fx); }
 
  private:
-  size_t shrunk_width() const { return static_cast<size_t>(pinhole.width / kShrink + 1); }
+  size_t shrunk_width() const { return static_cast<size_t>(view.camera.width / kShrink + 1); }
 };
 
 /// The rendered surface within its bounding rectangle: triangle index and depth per pixel.

@@ -13,7 +13,9 @@ using texture::dot;
 constexpr float kMinimumCosine = 0.25f;
 /// Correlation from which a window has full weight.
 constexpr float kGoodCorrelation = 0.9f;
-/// Threshold of the Huber weights, in standard deviations of the window.
+/// Share of a window that both photos must show. Empirical.
+constexpr float kLeastCoverage = 0.5f;
+/// Differences beyond this, in standard deviations of the window, count less (Huber).
 constexpr float kLargeDifference = 1;
 /// Image border in pixels that interpolation needs around a position.
 constexpr float kMargin = 3;
@@ -83,7 +85,7 @@ Vec3 sample(const RefinementView& view, float x, float y) {
   y -= 0.5f;
   const int left = static_cast<int>(x), top = static_cast<int>(y);
   const Cubic across(x - static_cast<float>(left)), down(y - static_cast<float>(top));
-  const auto width = static_cast<size_t>(view.pinhole.width);
+  const auto width = static_cast<size_t>(view.view.camera.width);
   const uint8_t* p =
       view.luminance.data() + static_cast<size_t>(top - 1) * width + static_cast<size_t>(left - 1);
   Vec3 result;
@@ -123,7 +125,7 @@ class Comparison {
     for (auto& sum : sums_) sum_squares(image_.width, image_.height, options_.radius, &sum);
     const auto side = static_cast<float>(2 * options_.radius + 1);
     for (size_t i = 0; i < valid_.size(); ++i) {
-      if (valid_[i] > 0 && sums_[kCount][i] > 0.5f * side * side) add_evidence(i);
+      if (valid_[i] > 0 && sums_[kCount][i] > kLeastCoverage * side * side) add_evidence(i);
     }
   }
 
@@ -171,7 +173,7 @@ class Comparison {
     points_[i] = point;
     moves_[i] = ray * (1 / slope);
     reference_[i] =
-        view_.luminance[static_cast<size_t>(y) * static_cast<size_t>(view_.pinhole.width) +
+        view_.luminance[static_cast<size_t>(y) * static_cast<size_t>(view_.view.camera.width) +
                         static_cast<size_t>(x)];
     return e;
   }
@@ -182,12 +184,12 @@ class Comparison {
     valid_.assign(evidence_.size(), 0);
     other_.assign(evidence_.size(), 0);
     slope_.assign(evidence_.size(), 0);
-    const float fx = static_cast<float>(partner.pinhole.focal[0]);
-    const float fy = static_cast<float>(partner.pinhole.focal[1]);
-    const float cx = static_cast<float>(partner.pinhole.center[0]);
-    const float cy = static_cast<float>(partner.pinhole.center[1]);
+    const float fx = static_cast<float>(partner.view.camera.fx);
+    const float fy = static_cast<float>(partner.view.camera.fy);
+    const float cx = static_cast<float>(partner.view.camera.cx);
+    const float cy = static_cast<float>(partner.view.camera.cy);
     float r[9];
-    std::copy(partner.pinhole.rotation, partner.pinhole.rotation + 9, r);
+    std::copy(partner.projection.rotation.begin(), partner.projection.rotation.end(), r);
     for (size_t i = 0; i < evidence_.size(); ++i) {
       if (evidence_[i].triangle == SurfaceImage::kNone) continue;
       const Vec3 p = partner.project(points_[i]);

@@ -52,8 +52,8 @@ std::vector<Vec3> project_all(const RefinedMesh& mesh, const RefinementView& vie
 
 SurfaceImage::SurfaceImage(const RefinedMesh& mesh, const RefinementView& view, int shrink) {
   const auto projected = project_all(mesh, view, shrink);
-  const int full_width = view.pinhole.width / shrink + (shrink > 1 ? 1 : 0);
-  const int full_height = view.pinhole.height / shrink + (shrink > 1 ? 1 : 0);
+  const int full_width = view.view.camera.width / shrink + (shrink > 1 ? 1 : 0);
+  const int full_height = view.view.camera.height / shrink + (shrink > 1 ? 1 : 0);
   float low_x = static_cast<float>(full_width), low_y = static_cast<float>(full_height);
   float high_x = 0, high_y = 0;
   for (const Vec3& p : projected) {
@@ -84,18 +84,20 @@ SurfaceImage::SurfaceImage(const RefinedMesh& mesh, const RefinementView& view, 
   }
 }
 
-RefinementView::RefinementView(const ck_pinhole& view, const uint8_t* rgb, const uint8_t* mask)
-    : pinhole(view), projection(view) {
-  const size_t pixels = static_cast<size_t>(view.width) * static_cast<size_t>(view.height);
+RefinementView::RefinementView(const ck_view& view, const uint8_t* rgb, const uint8_t* mask)
+    : view(view), projection(view) {
+  const size_t pixels =
+      static_cast<size_t>(view.camera.width) * static_cast<size_t>(view.camera.height);
   luminance.resize(pixels);
   for (size_t i = 0; i < pixels; ++i) {
     const float value = 0.299f * rgb[3 * i] + 0.587f * rgb[3 * i + 1] + 0.114f * rgb[3 * i + 2];
     luminance[i] = static_cast<uint8_t>(value + 0.5f);
   }
-  const size_t rows = static_cast<size_t>(view.height / kShrink + 1);
+  const size_t rows = static_cast<size_t>(view.camera.height / kShrink + 1);
   nearest.assign(shrunk_width() * rows, kFar);
   for (size_t i = 0; mask && i < pixels; ++i) {
-    const size_t x = i % static_cast<size_t>(view.width), y = i / static_cast<size_t>(view.width);
+    const size_t x = i % static_cast<size_t>(view.camera.width),
+                 y = i / static_cast<size_t>(view.camera.width);
     if (mask[i] < 128) nearest[y / kShrink * shrunk_width() + x / kShrink] = 0;
   }
 }
@@ -103,7 +105,7 @@ RefinementView::RefinementView(const ck_pinhole& view, const uint8_t* rgb, const
 void RefinementView::find_depths(const RefinedMesh& mesh) {
   const SurfaceImage image(mesh, *this, kShrink);
   const int columns = static_cast<int>(shrunk_width());
-  const int rows = pinhole.height / kShrink + 1;
+  const int rows = view.camera.height / kShrink + 1;
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       const float depth = image.depths[static_cast<size_t>(y) * static_cast<size_t>(image.width) +
@@ -127,8 +129,8 @@ Vec3 RefinementView::project(Vec3 p) const {
 
 bool RefinementView::sees(Vec3 p, float margin) const {
   if (!(p.z > 0 && p.x >= margin && p.y >= margin &&
-        p.x < static_cast<float>(pinhole.width) - margin &&
-        p.y < static_cast<float>(pinhole.height) - margin)) {
+        p.x < static_cast<float>(view.camera.width) - margin &&
+        p.y < static_cast<float>(view.camera.height) - margin)) {
     return false;
   }
   const size_t x = static_cast<size_t>(p.x) / kShrink, y = static_cast<size_t>(p.y) / kShrink;

@@ -14,7 +14,7 @@
 
 #include "ck_surface.h"
 #include "core/guard.h"
-#include "surface/points.h"
+#include "core/span.h"
 
 struct ck_surface {
   std::vector<Eigen::Vector3d> positions;
@@ -89,18 +89,17 @@ void await(Job& job, std::thread& worker, const ck_control* control) {
 
 }  // namespace
 
-ck_status ck_poisson(const float* positions, const float* normals, size_t stride, size_t count,
-                     const ck_poisson_options* options, const ck_control* control,
-                     ck_surface** surface) {
+ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
+                     const ck_control* control, ck_surface** surface) {
   return ck::guarded([&] {
-    ck::require(positions && normals && options && surface, "null pointer");
+    ck::require(positions.data && normals.data && options && surface, "null pointer");
+    ck::require(positions.count == normals.count, "as many normals as positions are needed");
     ck::require(options->depth >= 2 && options->depth <= 14, "depth must be 2 to 14");
     ck::require(options->scale >= 1, "scale must be 1 or more");
     auto job = std::make_shared<Job>();
     job->options = *options;
-    const ck::StridedPoints p{positions, stride, count};
-    const ck::StridedPoints n{normals, stride, count};
-    for (size_t i = 0; i < count; ++i) {
+    const ck::Strided<float> p(positions), n(normals);
+    for (size_t i = 0; i < p.count; ++i) {
       if (!p.is_finite(i) || !n.is_finite(i)) continue;
       const Eigen::Vector3d normal(n[i][0], n[i][1], n[i][2]);
       if (!(normal.squaredNorm() > 0)) continue;
@@ -120,11 +119,11 @@ size_t ck_surface_vertex_count(const ck_surface* surface) { return surface->posi
 
 size_t ck_surface_triangle_count(const ck_surface* surface) { return surface->triangles.size(); }
 
-void ck_surface_copy(const ck_surface* surface, float* positions, size_t stride, float* densities,
+void ck_surface_copy(const ck_surface* surface, ck_mutable_span positions, float* densities,
                      uint32_t* triangles) {
   for (size_t i = 0; i < surface->positions.size(); ++i) {
     const Eigen::Vector3f p = surface->positions[i].cast<float>();
-    std::memcpy(reinterpret_cast<char*>(positions) + i * stride, p.data(), 3 * sizeof(float));
+    std::memcpy(ck::MutableStrided<float>(positions)[i], p.data(), 3 * sizeof(float));
     densities[i] = static_cast<float>(surface->densities[i]);
   }
   for (size_t i = 0; i < surface->triangles.size(); ++i) {

@@ -2,12 +2,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "ck_surface.h"
+#include "core/disjoint_sets.h"
 #include "core/guard.h"
-#include "surface/points.h"
+#include "core/span.h"
 
 namespace {
 
@@ -20,7 +20,7 @@ int32_t coordinate(float value, double size) {
   return static_cast<int32_t>(std::min(limit, std::max(-limit, std::floor(value / size))));
 }
 
-std::vector<Cell> cells_of(const ck::StridedPoints& points, double size, const int8_t* levels) {
+std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const int8_t* levels) {
   std::vector<Cell> cells(points.count);
   for (size_t i = 0; i < points.count; ++i) {
     const int32_t level = levels ? levels[i] : 0;
@@ -31,9 +31,8 @@ std::vector<Cell> cells_of(const ck::StridedPoints& points, double size, const i
   return cells;
 }
 
-/// The distinct cells in lexicographic order; `numbers` receives the cell index of each finite
-/// point, −1 for others.
-std::vector<Cell> number(const ck::StridedPoints& points, const std::vector<Cell>& cells,
+/// The distinct cells in order; `numbers` receives each finite point's.
+std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cell>& cells,
                          int32_t* numbers, const ck_control* control) {
   std::vector<uint32_t> order;
   order.reserve(points.count);
@@ -52,30 +51,12 @@ std::vector<Cell> number(const ck::StridedPoints& points, const std::vector<Cell
   return distinct;
 }
 
-struct UnionFind {
-  std::vector<int32_t> parent;
-
-  explicit UnionFind(size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
-
-  int32_t root(int32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-
-  /// The lower index becomes the root.
-  void join(int32_t a, int32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) parent[std::max(a, b)] = std::min(a, b);
-  }
-};
-
-/// Unites each cell with those of its 26 neighbors that come later in the order.
+/// Joins each cell with those of its 26 neighbors that come later in the order.
 ///
 /// For each of the rows (dx, dy) a cursor follows the sorted cells, so that no search is needed.
 std::vector<int32_t> join_cells(const std::vector<Cell>& cells, size_t* count,
                                 const ck_control* control) {
-  UnionFind sets(cells.size());
+  ck::DisjointSets sets(cells.size());
   const int rows[5][2] = {{0, 0}, {0, 1}, {1, -1}, {1, 0}, {1, 1}};
   for (const auto& row : rows) {
     ck::step(control, 0.5);
@@ -87,15 +68,15 @@ std::vector<int32_t> join_cells(const std::vector<Cell>& cells, size_t* count,
       for (size_t k = cursor; k < cells.size(); ++k) {
         const Cell& d = cells[k];
         if (d[0] != first[0] || d[1] != first[1] || d[2] != first[2] || d[3] > c[3] + 1) break;
-        sets.join(static_cast<int32_t>(i), static_cast<int32_t>(k));
+        sets.join(static_cast<uint32_t>(i), static_cast<uint32_t>(k));
       }
     }
   }
   std::vector<int32_t> component(cells.size());
   int32_t next = 0;
   for (size_t i = 0; i < cells.size(); ++i) {
-    const int32_t root = sets.root(static_cast<int32_t>(i));
-    component[i] = root == static_cast<int32_t>(i) ? next++ : component[root];
+    const uint32_t root = sets.root(static_cast<uint32_t>(i));
+    component[i] = root == i ? next++ : component[root];
   }
   *count = static_cast<size_t>(next);
   return component;
@@ -103,14 +84,15 @@ std::vector<int32_t> join_cells(const std::vector<Cell>& cells, size_t* count,
 
 }  // namespace
 
-ck_status ck_voxel_cells(const float* positions, size_t stride, size_t count, double cell_size,
-                         const int8_t* levels, const ck_control* control, int32_t* cells,
-                         size_t* cell_count, int32_t* components, size_t* component_count) {
+ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* levels,
+                         const ck_control* control, int32_t* cells, size_t* cell_count,
+                         int32_t* components, size_t* component_count) {
   return ck::guarded([&] {
-    ck::require(cells && cell_count && (positions || count == 0), "null pointer");
+    const ck::Strided<float> points(positions);
+    const size_t count = points.count;
+    ck::require(cells && cell_count && (positions.data || count == 0), "null pointer");
     ck::require(std::isfinite(cell_size) && cell_size > 0, "the cell size must be positive");
     ck::require(count < (size_t{1} << 31), "too many points");
-    const ck::StridedPoints points{positions, stride, count};
     ck::step(control, 0);
     const auto distinct = number(points, cells_of(points, cell_size, levels), cells, control);
     *cell_count = distinct.size();

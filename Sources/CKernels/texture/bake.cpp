@@ -7,7 +7,13 @@
 namespace ck::texture {
 namespace {
 
-/// Encodes a unit vector as three bytes; the flat normal (0, 0, 1) is 128, 128, 255.
+/// Least component of a baked normal along the textured surface's: steeper ones are left flat.
+/// Empirical.
+constexpr float kSteepestNormal = 0.05f;
+/// Cosine between the two surfaces above which the dense one faces the same way. Empirical.
+constexpr float kFacingCosine = 0.1f;
+
+/// A unit vector as three bytes; flat (0, 0, 1) is 128, 128, 255.
 void encode(Vec3 n, uint8_t* pixel) {
   const auto byte = [](float v) {
     return static_cast<uint8_t>(std::clamp(std::lround(127.5f * v + 127.5f), 0L, 255L));
@@ -22,9 +28,7 @@ Vec3 at(const float* p) { return {p[0], p[1], p[2]}; }
 /// The interpolated normal of the dense surface at a hit.
 Vec3 dense_normal(const ck_bake_source& source, const Hit& hit) {
   const auto& t = source.dense->triangles[hit.triangle];
-  const auto n = [&](size_t i) {
-    return vec_at(source.dense_normals, source.dense_normals_stride, t[i]);
-  };
+  const auto n = [&](size_t i) { return vec_at(source.dense_normals, t[i]); };
   return normalized(n(0) * (1 - hit.u - hit.v) + n(1) * hit.u + n(2) * hit.v);
 }
 
@@ -61,7 +65,7 @@ class FaceBaker {
     tangent = normalized(tangent - normal * dot(normal, tangent));
     const Vec3 bitangent = cross(normal, tangent) * t[3];
     const Vec3 local = {dot(dense, tangent), dot(dense, bitangent), dot(dense, normal)};
-    return local.z > 0.05f ? normalized(local) : Vec3{0, 0, 1};
+    return local.z > kSteepestNormal ? normalized(local) : Vec3{0, 0, 1};
   }
 
   const ck_atlas& atlas_;
@@ -88,7 +92,7 @@ bool find_dense(const ck_bake_source& source, const BasePoint& base, DensePoint*
     // The rays overlap slightly, so that a surface at distance 0 is not missed by both.
     const Vec3 origin = base.position - base.normal * (sign * reach * 1e-3f);
     if (!intersect(*source.dense, origin, base.normal * sign, 0, reach, &hit)) continue;
-    if (dot(source.dense->face_normals[hit.triangle], base.normal) <= 0.1f) continue;
+    if (dot(source.dense->face_normals[hit.triangle], base.normal) <= kFacingCosine) continue;
     const float height = sign * (hit.distance - reach * 1e-3f);
     if (found && std::fabs(height) >= std::fabs(point->height)) continue;
     *point = {base.position + base.normal * height, dense_normal(source, hit), height};

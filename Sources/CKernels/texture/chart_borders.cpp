@@ -12,10 +12,13 @@ constexpr float kStretchCost = 6;
 /// Largest number of rounds over the boundaries.
 constexpr int kPasses = 4;
 
-/// A cluster's area, weighted by its foreshortening along an axis.
+/// Cosine beyond which foreshortening isn't counted. Empirical.
+constexpr float kLeastForeshortening = 0.05f;
+
+/// A cluster's area, the larger the more an axis foreshortens it.
 float stretched_area(const Cluster& c, Vec3 axis) {
   const float along = dot(c.normal_sum, axis);
-  return c.area * (c.area / std::max(along, 0.05f * c.area));
+  return c.area * (c.area / std::max(along, kLeastForeshortening * c.area));
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ struct HalfEdge {
 
 }  // namespace
 
-ChartMesh::ChartMesh(const float* position_values, size_t position_count, size_t stride,
-                     const uint32_t* triangle_values, size_t triangle_count) {
+ChartMesh::ChartMesh(const ck_mesh& mesh) {
+  const size_t position_count = mesh.positions.count, triangle_count = mesh.triangle_count;
   positions.resize(position_count);
-  for (size_t i = 0; i < position_count; ++i) positions[i] = vec_at(position_values, stride, i);
+  for (size_t i = 0; i < position_count; ++i) positions[i] = vec_at(mesh.positions, i);
   triangles.resize(triangle_count);
   normals.resize(triangle_count);
   areas.resize(triangle_count);
@@ -31,9 +31,8 @@ ChartMesh::ChartMesh(const float* position_values, size_t position_count, size_t
   half_edges.reserve(3 * triangle_count);
   for (uint32_t t = 0; t < triangle_count; ++t) {
     for (uint32_t i = 0; i < 3; ++i) {
-      triangles[t][i] = triangle_values[3 * t + i];
-      require(triangles[t][i] < position_count,
-              "a triangle refers to a vertex that does not exist");
+      triangles[t][i] = mesh.triangles[3 * t + i];
+      require(triangles[t][i] < position_count, "a triangle names a vertex that isn't there");
     }
     const auto [a, b, c] = triangles[t];
     const Vec3 n = cross(positions[b] - positions[a], positions[c] - positions[a]);

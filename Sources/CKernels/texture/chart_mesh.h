@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "ck_mesh.h"
 #include "geometry/vec.h"
 
 namespace ck::texture {
@@ -24,8 +25,7 @@ struct ChartMesh {
   /// Sorted by a, then b. Non-manifold edges connect no triangles.
   std::vector<DualEdge> edges;
 
-  ChartMesh(const float* positions, size_t position_count, size_t stride, const uint32_t* triangles,
-            size_t triangle_count);
+  explicit ChartMesh(const ck_mesh& mesh);
 };
 
 /// A cone of normals: all are within `angle` radians of the axis.

@@ -34,68 +34,93 @@ ClusterGraph graph_of(const ChartMesh& mesh) {
   return graph;
 }
 
+namespace {
+
+/// What goes into each cluster of a contracted graph: `list[starts[k]..<starts[k + 1]]`, the
+/// cluster that stays first.
+struct Members {
+  std::vector<uint32_t> starts, list;
+
+  /// `targets` are clusters that stay, `ids` the numbers of these in the contracted graph.
+  Members(const std::vector<uint32_t>& targets, const std::vector<uint32_t>& ids, size_t kept)
+      : starts(kept + 1, 0), list(targets.size()) {
+    const auto count = static_cast<uint32_t>(targets.size());
+    for (uint32_t i = 0; i < count; ++i) ++starts[ids[targets[i]] + 1];
+    for (size_t k = 0; k < kept; ++k) starts[k + 1] += starts[k];
+    std::vector<uint32_t> next(starts.begin(), starts.end() - 1);
+    for (uint32_t i = 0; i < count; ++i) {
+      if (targets[i] == i) list[next[ids[i]]++] = i;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+      if (targets[i] != i) list[next[ids[targets[i]]]++] = i;
+    }
+  }
+};
+
+/// Adds a member's triangles to a cluster.
+void absorb(Cluster& cluster, const Cluster& member, bool keeps_axis) {
+  cluster.normal_sum += member.normal_sum;
+  cluster.area += member.area;
+  cluster.perimeter += member.perimeter;
+  cluster.cone = joined(cluster.cone, member.cone);
+  if (!keeps_axis) cluster.axis = cluster.cone.axis;
+}
+
+/// Appends neighbors in ascending order, those of one cluster with the sum of their lengths.
+void append(std::vector<Neighbor>& all, std::vector<Neighbor>& added) {
+  std::sort(added.begin(), added.end(), [](const Neighbor& a, const Neighbor& b) {
+    return a.cluster != b.cluster ? a.cluster < b.cluster : a.length < b.length;
+  });
+  const size_t start = all.size();
+  for (const Neighbor& n : added) {
+    if (all.size() > start && all.back().cluster == n.cluster) {
+      all.back().length += n.length;
+    } else {
+      all.push_back(n);
+    }
+  }
+}
+
+}  // namespace
+
 ClusterGraph ClusterGraph::contracted(std::vector<uint32_t> targets, bool keeps_axes) {
   const auto count = static_cast<uint32_t>(clusters.size());
-  parents = std::move(targets);
   ClusterGraph result;
-  // Targets keep their order; `members` lists the clusters merged into each, the target first.
-  std::vector<uint32_t> ids(count), member_starts(1, 0);
+  // The clusters that stay keep their order.
+  std::vector<uint32_t> ids(count);
   for (uint32_t i = 0; i < count; ++i) {
-    if (parents[i] == i) ids[i] = static_cast<uint32_t>(result.clusters.size());
-    if (parents[i] == i) result.clusters.push_back(clusters[i]);
+    if (targets[i] != i) continue;
+    ids[i] = static_cast<uint32_t>(result.clusters.size());
+    result.clusters.push_back(clusters[i]);
   }
   const size_t kept = result.clusters.size();
-  member_starts.assign(kept + 1, 0);
-  for (uint32_t i = 0; i < count; ++i) ++member_starts[ids[parents[i]] + 1];
-  for (size_t k = 0; k < kept; ++k) member_starts[k + 1] += member_starts[k];
-  std::vector<uint32_t> members(count), next(member_starts.begin(), member_starts.end() - 1);
-  for (uint32_t i = 0; i < count; ++i) {
-    if (parents[i] == i) members[next[ids[i]]++] = i;
-  }
-  for (uint32_t i = 0; i < count; ++i) {
-    if (parents[i] != i) members[next[ids[parents[i]]]++] = i;
-  }
+  const Members members(targets, ids, kept);
+  parents = std::move(targets);
   for (uint32_t i = 0; i < count; ++i) parents[i] = ids[parents[i]];
 
   result.starts.assign(1, 0);
   result.starts.reserve(kept + 1);
   result.neighbors.reserve(neighbors.size() / 2);
-  std::vector<Neighbor> list;
+  std::vector<Neighbor> around;
   for (uint32_t k = 0; k < kept; ++k) {
     Cluster& cluster = result.clusters[k];
-    list.clear();
+    around.clear();
     float inner = 0;
-    for (uint32_t m = member_starts[k]; m < member_starts[k + 1]; ++m) {
-      const Cluster& member = clusters[members[m]];
-      if (m > member_starts[k]) {
-        cluster.normal_sum += member.normal_sum;
-        cluster.area += member.area;
-        cluster.perimeter += member.perimeter;
-        cluster.cone = joined(cluster.cone, member.cone);
-        if (!keeps_axes) cluster.axis = cluster.cone.axis;
-      }
-      for (const Neighbor& n : neighbors_of(members[m])) {
+    for (uint32_t m = members.starts[k]; m < members.starts[k + 1]; ++m) {
+      const uint32_t member = members.list[m];
+      if (m > members.starts[k]) absorb(cluster, clusters[member], keeps_axes);
+      for (const Neighbor& n : neighbors_of(member)) {
         const uint32_t id = parents[n.cluster];
         if (id == k) {
           inner += n.length;
         } else {
-          list.push_back({id, n.length});
+          around.push_back({id, n.length});
         }
       }
     }
     // Each inner boundary was counted from both sides.
     cluster.perimeter = std::max(0.0f, cluster.perimeter - inner);
-    std::sort(list.begin(), list.end(), [](const Neighbor& a, const Neighbor& b) {
-      return a.cluster != b.cluster ? a.cluster < b.cluster : a.length < b.length;
-    });
-    const size_t start = result.neighbors.size();
-    for (const Neighbor& n : list) {
-      if (result.neighbors.size() > start && result.neighbors.back().cluster == n.cluster) {
-        result.neighbors.back().length += n.length;
-      } else {
-        result.neighbors.push_back(n);
-      }
-    }
+    append(result.neighbors, around);
     result.starts.push_back(static_cast<uint32_t>(result.neighbors.size()));
   }
   return result;

@@ -266,15 +266,13 @@ class Clustering {
 }  // namespace
 }  // namespace ck::texture
 
-ck_status ck_cluster_faces(const float* positions, size_t position_count, size_t position_stride,
-                           const uint32_t* triangles, size_t triangle_count,
-                           const ck_chart_options* options, const ck_control* control,
-                           int32_t* charts, float* axes, size_t* chart_count) {
+ck_status ck_cluster_faces(const ck_mesh* input, const ck_chart_options* options,
+                           const ck_control* control, int32_t* charts, float* axes,
+                           size_t* chart_count) {
   return ck::guarded([&] {
-    ck::require(options && charts && axes && chart_count, "an argument is missing");
+    ck::require(input && options && charts && axes && chart_count, "an argument is missing");
     ck::step(control, 0);
-    const ck::texture::ChartMesh mesh(positions, position_count, position_stride, triangles,
-                                      triangle_count);
+    const ck::texture::ChartMesh mesh(*input);
     std::vector<int32_t> chart_of_face;
     std::vector<ck::texture::Vec3> directions;
     {

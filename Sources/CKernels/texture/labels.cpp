@@ -23,10 +23,12 @@ struct Arc {
 /// at each node.
 class TreeReweighted {
  public:
-  TreeReweighted(size_t node_count, const uint32_t* offsets, const int32_t* labels,
-                 const float* costs, size_t edge_count, const uint32_t* edges, const float* weights)
-      : count_(node_count), offsets_(offsets), labels_(labels), costs_(costs) {
-    connect(edge_count, edges, weights);
+  explicit TreeReweighted(const ck_label_problem& problem)
+      : count_(problem.node_count),
+        offsets_(problem.offsets),
+        labels_(problem.labels),
+        costs_(problem.costs) {
+    connect(problem.edge_count, problem.edges, problem.edge_weights);
     shares_.resize(count_);
     for (uint32_t i = 0; i < count_; ++i) {
       size_t before = 0, after = 0;
@@ -144,14 +146,11 @@ class TreeReweighted {
 }  // namespace
 }  // namespace ck::texture
 
-ck_status ck_select_labels(size_t node_count, const uint32_t* offsets, const int32_t* labels,
-                           const float* costs, size_t edge_count, const uint32_t* edges,
-                           const float* edge_weights, size_t iterations, const ck_control* control,
-                           int32_t* choices) {
+ck_status ck_select_labels(const ck_label_problem* problem, size_t iterations,
+                           const ck_control* control, int32_t* choices) {
   return ck::guarded([&] {
-    ck::require(offsets && choices, "an argument is missing");
-    ck::texture::TreeReweighted solver(node_count, offsets, labels, costs, edge_count, edges,
-                                       edge_weights);
+    ck::require(problem && problem->offsets && choices, "an argument is missing");
+    ck::texture::TreeReweighted solver(*problem);
     for (size_t i = 0; i < iterations; ++i) {
       ck::step(control, static_cast<double>(i) / static_cast<double>(iterations));
       solver.pass(true);

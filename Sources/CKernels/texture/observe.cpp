@@ -13,6 +13,14 @@ namespace {
 
 constexpr float kFar = std::numeric_limits<float>::max();
 
+// Lengths in diagonals of the surface's bounding box; all empirical.
+/// Where a ray to the camera starts in front of the triangle, at most half way.
+constexpr float kRayOffset = 2e-4f;
+/// How far surfaces in front of or behind a triangle may be to count as its own.
+constexpr float kDepthTolerance = 0.004f;
+/// Share of the way from a triangle's center to its corners at which rays start.
+constexpr float kCornerShare = 0.95f;
+
 struct Corner {
   Vec2 pixel;
   float depth = 0;
@@ -56,10 +64,10 @@ struct DepthRange {
   /// `kFar` if any pixel around shows no surface.
   std::vector<float> farthest;
 
-  DepthRange(const ck_ray_scene& scene, const std::vector<Corner>& corners, const ck_pinhole& view,
+  DepthRange(const ck_ray_scene& scene, const std::vector<Corner>& corners, const ck_view& view,
              int radius)
-      : width(view.width / kShrink + 1),
-        height(view.height / kShrink + 1),
+      : width(view.camera.width / kShrink + 1),
+        height(view.camera.height / kShrink + 1),
         nearest(static_cast<size_t>(width) * static_cast<size_t>(height), kFar) {
     for (const auto& t : scene.triangles) {
       const Corner &a = corners[t[0]], &b = corners[t[1]], &c = corners[t[2]];
@@ -109,8 +117,8 @@ struct DepthRange {
 /// Measures the triangles of a scene in one view.
 class Observer {
  public:
-  Observer(const ck_ray_scene& scene, const ck_pinhole& view, const uint8_t* rgb,
-           const uint8_t* mask, const ck_observe_options& options)
+  Observer(const ck_ray_scene& scene, const ck_view& view, const uint8_t* rgb, const uint8_t* mask,
+           const ck_observe_options& options)
       : scene_(scene),
         view_(view),
         rgb_(rgb),
@@ -118,8 +126,8 @@ class Observer {
         options_(options),
         projection_(view),
         corners_(project(scene, projection_)),
-        gray_(
-            luminance_of(rgb, static_cast<size_t>(view.width) * static_cast<size_t>(view.height))),
+        gray_(luminance_of(
+            rgb, static_cast<size_t>(view.camera.width) * static_cast<size_t>(view.camera.height))),
         radius_(std::max(1, static_cast<int>(std::ceil(options.margin / DepthRange::kShrink)))),
         depths_(scene, corners_, view, radius_) {}
 
@@ -159,8 +167,8 @@ class Observer {
   bool is_inside(const Corner& c) const {
     const float margin = options_.margin;
     return c.depth > 0 && c.pixel.x >= margin && c.pixel.y >= margin &&
-           c.pixel.x <= static_cast<float>(view_.width) - margin &&
-           c.pixel.y <= static_cast<float>(view_.height) - margin;
+           c.pixel.x <= static_cast<float>(view_.camera.width) - margin &&
+           c.pixel.y <= static_cast<float>(view_.camera.height) - margin;
   }
 
   /// Whether a corner or the centroid would take color from masked pixels: colors are interpolated
@@ -183,10 +191,10 @@ class Observer {
   }
 
   bool is_hidden(size_t t, Vec3 centroid, float distance) const {
-    const float near = std::min(0.5f, 2e-4f * scene_.diagonal / distance);
+    const float near = std::min(0.5f, kRayOffset * scene_.diagonal / distance);
     for (int i = 0; i < 4; ++i) {
-      // Corners are moved inwards, so that adjacent triangles do not occlude them.
-      const Vec3 p = i == 3 ? centroid : centroid + (scene_.corner(t, i) - centroid) * 0.95f;
+      // Corners are moved inwards, so that the neighbors' edges don't decide.
+      const Vec3 p = i == 3 ? centroid : centroid + (scene_.corner(t, i) - centroid) * kCornerShare;
       if (is_occluded(scene_, p, projection_.center - p, near, 1)) return true;
     }
     return false;
@@ -195,17 +203,17 @@ class Observer {
   /// Sets `clearance` and `interior` from the depths and the mask around the corners.
   void check_surroundings(const std::array<Corner, 3>& corners, float cosine,
                           ck_face_observation* result) const {
-    result->clearance = result->interior = 1;
+    result->is_clear = result->is_interior = true;
     const float slope = std::sqrt(std::max(0.0f, 1 - cosine * cosine)) / cosine;
     for (const Corner& c : corners) {
-      const float pixel = c.depth / static_cast<float>(view_.focal[0]);
+      const float pixel = c.depth / static_cast<float>(view_.camera.fx);
       const float reach = static_cast<float>((radius_ + 1) * DepthRange::kShrink) * pixel;
-      // Depth variation that the slope of the surface itself explains.
-      const float tolerance = reach * (2 * slope + 2) + 0.004f * scene_.diagonal;
+      // The surface itself may rise and fall that much.
+      const float tolerance = reach * (2 * slope + 2) + kDepthTolerance * scene_.diagonal;
       const size_t place = depths_.at(c.pixel);
-      if (depths_.nearest[place] < c.depth - tolerance) result->clearance = 0;
-      if (depths_.farthest[place] > c.depth + tolerance) result->interior = 0;
-      if (mask_ && is_masked_around(c.pixel, options_.margin)) result->interior = 0;
+      if (depths_.nearest[place] < c.depth - tolerance) result->is_clear = false;
+      if (depths_.farthest[place] > c.depth + tolerance) result->is_interior = false;
+      if (mask_ && is_masked_around(c.pixel, options_.margin)) result->is_interior = false;
     }
   }
 
@@ -214,7 +222,7 @@ class Observer {
     Vec3 sum;
     float gradient = 0;
     int count = 0;
-    rasterize(p, view_.width, view_.height, [&](int x, int y, float, float) {
+    rasterize(p, view_.camera.width, view_.camera.height, [&](int x, int y, float, float) {
       const uint8_t* pixel = rgb_ + 3 * index(x, y);
       sum += {static_cast<float>(pixel[0]), static_cast<float>(pixel[1]),
               static_cast<float>(pixel[2])};
@@ -223,7 +231,7 @@ class Observer {
     });
     if (count < 2) {
       const Vec2 middle = (p[0] + p[1] + p[2]) * (1.0f / 3);
-      sum = sample_rgb(rgb_, view_.width, view_.height, middle.x, middle.y);
+      sum = sample_rgb(rgb_, view_.camera.width, view_.camera.height, middle.x, middle.y);
       gradient = gradient_at(static_cast<int>(middle.x), static_cast<int>(middle.y));
       count = 1;
     }
@@ -235,9 +243,9 @@ class Observer {
   }
 
   size_t index(int x, int y) const {
-    return static_cast<size_t>(std::clamp(y, 0, view_.height - 1)) *
-               static_cast<size_t>(view_.width) +
-           static_cast<size_t>(std::clamp(x, 0, view_.width - 1));
+    return static_cast<size_t>(std::clamp(y, 0, view_.camera.height - 1)) *
+               static_cast<size_t>(view_.camera.width) +
+           static_cast<size_t>(std::clamp(x, 0, view_.camera.width - 1));
   }
 
   float gradient_at(int x, int y) const {
@@ -247,7 +255,7 @@ class Observer {
   }
 
   const ck_ray_scene& scene_;
-  const ck_pinhole& view_;
+  const ck_view& view_;
   const uint8_t* rgb_;
   const uint8_t* mask_;
   const ck_observe_options& options_;
@@ -261,12 +269,13 @@ class Observer {
 }  // namespace
 }  // namespace ck::texture
 
-ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_pinhole* view, const uint8_t* rgb,
+ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_view* view, const uint8_t* rgb,
                            const uint8_t* mask, const ck_observe_options* options,
                            const ck_control* control, ck_face_observation* observations) {
   return ck::guarded([&] {
     ck::require(scene && view && rgb && options && observations, "an argument is missing");
-    ck::require(view->width > 1 && view->height > 1 && view->focal[0] > 0 && view->focal[1] > 0,
+    const ck_camera& camera = view->camera;
+    ck::require(camera.width > 1 && camera.height > 1 && camera.fx > 0 && camera.fy > 0,
                 "a view has no pixels or no focal length");
     ck::step(control, 0);
     const ck::texture::Observer observer(*scene, *view, rgb, mask, *options);

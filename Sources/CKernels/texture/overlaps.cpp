@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
+#include "core/disjoint_sets.h"
 #include "texture/chart_mesh.h"
 
 namespace ck::texture {
@@ -10,6 +10,9 @@ namespace {
 
 /// Largest number of rounds of splitting overlapping charts.
 constexpr int kMaximumRounds = 6;
+/// Cosine between a triangle's normal and the axis of its chart below which the projection turns it
+/// over or stands it on its edge. Empirical.
+constexpr float kLeaningCosine = 0.1f;
 
 /// The triangles of each chart, in ascending order.
 std::vector<std::vector<uint32_t>> faces_by_chart(const std::vector<int32_t>& charts,
@@ -110,26 +113,18 @@ class OverlapFinder {
   int width_ = 0, height_ = 0;
 };
 
-uint32_t root(std::vector<uint32_t>& parents, uint32_t i) {
-  while (parents[i] != i) i = parents[i] = parents[parents[i]];
-  return i;
-}
-
-/// Splits charts into connected components; each keeps the axis of its chart.
+/// Splits charts into their connected components; a component keeps the axis of its chart.
 void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
                       std::vector<Vec3>* axes) {
-  std::vector<uint32_t> parents(charts->size());
-  std::iota(parents.begin(), parents.end(), 0u);
+  DisjointSets components(charts->size());
   for (const DualEdge& e : mesh.edges) {
-    if ((*charts)[e.a] != (*charts)[e.b]) continue;
-    const uint32_t a = root(parents, e.a), b = root(parents, e.b);
-    parents[std::max(a, b)] = std::min(a, b);
+    if ((*charts)[e.a] == (*charts)[e.b]) components.join(e.a, e.b);
   }
   std::vector<int32_t> ids(charts->size(), -1);
   std::vector<Vec3> directions;
   std::vector<int32_t> result(charts->size());
   for (uint32_t t = 0; t < charts->size(); ++t) {
-    int32_t& id = ids[root(parents, t)];
+    int32_t& id = ids[components.root(t)];
     if (id < 0) {
       id = static_cast<int32_t>(directions.size());
       directions.push_back((*axes)[static_cast<size_t>((*charts)[t])]);
@@ -143,7 +138,7 @@ void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
 /// Whether a triangle is back-facing or almost parallel to the projection axis.
 bool leans_over(const ChartMesh& mesh, uint32_t face, Vec3 axis) {
   const Vec3 n = mesh.normals[face];
-  return dot(n, n) > 0 && dot(n, axis) < 0.1f;
+  return dot(n, n) > 0 && dot(n, axis) < kLeaningCosine;
 }
 
 }  // namespace

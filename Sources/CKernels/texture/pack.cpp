@@ -15,6 +15,10 @@ namespace {
 
 /// Fraction of the texture that charts cover in the first attempt; hardly any set covers more.
 constexpr double kInitialUsage = 0.86;
+/// Factor by which the scale falls until all charts fit.
+constexpr double kScaleStep = 0.97;
+/// Ratio of a scale that is too large to one that fits at which the search ends.
+constexpr double kScaleTolerance = 1.004;
 
 struct Span {
   Vec2 low, high;
@@ -114,9 +118,9 @@ class Packer {
         throw Degenerate("the charts don't fit into the texture; use a larger one");
       }
       too_large = scale;
-      scale *= 0.97;
+      scale *= kScaleStep;
     }
-    while (too_large > 1.004 * scale) {
+    while (too_large > kScaleTolerance * scale) {
       step(control, 0.9);
       const double between = std::sqrt(scale * too_large);
       if (try_scale(static_cast<float>(between), control, &placements)) {

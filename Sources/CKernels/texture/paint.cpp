@@ -22,7 +22,7 @@ Vec3 mix(Vec3 weights, Vec3 a, Vec3 b, Vec3 c) {
 /// texels.
 class FacePainter {
  public:
-  FacePainter(const ck_atlas& atlas, const ck_pinhole& view, const Projection& projection,
+  FacePainter(const ck_atlas& atlas, const ck_view& view, const Projection& projection,
               const uint8_t* rgb, const TexelMap& map, size_t face)
       : view_(view), rgb_(rgb), map_(map) {
     for (int i = 0; i < 3; ++i) corners_[i] = projection.homogeneous(atlas.scene.corner(face, i));
@@ -43,7 +43,7 @@ class FacePainter {
       for (int i = 0; i < samples_; ++i) {
         const Vec2 p = pixel(static_cast<float>(x) + (static_cast<float>(i) + 0.5f) * share,
                              static_cast<float>(y) + (static_cast<float>(j) + 0.5f) * share);
-        sum += sample_rgb(rgb_, view_.width, view_.height, p.x, p.y);
+        sum += sample_rgb(rgb_, view_.camera.width, view_.camera.height, p.x, p.y);
       }
     }
     return sum * (share * share);
@@ -57,7 +57,7 @@ class FacePainter {
     return {h.x / h.z, h.y / h.z};
   }
 
-  const ck_pinhole& view_;
+  const ck_view& view_;
   const uint8_t* rgb_;
   const TexelMap& map_;
   Vec3 corners_[3];
@@ -80,14 +80,14 @@ void add(ck_atlas& atlas, size_t texel, Vec3 color) {
 }  // namespace
 }  // namespace ck::texture
 
-ck_status ck_atlas_paint(ck_atlas* atlas, const ck_pinhole* view, const uint8_t* rgb,
+ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rgb,
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control) {
   return ck::guarded([&] {
     using ck::texture::Vec3;
     ck::require(atlas && (!rgb || (view && gain)), "an argument is missing");
-    const ck_pinhole no_view{};
-    const ck_pinhole& source = view ? *view : no_view;
+    const ck_view no_view{};
+    const ck_view& source = view ? *view : no_view;
     const ck::texture::Projection projection(source);
     constexpr size_t kChunk = 512;
     ck::parallel_for(control, (paint_count + kChunk - 1) / kChunk, [&](size_t chunk) {

@@ -5,11 +5,12 @@
 #include "ck_texture.h"
 #include "core/guard.h"
 
-ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, const uint32_t* rows,
-                          const uint32_t* columns, const double* entries, double tolerance,
-                          size_t iterations, const ck_control* control, double* values) {
+ck_status ck_solve_sparse(const ck_sparse_matrix* input, size_t channels,
+                          const ck_conjugate_gradient_options* options, const ck_control* control,
+                          double* values) {
   return ck::guarded([&] {
     using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+    const auto [size, entry_count, rows, columns, entries] = *input;
     if (size == 0) return;
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(2 * entry_count);
@@ -25,8 +26,8 @@ ck_status ck_solve_sparse(size_t size, size_t channels, size_t entry_count, cons
     Eigen::ConjugateGradient<Matrix, Eigen::Lower | Eigen::Upper,
                              Eigen::DiagonalPreconditioner<double>>
         solver;
-    solver.setTolerance(tolerance);
-    solver.setMaxIterations(static_cast<Eigen::Index>(iterations));
+    solver.setTolerance(options->tolerance);
+    solver.setMaxIterations(static_cast<Eigen::Index>(options->maximum_iterations));
     solver.compute(matrix);
     if (solver.info() != Eigen::Success) throw ck::Degenerate("the system can't be solved");
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> block(

@@ -245,11 +245,12 @@ ck_status ck_seven_point(const double* first, const double* second, double* matr
   return ck::solve_minimal<ck::seven_point, 7>(first, second, matrices, count);
 }
 
-ck_status ck_two_view_estimate(const double* first, const double* second, size_t count,
-                               const ck_two_view_options* options, const ck_control* control,
-                               ck_two_view_result* result, uint8_t* inliers) {
+ck_status ck_two_view_estimate(const ck_point_pairs* pairs, const ck_two_view_options* options,
+                               const ck_control* control, ck_two_view_result* result,
+                               uint8_t* inliers) {
   return ck::guarded([&] {
-    ck::require(options && result && inliers, "an argument is missing");
+    ck::require(pairs && options && result && inliers, "an argument is missing");
+    const auto [first, second, count] = *pairs;
     ck::require(options->maximum_error > 0 && options->confidence > 0 && options->confidence < 1,
                 "an option is out of range");
     ck::require(ck::all_finite(first, 2 * count) && ck::all_finite(second, 2 * count),

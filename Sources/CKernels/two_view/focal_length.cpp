@@ -11,20 +11,21 @@ namespace {
 /// Levenberg–Marquardt steps per factor.
 constexpr int kSteps = 15;
 
-/// The points for `factor` times the focal length.
-Matches scaled(const double* first, const double* second, size_t count, double factor) {
+/// The points as they would be with `factor` times the focal length.
+Matches scaled(const ck_point_pairs& pairs, double factor) {
+  const auto [first, second, count] = pairs;
   std::vector<double> a(first, first + 2 * count), b(second, second + 2 * count);
   for (double& v : a) v /= factor;
   for (double& v : b) v /= factor;
   return Matches(a.data(), b.data(), count);
 }
 
-double cost(const double* first, const double* second, size_t count,
-            const Eigen::Matrix3d& fundamental, double limit, double factor) {
-  const Matches matches = scaled(first, second, count, factor);
+double cost(const ck_point_pairs& pairs, const Eigen::Matrix3d& fundamental, double limit,
+            double factor) {
+  const Matches matches = scaled(pairs, factor);
   const Eigen::DiagonalMatrix<double, 3> d(factor, factor, 1);
   const Eigen::Matrix3d essential = d * fundamental * d;
-  std::vector<size_t> all(count);
+  std::vector<size_t> all(pairs.count);
   std::iota(all.begin(), all.end(), size_t{0});
   RelativePose pose = decompose(essential, matches, all);
   return factor * factor * refine_pose(pose, matches, limit / factor, kSteps);
@@ -33,18 +34,18 @@ double cost(const double* first, const double* second, size_t count,
 }  // namespace
 }  // namespace ck
 
-ck_status ck_focal_length_costs(const double* first, const double* second, size_t count,
-                                const double* fundamental, double maximum_error,
-                                const double* factors, size_t factor_count,
+ck_status ck_focal_length_costs(const ck_point_pairs* pairs, const double* factors,
+                                size_t factor_count, const ck_focal_length_options* options,
                                 const ck_control* control, double* costs) {
   return ck::guarded([&] {
     const Eigen::Matrix3d f =
-        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(fundamental);
-    ck::require(f.allFinite() && maximum_error > 0, "the matrix or the limit is out of range");
+        Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(options->fundamental);
+    ck::require(f.allFinite() && options->maximum_error > 0,
+                "the matrix or the limit is out of range");
     for (size_t i = 0; i < factor_count; ++i) {
       ck::require(factors[i] > 0, "a factor is not positive");
       ck::step(control, static_cast<double>(i) / static_cast<double>(factor_count));
-      costs[i] = ck::cost(first, second, count, f, maximum_error, factors[i]);
+      costs[i] = ck::cost(*pairs, f, options->maximum_error, factors[i]);
     }
   });
 }

@@ -115,77 +115,19 @@ package struct BundleAdjustment: Sendable {
       problem.poseFreedom.count == photos.poses.count,
       problem.isPointFree.count == problem.points.count
     else { throw KernelError.invalidArgument("the arrays of a bundle differ in length") }
-    var models = photos.cameras.map(ck_camera_model.init)
-    var poses = photos.poses.map { ck_pose($0 ?? .identity) }
-    var points = problem.points
+    let scene = Scene(problem)
     var summary = ck_bundle_summary()
-    try solve(problem, &models, &poses, &points, &summary, control)
-    problem.points = points
-    for (index, pose) in poses.enumerated() where photos.poses[index] != nil {
-      problem.photos.poses[index] = RigidTransform(pose)
-    }
-    for (index, model) in models.enumerated() {
-      problem.photos.cameras[index].focalLength = [model.fx, model.fy]
-      problem.photos.cameras[index].principalPoint = [model.cx, model.cy]
-      problem.photos.cameras[index].distortion = [model.k1, model.k2, model.p1, model.p2]
-    }
+    var rawOptions = options.raw
+    try withKernel(control) { scene.adjust(&rawOptions, $0, &summary) }
+    scene.store(in: &problem)
     return Summary(
       initialCost: summary.initial_cost, finalCost: summary.final_cost,
       iterations: Int(summary.iterations), hasConverged: summary.converged)
   }
 
-  /// Calls the solver with the arrays pinned.
-  private func solve(
-    _ problem: Problem, _ models: inout [ck_camera_model], _ poses: inout [ck_pose],
-    _ points: inout [SIMD3<Double>], _ summary: inout ck_bundle_summary, _ control: KernelControl
-  ) throws {
-    var rawOptions = ck_bundle_options(
-      maximum_iterations: Int32(options.maximumIterations), huber_width: options.huberWidth,
-      function_tolerance: options.functionTolerance,
-      dense_photo_limit: Int32(options.densePhotoLimit),
-      direct_photo_limit: Int32(options.directPhotoLimit))
-    let freedom = problem.cameraFreedom.map(\.rawValue)
-    let priors = problem.cameraPriors.map(ck_camera_prior.init)
-    let poseFreedom = problem.poseFreedom.map(\.rawValue)
-    let pointFreedom = problem.isPointFree.map { UInt8($0 ? 1 : 0) }
-    let observations = problem.observations.map(\.raw)
-    try withKernel(control) { control in
-      models.withUnsafeMutableBufferPointer { models in
-        poses.withUnsafeMutableBufferPointer { poses in
-          points.withUnsafeMutableBytes { points in
-            freedom.withUnsafeBufferPointer { freedom in
-              priors.withUnsafeBufferPointer { priors in
-                problem.photos.cameraOfPhoto.withUnsafeBufferPointer { photoCameras in
-                  poseFreedom.withUnsafeBufferPointer { poseFreedom in
-                    pointFreedom.withUnsafeBufferPointer { pointFreedom in
-                      observations.withUnsafeBufferPointer { observations in
-                        var bundle = ck_bundle(
-                          cameras: models.baseAddress, camera_freedom: freedom.baseAddress,
-                          camera_priors: priors.baseAddress, camera_count: models.count,
-                          poses: poses.baseAddress, photo_cameras: photoCameras.baseAddress,
-                          pose_freedom: poseFreedom.baseAddress, photo_count: poses.count,
-                          points: points.baseAddress?.assumingMemoryBound(to: Double.self),
-                          point_stride: MemoryLayout<SIMD3<Double>>.stride,
-                          point_freedom: pointFreedom.baseAddress,
-                          point_count: problem.points.count,
-                          observations: observations.baseAddress,
-                          observation_count: observations.count)
-                        return ck_bundle_adjust(&bundle, &summary, &rawOptions, control)
-                      }
-                    }
-                  }
-                }
-              }
-            }
-          }
-        }
-      }
-    }
-  }
-
-  /// The reprojection error of one observation in pixels, with its derivatives in row-major order:
-  /// 2×6 with respect to the pose (left-multiplied rotation vector, translation), 2×3 to the point,
-  /// 2×7 to the camera (fx with fy in proportion, cx, cy, k1, k2, p1, p2).
+  /// The reprojection error of one observation with its derivatives by rows: 2×6 by the pose
+  /// (rotation vector applied from the left, translation), 2×3 by the point, 2×7 by the camera
+  /// (fx with fy in proportion, cx, cy, k1, k2, p1, p2).
   package static func jacobians(
     camera: Camera, cameraFromWorld: RigidTransform, point: SIMD3<Double>, pixel: SIMD2<Double>
   ) throws -> (residual: SIMD2<Double>, pose: [Double], point: [Double], camera: [Double]) {
@@ -193,12 +135,12 @@ package struct BundleAdjustment: Sendable {
     var byPose = [Double](repeating: 0, count: 12)
     var byPoint = [Double](repeating: 0, count: 6)
     var byCamera = [Double](repeating: 0, count: 14)
-    var model = ck_camera_model(camera)
+    var model = ck_camera(camera)
     var pose = ck_pose(cameraFromWorld)
     try withKernel(KernelControl()) { _ in
       ck_reprojection_jacobians(
-        &residual, &byPose, &byPoint, &byCamera, &model, &pose, [point.x, point.y, point.z],
-        [pixel.x, pixel.y])
+        &model, &pose, [point.x, point.y, point.z], [pixel.x, pixel.y], &residual, &byPose,
+        &byPoint, &byCamera)
     }
     return ([residual[0], residual[1]], byPose, byPoint, byCamera)
   }
@@ -211,5 +153,65 @@ extension ck_camera_prior {
       focal_deviation: prior.focalLengthDeviation,
       principal_point_deviation: prior.principalPointDeviation,
       radial_deviation: prior.radialDeviation)
+  }
+}
+
+extension BundleAdjustment.Options {
+  fileprivate var raw: ck_bundle_options {
+    ck_bundle_options(
+      maximum_iterations: Int32(maximumIterations), huber_width: huberWidth,
+      function_tolerance: functionTolerance, dense_photo_limit: Int32(densePhotoLimit),
+      direct_photo_limit: Int32(directPhotoLimit))
+  }
+}
+
+/// A problem in the memory that the kernel works on.
+private struct Scene {
+  private let cameras: KernelArray<ck_camera>
+  private let cameraFreedom: KernelArray<UInt32>
+  private let cameraPriors: KernelArray<ck_camera_prior>
+  private let poses: KernelArray<ck_pose>
+  private let photoCameras: KernelArray<Int32>
+  private let poseFreedom: KernelArray<UInt8>
+  private let points: KernelArray<SIMD3<Double>>
+  private let pointFreedom: KernelArray<UInt8>
+  private let observations: KernelArray<ck_observation>
+
+  init(_ problem: BundleAdjustment.Problem) {
+    cameras = KernelArray(problem.photos.cameras.lazy.map(ck_camera.init))
+    cameraFreedom = KernelArray(problem.cameraFreedom.lazy.map(\.rawValue))
+    cameraPriors = KernelArray(problem.cameraPriors.lazy.map(ck_camera_prior.init))
+    poses = KernelArray(problem.photos.poses.lazy.map { ck_pose($0 ?? .identity) })
+    photoCameras = KernelArray(problem.photos.cameraOfPhoto)
+    poseFreedom = KernelArray(problem.poseFreedom.lazy.map(\.rawValue))
+    points = KernelArray(problem.points)
+    pointFreedom = KernelArray(problem.isPointFree.lazy.map { $0 ? 1 : 0 })
+    observations = KernelArray(problem.observations.lazy.map(\.raw))
+  }
+
+  func adjust(
+    _ options: inout ck_bundle_options, _ control: UnsafePointer<ck_control>,
+    _ summary: inout ck_bundle_summary
+  ) -> ck_status {
+    var bundle = ck_bundle(
+      cameras: cameras.base, camera_freedom: cameraFreedom.base,
+      camera_priors: cameraPriors.base, camera_count: cameras.count, poses: poses.base,
+      photo_cameras: photoCameras.base, pose_freedom: poseFreedom.base,
+      photo_count: poses.count, points: points.mutableSpan, point_freedom: pointFreedom.base,
+      observations: observations.base, observation_count: observations.count)
+    return withExtendedLifetime(self) { ck_bundle_adjust(&bundle, &options, control, &summary) }
+  }
+
+  /// Copies the adjusted values back; photos without a pose keep none.
+  func store(in problem: inout BundleAdjustment.Problem) {
+    problem.points = Array(points.elements)
+    for (index, pose) in poses.elements.enumerated() where problem.photos.poses[index] != nil {
+      problem.photos.poses[index] = RigidTransform(pose)
+    }
+    for (index, camera) in cameras.elements.enumerated() {
+      problem.photos.cameras[index].focalLength = [camera.fx, camera.fy]
+      problem.photos.cameras[index].principalPoint = [camera.cx, camera.cy]
+      problem.photos.cameras[index].distortion = [camera.k1, camera.k2, camera.p1, camera.p2]
+    }
   }
 }

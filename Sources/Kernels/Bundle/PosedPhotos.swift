@@ -16,18 +16,18 @@ package struct PosedPhotos: Sendable {
     self.cameraOfPhoto = cameraOfPhoto
   }
 
-  /// Calls `body` with the C representation, valid only during the call.
-  func withViews(_ body: (UnsafePointer<ck_views>) -> ck_status) -> ck_status {
-    let models = cameras.map(ck_camera_model.init)
-    let rawPoses = poses.map { ck_pose($0 ?? .identity) }
-    return models.withUnsafeBufferPointer { models in
-      rawPoses.withUnsafeBufferPointer { rawPoses in
-        cameraOfPhoto.withUnsafeBufferPointer { cameraOfPhoto in
-          var views = ck_views(
-            cameras: models.baseAddress, camera_count: models.count, poses: rawPoses.baseAddress,
-            photo_cameras: cameraOfPhoto.baseAddress, photo_count: rawPoses.count)
-          return body(&views)
-        }
+  /// Calls `body` with the photos as kernels take them; they are valid during the call only.
+  func withKernelValue<Result>(
+    _ body: (UnsafePointer<ck_posed_photos>) throws -> Result
+  ) rethrows -> Result {
+    let cameras = KernelArray(cameras.lazy.map(ck_camera.init))
+    let poses = KernelArray(poses.lazy.map { ck_pose($0 ?? .identity) })
+    return try withExtendedLifetime((cameras, poses)) {
+      try cameraOfPhoto.withUnsafeBufferPointer { cameraOfPhoto in
+        var photos = ck_posed_photos(
+          cameras: cameras.base, camera_count: cameras.count, poses: poses.base,
+          photo_cameras: cameraOfPhoto.baseAddress, photo_count: poses.count)
+        return try body(&photos)
       }
     }
   }
@@ -50,29 +50,5 @@ package struct PointObservation: Hashable, Sendable {
 
   var raw: ck_observation {
     ck_observation(photo: photo, point: point, x: pixel.x, y: pixel.y)
-  }
-}
-
-extension ck_camera_model {
-  init(_ camera: Camera) {
-    self.init(
-      fx: camera.focalLength.x, fy: camera.focalLength.y, cx: camera.principalPoint.x,
-      cy: camera.principalPoint.y, k1: camera.distortion.x, k2: camera.distortion.y,
-      p1: camera.distortion.z, p2: camera.distortion.w)
-  }
-}
-
-extension ck_pose {
-  init(_ pose: RigidTransform) {
-    let (q, t) = (pose.rotation, pose.translation)
-    self.init(qx: q.x, qy: q.y, qz: q.z, qw: q.w, tx: t.x, ty: t.y, tz: t.z)
-  }
-}
-
-extension RigidTransform {
-  init(_ pose: ck_pose) {
-    self.init(
-      rotation: Quaternion(x: pose.qx, y: pose.qy, z: pose.qz, w: pose.qw),
-      translation: [pose.tx, pose.ty, pose.tz])
   }
 }

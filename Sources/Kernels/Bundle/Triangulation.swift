@@ -22,6 +22,20 @@ package struct TrackObservations: Sendable {
     observations.append(contentsOf: track)
     offsets.append(Int32(observations.count))
   }
+
+  /// Calls `body` with the tracks as kernels take them; they are valid during the call only.
+  func withKernelValue<Result>(
+    _ body: (UnsafePointer<ck_tracks>) throws -> Result
+  ) rethrows -> Result {
+    let raw = KernelArray(observations.lazy.map(\.raw))
+    return try withExtendedLifetime(raw) {
+      try offsets.withUnsafeBufferPointer { offsets in
+        var tracks = ck_tracks(
+          offsets: offsets.baseAddress, count: count, observations: raw.base)
+        return try body(&tracks)
+      }
+    }
+  }
 }
 
 /// Triangulates tracks: robustly over pairs of rays, then by least squares of the reprojection
@@ -56,16 +70,14 @@ package struct Triangulation: Sendable {
     var positions = [SIMD3<Double>](repeating: .zero, count: tracks.count)
     var found = [UInt8](repeating: 0, count: tracks.count)
     var inliers = [UInt8](repeating: 0, count: tracks.observations.count)
-    let raw = tracks.observations.map(\.raw)
     var rawOptions = ck_triangulation_options(
       maximum_error: options.maximumError, minimum_angle: options.minimumAngle)
     try withKernel(control) { control in
-      photos.withViews { views in
-        positions.withUnsafeMutableBytes { positions in
-          ck_triangulate(
-            positions.baseAddress?.assumingMemoryBound(to: Double.self),
-            MemoryLayout<SIMD3<Double>>.stride, &found, &inliers, tracks.offsets, found.count, raw,
-            views, &rawOptions, control)
+      tracks.withKernelValue { tracks in
+        photos.withKernelValue { photos in
+          positions.withMutableSpan {
+            ck_triangulate(tracks, photos, &rawOptions, control, $0, &found, &inliers)
+          }
         }
       }
     }
@@ -86,14 +98,12 @@ package struct Triangulation: Sendable {
     }
     var errors = [Double](repeating: 0, count: tracks.observations.count)
     var angles = [Double](repeating: 0, count: tracks.count)
-    let raw = tracks.observations.map(\.raw)
     try withKernel(control) { control in
-      photos.withViews { views in
-        positions.withUnsafeBytes { positions in
-          ck_measure_tracks(
-            &errors, &angles, positions.baseAddress?.assumingMemoryBound(to: Double.self),
-            MemoryLayout<SIMD3<Double>>.stride, tracks.offsets, tracks.count, raw, views,
-            maximumError, control)
+      tracks.withKernelValue { tracks in
+        photos.withKernelValue { photos in
+          positions.withSpan {
+            ck_measure_tracks(tracks, $0, photos, maximumError, control, &errors, &angles)
+          }
         }
       }
     }

@@ -120,7 +120,6 @@ package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
 package func withKernel(
   _ control: KernelControl, _ body: (UnsafePointer<ck_control>) -> ck_status
 ) throws {
-  ck_silence_libraries()
   let status = withExtendedLifetime(control) {
     var raw = ck_control(
       context: Unmanaged.passUnretained(control).toOpaque(),

@@ -41,29 +41,17 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
     if let mask, (mask.width, mask.height, mask.channels) != (image.width, image.height, 1) {
       throw KernelError.invalidArgument("the mask is not gray or not of the image's size")
     }
-    var set = FeatureSet(
-      positions: Array(repeating: .zero, count: maximumFeatures),
-      scales: Array(repeating: 0, count: maximumFeatures),
-      orientations: Array(repeating: 0, count: maximumFeatures),
-      descriptors: Array(repeating: 0, count: maximumFeatures * FeatureSet.descriptorLength),
-      colors: Array(repeating: .zero, count: maximumFeatures))
-    var options = kernelOptions
+    let output = DetectedFeatures(capacity: maximumFeatures)
+    var (options, raw) = (kernelOptions, output.raw)
     var count = 0
-    try withKernel(control) { control in
-      set.positions.withUnsafeMutableBytes { positions in
-        set.colors.withUnsafeMutableBytes { colors in
-          ck_sift_detect(
-            image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
-            image.width * image.channels, mask?.pixels, &options, control,
-            positions.baseAddress?.assumingMemoryBound(to: Float.self), &set.scales,
-            &set.orientations, &set.descriptors,
-            colors.baseAddress?.assumingMemoryBound(to: UInt8.self),
-            MemoryLayout<SIMD3<UInt8>>.stride, &count)
+    try withExtendedLifetime(output) {
+      try withKernel(control) { control in
+        image.withKernelPixels {
+          ck_sift_detect($0, mask?.pixels, &options, control, &raw, &count)
         }
       }
     }
-    set.truncate(to: count)
-    return set
+    return output.features(count)
   }
 
   private var kernelOptions: ck_sift_options {
@@ -78,13 +66,37 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
   }
 }
 
-extension FeatureSet {
-  /// Keeps the first `count` features.
-  fileprivate mutating func truncate(to count: Int) {
-    positions.removeLast(positions.count - count)
-    scales.removeLast(scales.count - count)
-    orientations.removeLast(orientations.count - count)
-    descriptors.removeLast(descriptors.count - count * FeatureSet.descriptorLength)
-    colors.removeLast(colors.count - count)
+/// The memory that the kernel writes features to.
+private struct DetectedFeatures {
+  private let positions: KernelArray<SIMD2<Float>>
+  private let scales: KernelArray<Float>
+  private let orientations: KernelArray<Float>
+  private let descriptors: KernelArray<UInt8>
+  private let colors: KernelArray<SIMD3<UInt8>>
+
+  init(capacity: Int) {
+    positions = KernelArray(repeatElement(.zero, count: capacity))
+    scales = KernelArray(repeatElement(0, count: capacity))
+    orientations = KernelArray(repeatElement(0, count: capacity))
+    descriptors = KernelArray(repeatElement(0, count: capacity * FeatureSet.descriptorLength))
+    colors = KernelArray(repeatElement(.zero, count: capacity))
+  }
+
+  /// Valid as long as the memory lives.
+  var raw: ck_sift_output {
+    ck_sift_output(
+      positions: UnsafeMutableRawPointer(positions.base)?.assumingMemoryBound(to: Float.self),
+      scales: scales.base, orientations: orientations.base, descriptors: descriptors.base,
+      colors: colors.mutableSpan)
+  }
+
+  /// The first `count` features.
+  func features(_ count: Int) -> FeatureSet {
+    FeatureSet(
+      positions: Array(positions.elements.prefix(count)),
+      scales: Array(scales.elements.prefix(count)),
+      orientations: Array(orientations.elements.prefix(count)),
+      descriptors: Array(descriptors.elements.prefix(count * FeatureSet.descriptorLength)),
+      colors: Array(colors.elements.prefix(count)))
   }
 }

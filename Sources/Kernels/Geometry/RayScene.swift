@@ -55,13 +55,7 @@ package final class RayScene: Sendable {
   package init(_ mesh: Mesh, _ control: KernelControl) throws {
     var handle: OpaquePointer?
     try withKernel(control) { control in
-      mesh.positions.withUnsafeFloats { positions in
-        mesh.triangles.withUnsafeIndices { triangles in
-          ck_ray_scene_create(
-            positions, mesh.positions.count, MemoryLayout<SIMD3<Float>>.stride, triangles,
-            mesh.triangles.count, control, &handle)
-        }
-      }
+      mesh.withKernelValue { ck_ray_scene_create($0, control, &handle) }
     }
     guard let handle else { throw KernelError.failed("the mesh can't be prepared") }
     self.handle = handle
@@ -81,46 +75,22 @@ package final class RayScene: Sendable {
       throw KernelError.invalidArgument("the mask is not gray or not of the view's size")
     }
     var raw = [ck_face_observation](repeating: ck_face_observation(), count: triangleCount)
-    var pinhole = ck_pinhole(view)
+    var rawView = ck_view(view)
     var rawOptions = ck_observe_options(
       minimum_cosine: options.minimumCosine, margin: options.margin)
     try withKernel(control) { control in
       ck_observe_faces(
-        handle, &pinhole, view.image.pixels, view.mask?.pixels, &rawOptions, control, &raw)
+        handle, &rawView, view.image.pixels, view.mask?.pixels, &rawOptions, control, &raw)
     }
     var result: [FaceObservation] = []
     for (face, value) in raw.enumerated() where value.area > 0 {
       result.append(
         FaceObservation(
           face: Int32(face), area: value.area, cosine: value.cosine, gradient: value.gradient,
-          isClear: value.clearance > 0, isInterior: value.interior > 0,
+          isClear: value.is_clear, isInterior: value.is_interior,
           color: SIMD3(value.color.0, value.color.1, value.color.2)))
     }
     return result
-  }
-}
-
-extension ck_pinhole {
-  init(_ view: PinholeView) {
-    let (camera, pose) = (view.camera, view.cameraFromWorld)
-    // The columns are the images of the axes.
-    let x = pose.rotation * SIMD3<Double>(1, 0, 0)
-    let y = pose.rotation * SIMD3<Double>(0, 1, 0)
-    let z = pose.rotation * SIMD3<Double>(0, 0, 1)
-    let t = pose.translation
-    self.init(
-      focal: (camera.focalLength.x, camera.focalLength.y),
-      center: (camera.principalPoint.x, camera.principalPoint.y),
-      rotation: (x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z),
-      translation: (t.x, t.y, t.z), width: Int32(view.image.width),
-      height: Int32(view.image.height))
-  }
-}
-
-extension Array where Element == SIMD3<Float> {
-  /// Calls `body` with the array's memory, four floats per vector.
-  func withUnsafeFloats<Result>(_ body: (UnsafePointer<Float>?) -> Result) -> Result {
-    withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: Float.self)) }
   }
 }
 
@@ -128,12 +98,5 @@ extension Array where Element == SIMD2<Float> {
   /// Calls `body` with the array's memory, two floats per vector.
   func withUnsafeFloats<Result>(_ body: (UnsafePointer<Float>?) -> Result) -> Result {
     withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: Float.self)) }
-  }
-}
-
-extension Array where Element == Triangle {
-  /// Calls `body` with the array's memory, three indices per triangle.
-  func withUnsafeIndices<Result>(_ body: (UnsafePointer<UInt32>?) -> Result) -> Result {
-    withUnsafeBytes { body($0.baseAddress?.assumingMemoryBound(to: UInt32.self)) }
   }
 }

@@ -50,8 +50,7 @@ package struct GlobalPositioning: Sendable {
     _ directions: [PointDirection], centers: [SIMD3<Double>], points: [SIMD3<Double>],
     control: KernelControl = KernelControl()
   ) throws -> Result {
-    var rawCenters = centers.flatMap { [$0.x, $0.y, $0.z] }
-    var rawPoints = points.flatMap { [$0.x, $0.y, $0.z] }
+    var (newCenters, newPoints) = (centers, points)
     let raw = directions.map {
       ck_direction(
         photo: $0.photo, point: $0.point, x: $0.direction.x, y: $0.direction.y, z: $0.direction.z)
@@ -61,15 +60,14 @@ package struct GlobalPositioning: Sendable {
       maximum_iterations: Int32(options.maximumIterations), huber_width: options.huberWidth,
       function_tolerance: options.functionTolerance)
     try withKernel(control) { control in
-      ck_position_globally(
-        &rawCenters, centers.count, &rawPoints, points.count, raw, raw.count, &summary,
-        &rawOptions, control)
-    }
-    func vectors(_ values: [Double]) -> [SIMD3<Double>] {
-      stride(from: 0, to: values.count, by: 3).map { [values[$0], values[$0 + 1], values[$0 + 2]] }
+      newCenters.withMutableSpan { centers in
+        newPoints.withMutableSpan { points in
+          ck_position_globally(raw, raw.count, &rawOptions, control, centers, points, &summary)
+        }
+      }
     }
     return Result(
-      centers: vectors(rawCenters), points: vectors(rawPoints), initialCost: summary.initial_cost,
+      centers: newCenters, points: newPoints, initialCost: summary.initial_cost,
       finalCost: summary.final_cost, iterations: Int(summary.iterations),
       hasConverged: summary.converged)
   }

@@ -55,7 +55,7 @@ package struct RotationAveraging: Sendable {
   package func run(
     _ pairs: [RelativeRotation], start: [Quaternion], control: KernelControl = KernelControl()
   ) throws -> Result {
-    var rotations = start.flatMap { [$0.x, $0.y, $0.z, $0.w] }
+    var rotations = start.map { SIMD4($0.x, $0.y, $0.z, $0.w) }
     var errors = [Double](repeating: 0, count: pairs.count)
     let raw = pairs.map {
       ck_relative_rotation(
@@ -68,16 +68,12 @@ package struct RotationAveraging: Sendable {
       smallest_scale: options.smallestScaleDegrees * .pi / 180,
       largest_scale: options.largestScaleDegrees * .pi / 180, tolerance: options.tolerance)
     try withKernel(control) { control in
-      ck_average_rotations(
-        &rotations, start.count, &errors, raw, raw.count, &rawOptions, control)
+      rotations.withMutableSpan {
+        ck_average_rotations(raw, raw.count, &rawOptions, control, $0, &errors)
+      }
     }
     return Result(
-      rotations: start.indices.map { index in
-        let q = rotations[4 * index..<4 * index + 4]
-        return Quaternion(
-          x: q[q.startIndex], y: q[q.startIndex + 1], z: q[q.startIndex + 2],
-          w: q[q.startIndex + 3])
-      },
+      rotations: rotations.map { Quaternion(x: $0.x, y: $0.y, z: $0.z, w: $0.w) },
       errors: errors)
   }
 }

@@ -7,9 +7,9 @@ extension RasterImage {
     guard newWidth != width || newHeight != height else { return self }
     var result = RasterImage(width: newWidth, height: newHeight, channels: channels)
     try withKernel(KernelControl()) { _ in
-      ck_image_resize(
-        pixels, Int32(width), Int32(height), Int32(channels), &result.pixels, Int32(newWidth),
-        Int32(newHeight))
+      withKernelPixels { source in
+        result.withMutableKernelPixels { ck_image_resize(source, $0) }
+      }
     }
     return result
   }
@@ -21,8 +21,9 @@ extension RasterImage {
     var result = RasterImage(
       width: swaps ? height : width, height: swaps ? width : height, channels: channels)
     try withKernel(KernelControl()) { _ in
-      ck_image_orient(
-        pixels, Int32(width), Int32(height), Int32(channels), Int32(orientation), &result.pixels)
+      withKernelPixels { source in
+        result.withMutableKernelPixels { ck_image_orient(source, Int32(orientation), $0) }
+      }
     }
     return result
   }
@@ -40,8 +41,9 @@ extension RasterImage {
     var result = RasterImage(width: pinhole.width, height: pinhole.height, channels: channels)
     var (source, destination) = (ck_camera(camera), ck_camera(pinhole))
     try withKernel(KernelControl()) { _ in
-      ck_image_undistort(
-        pixels, &source, Int32(channels), &result.pixels, &destination)
+      withKernelPixels { pixels in
+        result.withMutableKernelPixels { ck_image_undistort(pixels, &source, &destination, $0) }
+      }
     }
     return result
   }
@@ -53,8 +55,9 @@ extension RasterImage {
     guard radius > 0 else { return self }
     var result = RasterImage(width: width, height: height, channels: 1)
     try withKernel(KernelControl()) { _ in
-      ck_image_dilate(
-        pixels, Int32(width), Int32(height), Int32(clamping: radius), &result.pixels)
+      withKernelPixels { source in
+        result.withMutableKernelPixels { ck_image_dilate(source, Int32(clamping: radius), $0) }
+      }
     }
     return result
   }
@@ -81,20 +84,8 @@ extension RasterImage {
     guard channels == 1 else { throw KernelError.invalidArgument("the image is not gray") }
     var result = 0.0
     try withKernel(KernelControl()) { _ in
-      ck_image_sharpness(pixels, Int32(width), Int32(height), &result)
+      withKernelPixels { ck_image_sharpness($0, &result) }
     }
     return result
-  }
-}
-
-extension ck_camera {
-  init(_ camera: Camera) {
-    self.init(
-      width: Int32(camera.width), height: Int32(camera.height),
-      focal_length: (camera.focalLength.x, camera.focalLength.y),
-      principal_point: (camera.principalPoint.x, camera.principalPoint.y),
-      distortion: (
-        camera.distortion.x, camera.distortion.y, camera.distortion.z, camera.distortion.w
-      ))
   }
 }

@@ -12,16 +12,11 @@ extension Mesh {
     maximumTriangles: Int, _ control: KernelControl
   ) throws -> Mesh {
     var result = Mesh(positions: positions, triangles: triangles)
-    var (vertexCount, triangleCount) = (positions.count, triangles.count)
+    var (vertexCount, triangleCount) = (0, 0)
     try withKernel(control) { control in
-      result.positions.withUnsafeMutableBytes { positions in
-        result.triangles.withUnsafeMutableBytes { triangles in
-          ck_simplify(
-            positions.baseAddress?.assumingMemoryBound(to: Float.self), &vertexCount,
-            MemoryLayout<SIMD3<Float>>.stride,
-            triangles.baseAddress?.assumingMemoryBound(to: UInt32.self), &triangleCount,
-            max(0, maximumTriangles), control)
-        }
+      result.withMutableKernelValue { mesh in
+        defer { (vertexCount, triangleCount) = (mesh.positions.count, mesh.triangle_count) }
+        return ck_simplify(&mesh, max(0, maximumTriangles), control)
       }
     }
     result.positions.removeLast(result.positions.count - vertexCount)

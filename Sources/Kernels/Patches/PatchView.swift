@@ -1,8 +1,8 @@
 import CKernels
 import SceneModel
 
-/// A view prepared for patch stereo: luma and colors at fixed addresses, and its camera.
-package final class PatchView: @unchecked Sendable {
+/// A view prepared for patch stereo: its camera, and its luma and colors at fixed addresses.
+package final class PatchView: Sendable {
   package let photo: ID<Photo>
   /// Pinhole camera of the view, without distortion.
   package let camera: Camera
@@ -11,12 +11,11 @@ package final class PatchView: @unchecked Sendable {
   /// Pixels.
   package let width: Int
   package let height: Int
-  /// Standard deviation of the luma noise in gray levels.
+  /// Standard deviation of the luma's noise in gray levels.
   package let noise: Float
-  // Written only in `init`, so that sharing between threads is safe.
-  let luma: UnsafeMutablePointer<UInt8>
-  /// Nil in a halved view: colors are taken from the full one.
-  let rgb: UnsafeMutablePointer<UInt8>?
+  let luma: FrozenArray<UInt8>
+  /// Nil in a halved view: colors are taken from the whole one.
+  let rgb: FrozenArray<UInt8>?
 
   /// A copy of an image in memory; `noise` is estimated if nil.
   package convenience init(_ view: PinholeView, noise: Float? = nil) {
@@ -28,7 +27,7 @@ package final class PatchView: @unchecked Sendable {
     }
   }
 
-  /// A view whose RGB pixels `fill` writes to the given buffer.
+  /// A view whose RGB pixels `fill` writes into the buffer that it receives.
   package init(
     photo: ID<Photo>, camera: Camera, cameraFromWorld: RigidTransform, width: Int, height: Int,
     noise: Float? = nil, fill: (UnsafeMutableRawBufferPointer) throws -> Void
@@ -37,24 +36,19 @@ package final class PatchView: @unchecked Sendable {
     self.camera = camera
     self.cameraFromWorld = cameraFromWorld
     (self.width, self.height) = (width, height)
-    let (luma, rgb) = (
-      UnsafeMutablePointer<UInt8>.allocate(capacity: width * height),
-      UnsafeMutablePointer<UInt8>.allocate(capacity: 3 * width * height)
-    )
-    (self.luma, self.rgb) = (luma, rgb)
-    do {
-      try fill(UnsafeMutableRawBufferPointer(start: rgb, count: 3 * width * height))
-    } catch {
-      luma.deallocate()
-      rgb.deallocate()
-      throw error
+    let rgb = try FrozenArray<UInt8>(count: 3 * width * height) {
+      try fill(UnsafeMutableRawBufferPointer($0))
     }
-    // Rec. 601 in 8-bit fixed point.
-    for i in 0..<width * height {
-      let (r, g, b) = (UInt32(rgb[3 * i]), UInt32(rgb[3 * i + 1]), UInt32(rgb[3 * i + 2]))
-      luma[i] = UInt8(truncatingIfNeeded: (77 &* r &+ 150 &* g &+ 29 &* b &+ 128) >> 8)
+    self.rgb = rgb
+    luma = FrozenArray(count: width * height) { luma in
+      let rgb = rgb.elements
+      // Rec. 601 in 8-bit fixed point.
+      for i in 0..<width * height {
+        let (r, g, b) = (UInt32(rgb[3 * i]), UInt32(rgb[3 * i + 1]), UInt32(rgb[3 * i + 2]))
+        luma[i] = UInt8(truncatingIfNeeded: (77 &* r &+ 150 &* g &+ 29 &* b &+ 128) >> 8)
+      }
     }
-    self.noise = noise ?? ck_patches_noise(luma, Int32(width), Int32(height))
+    self.noise = noise ?? ck_patches_noise(luma.base, Int32(width), Int32(height))
   }
 
   /// The view at half the resolution, luma only.
@@ -71,28 +65,20 @@ package final class PatchView: @unchecked Sendable {
     // Averaging four pixels halves the noise.
     noise = view.noise / 2
     rgb = nil
-    luma = .allocate(capacity: width * height)
-    ck_patches_halve(luma, view.luma, Int32(view.width), Int32(view.height))
+    luma = FrozenArray(count: width * height) {
+      ck_patches_halve(view.luma.base, Int32(view.width), Int32(view.height), $0.baseAddress)
+    }
   }
 
-  /// The RGB pixels, empty for a halved view; valid as long as this object lives.
+  /// The RGB pixels, none of a halved view; valid as long as this object lives.
   package var rgbBytes: UnsafeRawBufferPointer {
-    UnsafeRawBufferPointer(start: rgb, count: rgb == nil ? 0 : 3 * width * height)
-  }
-
-  deinit {
-    luma.deallocate()
-    rgb?.deallocate()
+    rgb.map { UnsafeRawBufferPointer($0.elements) } ?? UnsafeRawBufferPointer(start: nil, count: 0)
   }
 
   /// The C view, valid as long as this object lives.
   var raw: ck_patch_view {
-    let r = cameraFromWorld.rotation.matrix.elements
-    let t = cameraFromWorld.translation
-    return ck_patch_view(
-      width: Int32(width), height: Int32(height), luma: luma, fx: camera.focalLength.x,
-      fy: camera.focalLength.y, cx: camera.principalPoint.x, cy: camera.principalPoint.y,
-      rotation: (r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]),
-      translation: (t.x, t.y, t.z), noise: noise)
+    ck_patch_view(
+      camera: ck_camera(camera, width: width, height: height),
+      camera_from_world: ck_pose(cameraFromWorld), luma: luma.base, noise: noise)
   }
 }

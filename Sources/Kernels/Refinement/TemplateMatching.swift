@@ -86,9 +86,9 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     var valid = [UInt8](repeating: 0, count: places.count)
     let raw = places.map { ck_template_location(x: $0.center.x, y: $0.center.y, step: $0.step) }
     try withKernel(KernelControl()) { _ in
-      ck_extract_templates(
-        image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
-        image.width * image.channels, raw, raw.count, &templates.samples, &valid)
+      image.withKernelPixels {
+        ck_extract_templates($0, raw, raw.count, &templates.samples, &valid)
+      }
     }
     templates.isValid = valid.map { $0 != 0 }
     return templates
@@ -107,10 +107,10 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
         x: search.expected.x, y: search.expected.y)
     }
     try withKernel(KernelControl()) { _ in
-      ck_match_templates(
-        image.pixels, Int32(image.width), Int32(image.height), Int32(image.channels),
-        image.width * image.channels, templates.samples, templates.isValid.count, raw, raw.count,
-        maximumShift, &matches)
+      image.withKernelPixels {
+        ck_match_templates(
+          $0, templates.samples, templates.isValid.count, raw, raw.count, maximumShift, &matches)
+      }
     }
     return matches.map { $0.zncc > -1 ? Match(center: [$0.x, $0.y], zncc: $0.zncc) : nil }
   }

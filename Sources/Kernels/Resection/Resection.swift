@@ -45,20 +45,14 @@ package struct Resection: Sendable {
     var pose = ck_pose()
     var inliers = [UInt8](repeating: 0, count: pixels.count)
     var inlierCount = 0
-    var model = ck_camera_model(camera)
+    var camera = ck_camera(camera)
     var raw = ck_resection_options(
       maximum_error: options.maximumError, maximum_iterations: Int32(options.maximumIterations),
       confidence: options.confidence, minimum_inliers: Int32(options.minimumInliers),
       seed: options.seed)
     try withKernel(control) { control in
-      pixels.withUnsafeBytes { pixels in
-        points.withUnsafeBytes { points in
-          ck_resect(
-            &pose, &inliers, &inlierCount,
-            pixels.baseAddress?.assumingMemoryBound(to: Double.self),
-            points.baseAddress?.assumingMemoryBound(to: Double.self),
-            MemoryLayout<SIMD3<Double>>.stride, inliers.count, &model, &raw, control)
-        }
+      withSpans(pixels, points) { pixels, points in
+        ck_resect(&camera, pixels, points, &raw, control, &pose, &inliers, &inlierCount)
       }
     }
     return Result(
@@ -78,7 +72,7 @@ package struct Resection: Sendable {
     var count = 0
     let flatRays = rays.flatMap { [$0.x, $0.y, $0.z] }
     let flatPoints = points.flatMap { [$0.x, $0.y, $0.z] }
-    try withKernel(KernelControl()) { _ in ck_p3p(&poses, &count, flatRays, flatPoints) }
+    try withKernel(KernelControl()) { _ in ck_p3p(flatRays, flatPoints, &poses, &count) }
     return poses.prefix(count).map { RigidTransform($0) }
   }
 }

@@ -28,13 +28,16 @@ package struct FreeSpace: Sendable {
       origin: (Double(low.x), Double(low.y), Double(low.z)), cell_size: side,
       size: (size[0], size[1], size[2]))
     var counts = [UInt8](repeating: 0, count: size.reduce(1) { $0 * Int($1) })
-    let packedCenters = centers.flatMap { [$0.x, $0.y, $0.z] }
-    try withKernel(control) { control in
-      withUnsafePointer(to: grid) { grid in
-        cloud.positions.withUnsafeBytes { points in
-          ck_free_space(
-            grid, points.floats, MemoryLayout<SIMD3<Float>>.stride, clearances, clearances.count,
-            cloud.photoOffsets, cloud.photoIndices, packedCenters, centers.count, control, &counts)
+    var rawGrid = grid
+    let (clearances, offsets) = (KernelArray(clearances), KernelArray(cloud.photoOffsets))
+    let photos = KernelArray(cloud.photoIndices)
+    try withExtendedLifetime((clearances, offsets, photos)) {
+      try withKernel(control) { control in
+        withSpans(cloud.positions, centers) { positions, centers in
+          var points = ck_seen_points(
+            positions: positions, clearances: clearances.base, photo_offsets: offsets.base,
+            photos: photos.base)
+          return ck_free_space(&rawGrid, &points, centers, control, &counts)
         }
       }
     }

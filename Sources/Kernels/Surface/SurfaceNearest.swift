@@ -19,15 +19,11 @@ package struct NearestPoints: Sendable {
     var indices = [Int32](repeating: -1, count: queries.count * width)
     var distances = [Float](repeating: .infinity, count: queries.count * width)
     if !queries.isEmpty {
-      let stride = MemoryLayout<SIMD3<Float>>.stride
+      var options = ck_nearest_options(
+        neighbors: Int32(width), maximum_distance: maximumDistance)
       try withKernel(control) { control in
-        points.withUnsafeBytes { points in
-          queries.withUnsafeBytes { queries in
-            ck_nearest_points(
-              points.floats, stride, points.count / stride, queries.floats, stride,
-              queries.count / stride, Int32(width), maximumDistance, control, &indices,
-              &distances)
-          }
+        withSpans(points, queries) { points, queries in
+          ck_nearest_points(points, queries, &options, control, &indices, &distances)
         }
       }
     }

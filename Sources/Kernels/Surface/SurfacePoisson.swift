@@ -30,13 +30,7 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
     var options = ck_poisson_options(depth: Int32(depth), scale: scale)
     var handle: OpaquePointer?
     try withKernel(control) { control in
-      positions.withUnsafeBytes { positions in
-        normals.withUnsafeBytes { normals in
-          ck_poisson(
-            positions.floats, normals.floats, MemoryLayout<SIMD3<Float>>.stride,
-            positions.count / MemoryLayout<SIMD3<Float>>.stride, &options, control, &handle)
-        }
-      }
+      withSpans(positions, normals) { ck_poisson($0, $1, &options, control, &handle) }
     }
     guard let handle else { throw KernelError.failed("no surface") }
     return SurfaceHandle(handle).surface
@@ -58,19 +52,9 @@ private final class SurfaceHandle {
       triangles: Array(
         repeating: Triangle(0, 0, 0), count: ck_surface_triangle_count(raw)))
     var densities = [Float](repeating: 0, count: count)
-    mesh.positions.withUnsafeMutableBytes { positions in
-      mesh.triangles.withUnsafeMutableBytes { triangles in
-        ck_surface_copy(
-          raw, positions.baseAddress?.assumingMemoryBound(to: Float.self),
-          MemoryLayout<SIMD3<Float>>.stride, &densities,
-          triangles.baseAddress?.assumingMemoryBound(to: UInt32.self))
-      }
+    mesh.withMutableKernelValue {
+      ck_surface_copy(raw, $0.positions, &densities, $0.triangles)
     }
     return PoissonReconstruction.Surface(mesh: mesh, densities: densities)
   }
-}
-
-extension UnsafeRawBufferPointer {
-  /// The buffer's memory as floats.
-  var floats: UnsafePointer<Float>? { baseAddress?.assumingMemoryBound(to: Float.self) }
 }

@@ -42,13 +42,7 @@ package final class SurfaceRefinement {
       minimum_correlation: options.minimumCorrelation,
       smoothness: options.smoothness)
     try withKernel(control) { control in
-      mesh.positions.withUnsafeFloats { positions in
-        mesh.triangles.withUnsafeIndices { triangles in
-          ck_photo_refinement_create(
-            positions, MemoryLayout<SIMD3<Float>>.stride, mesh.positions.count, triangles,
-            mesh.triangles.count, &raw, control, &handle)
-        }
-      }
+      mesh.withKernelValue { ck_photo_refinement_create($0, &raw, control, &handle) }
     }
     guard let handle else { throw KernelError.failed("the mesh can't be prepared") }
     self.handle = handle
@@ -64,9 +58,9 @@ package final class SurfaceRefinement {
       throw KernelError.invalidArgument(
         "the view isn't in color, or its mask is not gray or not of its size")
     }
-    var pinhole = ck_pinhole(view)
+    var rawView = ck_view(view)
     try withKernel(control) { control in
-      ck_photo_refinement_add(handle, &pinhole, image.pixels, mask?.pixels, control)
+      ck_photo_refinement_add(handle, &rawView, image.pixels, mask?.pixels, control)
     }
   }
 
@@ -77,11 +71,7 @@ package final class SurfaceRefinement {
     var result = mesh
     var moved = 0
     try withKernel(control) { control in
-      result.positions.withUnsafeMutableBytes {
-        ck_photo_refinement_run(
-          handle, control, $0.baseAddress?.assumingMemoryBound(to: Float.self),
-          MemoryLayout<SIMD3<Float>>.stride, &moved)
-      }
+      result.positions.withMutableSpan { ck_photo_refinement_run(handle, control, $0, &moved) }
     }
     return (result, moved)
   }

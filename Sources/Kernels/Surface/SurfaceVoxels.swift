@@ -24,23 +24,17 @@ package struct VoxelGrid: Sendable {
       throw KernelError.invalidArgument("as many levels as positions are needed")
     }
     var cells = [Int32](repeating: -1, count: positions.count)
-    var components = findsComponents ? cells : []
+    let components = findsComponents ? KernelArray(cells) : nil
     var (cellCount, componentCount) = (0, 0)
     try withKernel(control) { control in
-      positions.withUnsafeBytes { bytes in
-        cells.withUnsafeMutableBufferPointer { cells in
-          components.withUnsafeMutableBufferPointer { components in
-            (levels ?? []).withUnsafeBufferPointer { levels in
-              ck_voxel_cells(
-                bytes.floats, MemoryLayout<SIMD3<Float>>.stride, cells.count, cellSize,
-                levels.isEmpty ? nil : levels.baseAddress, control, cells.baseAddress, &cellCount,
-                components.isEmpty ? nil : components.baseAddress, &componentCount)
-            }
-          }
-        }
+      positions.withSpan {
+        ck_voxel_cells(
+          $0, cellSize, levels, control, &cells, &cellCount, components?.base,
+          &componentCount)
       }
     }
     (self.cells, self.cellCount) = (cells, cellCount)
-    (self.components, self.componentCount) = (components, componentCount)
+    if let components { self.components = Array(components.elements) }
+    self.componentCount = componentCount
   }
 }

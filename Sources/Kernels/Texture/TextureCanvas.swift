@@ -74,9 +74,9 @@ package final class TextureCanvas {
     }
     try withKernel(control) { control in
       if let view {
-        var pinhole = ck_pinhole(view)
+        var rawView = ck_view(view)
         return ck_atlas_paint(
-          handle, &pinhole, view.image.pixels, [gain.x, gain.y, gain.z], raw, raw.count, control)
+          handle, &rawView, view.image.pixels, [gain.x, gain.y, gain.z], raw, raw.count, control)
       }
       return ck_atlas_paint(handle, nil, nil, nil, raw, raw.count, control)
     }
@@ -127,18 +127,16 @@ package final class TextureCanvas {
     guard source.cornerNormals.count == 3 * scene.triangleCount,
       source.cornerTangents.count == 3 * scene.triangleCount
     else { throw KernelError.invalidArgument("corner normals and corners differ in number") }
-    let normals = source.cornerNormals.flatMap { [$0.x, $0.y, $0.z] }
-    let tangents = source.cornerTangents.flatMap { [$0.x, $0.y, $0.z, $0.w] }
-    try withKernel(control) { control in
-      normals.withUnsafeBufferPointer { normals in
-        tangents.withUnsafeBufferPointer { tangents in
-          source.denseNormals.withUnsafeFloats { denseNormals in
-            var raw = ck_bake_source(
-              maximum_distance: source.maximumDistance, corner_normals: normals.baseAddress,
-              corner_tangents: tangents.baseAddress, dense: source.dense.handle,
-              dense_normals: denseNormals, dense_normals_stride: MemoryLayout<SIMD3<Float>>.stride)
-            return body(&raw, control)
-          }
+    let normals = KernelArray(source.cornerNormals.flatMap { [$0.x, $0.y, $0.z] })
+    let tangents = KernelArray(source.cornerTangents.flatMap { [$0.x, $0.y, $0.z, $0.w] })
+    try withExtendedLifetime((normals, tangents)) {
+      try withKernel(control) { control in
+        source.denseNormals.withSpan { denseNormals in
+          var raw = ck_bake_source(
+            maximum_distance: source.maximumDistance, corner_normals: normals.base,
+            corner_tangents: tangents.base, dense: source.dense.handle,
+            dense_normals: denseNormals)
+          return body(&raw, control)
         }
       }
     }

@@ -25,13 +25,7 @@ package struct ChartClustering: Hashable, Codable, Sendable {
     var options = ck_chart_options(
       maximum_angle: maximumAngle, minimum_share: minimumShare)
     try withKernel(control) { control in
-      mesh.positions.withUnsafeFloats { positions in
-        mesh.triangles.withUnsafeIndices { triangles in
-          ck_cluster_faces(
-            positions, mesh.positions.count, MemoryLayout<SIMD3<Float>>.stride, triangles,
-            mesh.triangles.count, &options, control, &charts, &axes, &count)
-        }
-      }
+      mesh.withKernelValue { ck_cluster_faces($0, &options, control, &charts, &axes, &count) }
     }
     return (charts, (0..<count).map { SIMD3(axes[3 * $0], axes[3 * $0 + 1], axes[3 * $0 + 2]) })
   }

@@ -40,15 +40,17 @@ package struct LabelSelection: Sendable {
   package func run(iterations: Int, _ control: KernelControl) throws -> [Int32] {
     let count = offsets.count - 1
     var choices = [Int32](repeating: -1, count: count)
-    let pairs = edges.flatMap { [$0.a, $0.b] }
-    let weights = edges.map(\.weight)
-    try withKernel(control) { control in
-      ck_select_labels(
-        count, offsets, labels, costs, weights.count, pairs, weights, iterations, control,
-        &choices)
+    let (offsets, labels) = (KernelArray(offsets), KernelArray(labels))
+    let (costs, pairs) = (KernelArray(costs), KernelArray(edges.flatMap { [$0.a, $0.b] }))
+    let weights = KernelArray(edges.lazy.map(\.weight))
+    try withExtendedLifetime((offsets, labels, costs, pairs, weights)) {
+      var problem = ck_label_problem(
+        node_count: count, offsets: offsets.base, labels: labels.base, costs: costs.base,
+        edge_count: weights.count, edges: pairs.base, edge_weights: weights.base)
+      try withKernel(control) { ck_select_labels(&problem, iterations, $0, &choices) }
     }
     return choices.enumerated().map { node, choice in
-      choice < 0 ? -1 : labels[Int(offsets[node]) + Int(choice)]
+      choice < 0 ? -1 : self.labels[Int(self.offsets[node]) + Int(choice)]
     }
   }
 }
@@ -95,14 +97,17 @@ package struct SparseLeastSquares: Sendable {
     tolerance: Double = 1e-5, iterations: Int = 2000, _ control: KernelControl
   ) throws -> [SIMD3<Double>] {
     var values = rightSides.flatMap { [$0.x, $0.y, $0.z] }
-    let indices = (0..<UInt32(unknownCount)).map { $0 }
-    let (allRows, allColumns) = (rows + indices, columns + indices)
-    // A tiny weight keeps unknowns without equations at zero.
-    let allEntries = entries + diagonal.map { max($0, 1e-12) }
-    try withKernel(control) { control in
-      ck_solve_sparse(
-        unknownCount, 3, allEntries.count, allRows, allColumns, allEntries, tolerance, iterations,
-        control, &values)
+    let indices = 0..<UInt32(unknownCount)
+    let (allRows, allColumns) = (KernelArray(rows + indices), KernelArray(columns + indices))
+    // A tiny weight keeps unknowns that no equation names at zero.
+    let allEntries = KernelArray(entries + diagonal.map { max($0, 1e-12) })
+    var options = ck_conjugate_gradient_options(
+      tolerance: tolerance, maximum_iterations: iterations)
+    try withExtendedLifetime((allRows, allColumns, allEntries)) {
+      var matrix = ck_sparse_matrix(
+        size: unknownCount, entry_count: allEntries.count, rows: allRows.base,
+        columns: allColumns.base, entries: allEntries.base)
+      try withKernel(control) { ck_solve_sparse(&matrix, 3, &options, $0, &values) }
     }
     return (0..<unknownCount).map {
       SIMD3(values[3 * $0], values[3 * $0 + 1], values[3 * $0 + 2])

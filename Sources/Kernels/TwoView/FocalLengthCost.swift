@@ -15,13 +15,13 @@ package enum FocalLengthCost {
       throw KernelError.invalidArgument("the two lists of points differ in length")
     }
     var costs = [Double](repeating: 0, count: factors.count)
+    let m = (fundamental.row0, fundamental.row1, fundamental.row2)
+    var options = ck_focal_length_options(
+      fundamental: (m.0.x, m.0.y, m.0.z, m.1.x, m.1.y, m.1.z, m.2.x, m.2.y, m.2.z),
+      maximum_error: maximumError)
     try withKernel(control) { control in
-      withCoordinates(first) { points in
-        withCoordinates(second) { others in
-          ck_focal_length_costs(
-            points.baseAddress, others.baseAddress, first.count, fundamental.elements,
-            maximumError, factors, factors.count, control, &costs)
-        }
+      withPairs(first, second) {
+        ck_focal_length_costs($0, factors, factors.count, &options, control, &costs)
       }
     }
     return costs

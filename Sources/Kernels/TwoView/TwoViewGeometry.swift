@@ -50,12 +50,8 @@ package struct TwoViewEstimation: Hashable, Codable, Sendable {
     var inliers = [UInt8](repeating: 0, count: first.count)
     do {
       try withKernel(control) { control in
-        withCoordinates(first) { first in
-          withCoordinates(second) { second in
-            ck_two_view_estimate(
-              first.baseAddress, second.baseAddress, inliers.count, &options, control, &result,
-              &inliers)
-          }
+        withPairs(first, second) {
+          ck_two_view_estimate($0, &options, control, &result, &inliers)
         }
       }
     } catch KernelError.degenerate {
@@ -107,6 +103,20 @@ func withCoordinates<Result>(
   _ points: [SIMD2<Double>], _ body: (UnsafeBufferPointer<Double>) -> Result
 ) -> Result {
   points.withUnsafeBytes { body($0.bindMemory(to: Double.self)) }
+}
+
+/// Matches as kernels take them; `body` may use them during the call only.
+func withPairs<Result>(
+  _ first: [SIMD2<Double>], _ second: [SIMD2<Double>],
+  _ body: (UnsafePointer<ck_point_pairs>) -> Result
+) -> Result {
+  withCoordinates(first) { firstPoints in
+    withCoordinates(second) { secondPoints in
+      var pairs = ck_point_pairs(
+        first: firstPoints.baseAddress, second: secondPoints.baseAddress, count: first.count)
+      return body(&pairs)
+    }
+  }
 }
 
 extension Matrix3 {

@@ -64,17 +64,18 @@ struct DenseSteps {
   private func makeCoarsePatches(_ context: StageContext) throws {
     try forEach(.coarse, context) { [self] index, control in
       let view = views.views[index]
-      let map = PatchMap(view: try half(index))
+      let half = try half(index)
+      var map = PatchMapBuilder(view: half)
       do {
         try PatchStereo.reconstruct(
-          map, sources: try view.sources.map(half),
-          seeds: view.points.compactMap { map.view.seed(at: $0) }, options: options.patches,
+          &map, sources: try view.sources.map(self.half),
+          seeds: view.points.compactMap { half.seed(at: $0) }, options: options.patches,
           control: control)
       } catch KernelError.degenerate {
         // A view without visible sparse points gets patches from other views only.
       }
-      try masks.apply(to: map, index)
-      try workspace.write(map.patchBytes, views.key(.coarse, index))
+      try masks.apply(to: &map, index)
+      try map.withPatchBytes { try workspace.write($0, views.key(.coarse, index)) }
     }
   }
 
@@ -86,15 +87,15 @@ struct DenseSteps {
     try forEach(.patches, context) { [self] index, control in
       let sources = views.views[index].sources
       let coarse = try coarseMap(index)
-      try PatchStereo.filter(
+      let states = try PatchStereo.filter(
         coarse, neighbors: try sources.map(coarseMap), options: options.coarseFilter,
         recordsVisibility: true, control: control.part(from: 0, to: 0.05))
-      let map = PatchMap(view: try photo(index))
+      var map = PatchMapBuilder(view: try photo(index))
       try PatchStereo.refine(
-        map, from: coarse, sources: try sources.map(photo), options: options.patches,
-        control: control.part(from: 0.05, to: 1))
-      try masks.apply(to: map, index)
-      try workspace.write(map.patchBytes, views.key(.patches, index))
+        &map, from: coarse.filtered(states), sources: try sources.map(photo),
+        options: options.patches, control: control.part(from: 0.05, to: 1))
+      try masks.apply(to: &map, index)
+      try map.withPatchBytes { try workspace.write($0, views.key(.patches, index)) }
     }
     recordPeaks(maps, context.notes)
   }
@@ -107,11 +108,10 @@ struct DenseSteps {
     let maps = makeMaps()
     let map = { @Sendable [self] (index: Int) in try self.map(index, patches, in: maps) }
     try forEach(states, context) { [self] index, control in
-      let own = try map(index)
-      try PatchStereo.filter(
-        own, neighbors: try views.views[index].sources.map(map), options: options,
+      let accepted = try PatchStereo.filter(
+        try map(index), neighbors: try views.views[index].sources.map(map), options: options,
         control: control)
-      try workspace.write(UnsafeRawBufferPointer(own.stateBytes), views.key(states, index))
+      try accepted.withBytes { try workspace.write($0, views.key(states, index)) }
     }
     recordPeaks(maps, context.notes)
   }
@@ -126,14 +126,15 @@ struct DenseSteps {
       try self.map(index, patches, states, in: maps)
     }
     try forEach(completed, context) { [self] index, control in
-      var result = try map(index)
-      if options.completes {
-        result = try PatchStereo.complete(
-          result, neighbors: try views.views[index].sources.map(map), options: options.patches,
-          control: control)
-        try masks.apply(to: result, index)
+      let own = try map(index)
+      guard options.completes else {
+        return try own.withPatchBytes { try workspace.write($0, views.key(completed, index)) }
       }
-      try workspace.write(result.patchBytes, views.key(completed, index))
+      var result = try PatchStereo.complete(
+        own, neighbors: try views.views[index].sources.map(map), options: options.patches,
+        control: control)
+      try masks.apply(to: &result, index)
+      try result.withPatchBytes { try workspace.write($0, views.key(completed, index)) }
     }
     recordPeaks(maps, context.notes)
   }
@@ -233,9 +234,12 @@ extension DenseSteps {
   ) throws -> PatchMap {
     try maps.value(index) {
       let view = patches.isCoarse ? try half(index) : try photo(index)
-      let map = try PatchMap(view: view) { try read(views.key(patches, index), into: $0) }
-      if let states { try read(views.key(states, index), into: map.stateBytes) }
-      return map
+      let accepted = try states.map { states in
+        try PatchStates(view: view) { try read(views.key(states, index), into: $0) }
+      }
+      return try PatchMap(view: view, states: accepted) {
+        try read(views.key(patches, index), into: $0)
+      }
     }
   }
 

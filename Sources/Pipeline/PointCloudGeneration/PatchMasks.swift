@@ -20,9 +20,9 @@ struct PatchMasks: Sendable {
     (self.images, self.maximumPixels) = (images, maximumPixels)
   }
 
-  /// Removes the patches of view `index` outside its mask. `map` may have half the view's
-  /// resolution; the caller must have exclusive access to it.
-  func apply(to map: PatchMap, _ index: Int) throws {
+  /// Removes the patches of view `index` that lie outside; `map` may have half the view's
+  /// resolution.
+  func apply(to map: inout PatchMapBuilder, _ index: Int) throws {
     let view = views.views[index]
     guard
       let mask = try images.pinholeMask(

@@ -1,5 +1,5 @@
-/// Three vertex indices, counter-clockwise when viewed from outside; 12 bytes.
-package struct Triangle: Hashable, Sendable {
+/// Three vertex indices, counter-clockwise seen from outside; 12 bytes.
+package struct Triangle: Hashable, Sendable, BitwiseCopyable {
   package var a: UInt32
   package var b: UInt32
   package var c: UInt32

@@ -17,7 +17,7 @@ import Testing
     let fullViews = scene.views.map { PatchView($0, noise: noise) }
     let views = isHalved ? fullViews.map { $0.halved() } : fullViews
     return try views.indices.map { index in
-      let map = PatchMap(view: views[index])
+      var map = PatchMapBuilder(view: views[index])
       let seeds = scene.reconstruction.points.compactMap { point -> PatchSeed? in
         guard point.track.contains(where: { $0.photo.index == index }) else { return nil }
         let seen = views[index].cameraFromWorld * point.position
@@ -26,9 +26,9 @@ import Testing
           PatchSeed(pixel: SIMD2<Float>(pixel), inverseDepth: Float(1 / seen.z)))
       }
       try PatchStereo.reconstruct(
-        map, sources: views.indices.filter { $0 != index }.map { views[$0] }, seeds: seeds,
+        &map, sources: views.indices.filter { $0 != index }.map { views[$0] }, seeds: seeds,
         options: options, control: control)
-      return map
+      return map.finished()
     }
   }
 
@@ -103,23 +103,23 @@ import Testing
   /// Filtered patches of all views at half the resolution, with visibility.
   static func coarseMaps(_ scene: RaycastScene) throws -> [PatchMap] {
     let maps = try maps(scene, isHalved: true)
-    for index in maps.indices {
-      try PatchStereo.filter(
-        maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
-        recordsVisibility: true, control: KernelControl())
+    return try maps.indices.map { index in
+      maps[index].filtered(
+        try PatchStereo.filter(
+          maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
+          recordsVisibility: true, control: KernelControl()))
     }
-    return maps
   }
 
   @Test func refinedPatchesAreAccurate() throws {
     let coarse = try Self.coarseMaps(Self.scene)
     let views = Self.scene.views.map { PatchView($0) }
     for index in views.indices {
-      let map = PatchMap(view: views[index])
+      var map = PatchMapBuilder(view: views[index])
       try PatchStereo.refine(
-        map, from: coarse[index], sources: views.indices.filter { $0 != index }.map { views[$0] },
+        &map, from: coarse[index], sources: views.indices.filter { $0 != index }.map { views[$0] },
         options: PatchStereo.Options(), control: KernelControl())
-      let error = Self.depthError(map, Self.scene, view: index)
+      let error = Self.depthError(map.finished(), Self.scene, view: index)
       #expect(error.median < 0.002)
       #expect(error.share > 0.7)
     }
@@ -127,41 +127,43 @@ import Testing
 
   @Test func refinementRequiresHalfResolution() throws {
     let views = Self.scene.views.map { PatchView($0) }
-    let whole = PatchMap(view: views[0])
-    try PatchStereo.filter(
-      whole, neighbors: [PatchMap(view: views[1])], options: PatchStereo.FilterOptions(),
+    let whole = Self.empty(views[0])
+    let states = try PatchStereo.filter(
+      whole, neighbors: [Self.empty(views[1])], options: PatchStereo.FilterOptions(),
       recordsVisibility: true, control: KernelControl())
     #expect(throws: KernelError.self) {
+      var map = PatchMapBuilder(view: views[0])
       try PatchStereo.refine(
-        PatchMap(view: views[0]), from: whole, sources: [views[1]],
-        options: PatchStereo.Options(), control: KernelControl())
+        &map, from: whole.filtered(states), sources: [views[1]], options: PatchStereo.Options(),
+        control: KernelControl())
     }
   }
 
   @Test func viewWithoutPatchesIsFilledFromOthers() throws {
-    let maps = try Self.maps(Self.scene)
-    let empty = PatchMap(view: maps[2].view)
-    try Self.filter(maps)
+    let maps = try Self.filtered(Self.maps(Self.scene))
+    let empty = Self.empty(maps[2].view)
     let completed = try PatchStereo.complete(
       empty, neighbors: Self.others(maps, 2), options: PatchStereo.Options(),
-      control: KernelControl())
+      control: KernelControl()
+    ).finished()
     let error = Self.depthError(completed, Self.scene, view: 2)
     #expect(error.median < 0.002)
     #expect(error.share > 0.6)
     // Without other views' patches there are no candidates.
     let alone = try PatchStereo.complete(
-      empty, neighbors: Self.others(maps, 2).map { PatchMap(view: $0.view) },
-      options: PatchStereo.Options(), control: KernelControl())
+      empty, neighbors: Self.others(maps, 2).map { Self.empty($0.view) },
+      options: PatchStereo.Options(), control: KernelControl()
+    ).finished()
     #expect(Self.depthError(alone, Self.scene, view: 2).share == 0)
   }
 
   /// The filtered patches of the third view, and the completed ones.
   static func completed() throws -> (map: PatchMap, completed: PatchMap) {
-    let maps = try maps(scene)
-    try filter(maps)
+    let maps = try filtered(maps(scene))
     let completed = try PatchStereo.complete(
       maps[2], neighbors: others(maps, 2), options: PatchStereo.Options(),
-      control: KernelControl())
+      control: KernelControl()
+    ).finished()
     return (maps[2], completed)
   }
 
@@ -244,18 +246,20 @@ import Testing
   }
 
   @Test func floatersAreRemoved() throws {
-    let maps = try Self.maps(Self.scene)
-    // A confident patch of 20 × 20 pixels halfway to the ball, in one view only and in two.
+    var maps = try Self.maps(Self.scene)
+    // A confident patch of 20 × 20 pixels half way to the ball, in one view only and in two.
     let region = (60..<80, 50..<70)
     for view in [2, 3] {
+      var changed = PatchMapBuilder(copying: maps[view])
       for y in region.1 {
         for x in region.0 {
-          maps[view][x, y] = Patch(
+          changed[x, y] = Patch(
             inverseDepth: 2 * maps[view][x, y].inverseDepth, gradient: .zero, cost: 0.01)
         }
       }
+      maps[view] = changed.finished()
     }
-    try Self.filter(maps)
+    maps = try Self.filtered(maps)
     let left = region.1.flatMap { y in region.0.map { ($0, y) } }
       .filter { maps[2].isAccepted($0.0, $0.1) }
     #expect(left.isEmpty)
@@ -278,16 +282,17 @@ import Testing
 
   @Test func aViewWithoutSeedsIsDegenerate() throws {
     let views = Self.scene.views.map { PatchView($0) }
-    let map = PatchMap(view: views[0])
     #expect(throws: KernelError.self) {
+      var map = PatchMapBuilder(view: views[0])
       try PatchStereo.reconstruct(
-        map, sources: [views[1]], seeds: [], options: PatchStereo.Options(),
+        &map, sources: [views[1]], seeds: [], options: PatchStereo.Options(),
         control: KernelControl())
     }
     let broken = [PatchSeed(pixel: [.nan, 3], inverseDepth: .infinity)]
     #expect(throws: KernelError.self) {
+      var map = PatchMapBuilder(view: views[0])
       try PatchStereo.reconstruct(
-        map, sources: [views[1]], seeds: broken, options: PatchStereo.Options(),
+        &map, sources: [views[1]], seeds: broken, options: PatchStereo.Options(),
         control: KernelControl())
     }
   }
@@ -296,18 +301,27 @@ import Testing
     maps.indices.filter { $0 != index }.map { maps[$0] }
   }
 
-  static func filter(_ maps: [PatchMap], control: KernelControl = KernelControl()) throws {
-    for index in maps.indices {
-      try PatchStereo.filter(
-        maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
-        control: control)
+  /// A filtered map without patches.
+  static func empty(_ view: PatchView) -> PatchMap {
+    PatchMapBuilder(view: view).finished().filtered(
+      PatchStates(view: view) { $0.initializeMemory(as: UInt8.self, repeating: 0) })
+  }
+
+  static func filtered(
+    _ maps: [PatchMap], control: KernelControl = KernelControl()
+  ) throws -> [PatchMap] {
+    try maps.indices.map { index in
+      maps[index].filtered(
+        try PatchStereo.filter(
+          maps[index], neighbors: others(maps, index), options: PatchStereo.FilterOptions(),
+          control: control))
     }
   }
 
   static func fused(
     _ maps: [PatchMap], control: KernelControl = KernelControl()
   ) throws -> PointCloud {
-    try filter(maps, control: control)
+    let maps = try filtered(maps, control: control)
     return try maps.indices.reduce(into: PointCloud()) {
       $0.append(
         try PatchStereo.fuse(

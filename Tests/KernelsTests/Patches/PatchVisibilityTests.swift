@@ -11,7 +11,7 @@ import Testing
   /// Maps with the true depth and slope of every pixel.
   static func exactMaps(_ scene: RaycastScene = scene) -> [PatchMap] {
     scene.views.indices.map { view in
-      let map = PatchMap(view: PatchView(scene.views[view]))
+      var map = PatchMapBuilder(view: PatchView(scene.views[view]))
       let camera = scene.views[view].camera
       for y in 0..<camera.height {
         for x in 0..<camera.width {
@@ -21,7 +21,7 @@ import Testing
           map[x, y] = patch(scene.views[view], x, y, depth, normal)
         }
       }
-      return map
+      return map.finished()
     }
   }
 
@@ -42,8 +42,7 @@ import Testing
   }
 
   @Test func exactPatchesVisibleInThreeViewsAreKept() throws {
-    let maps = Self.exactMaps()
-    try PatchStereoTests.filter(maps)
+    let maps = try PatchStereoTests.filtered(Self.exactMaps())
     var (seen, kept) = (0, 0)
     for y in 30..<90 {
       for x in 40..<120 where maps[2][x, y].inverseDepth > 0 {
@@ -76,7 +75,7 @@ import Testing
   }
 
   @Test func surfaceElementsAreFusedOnce() throws {
-    let maps = Self.exactMaps()
+    let maps = try PatchStereoTests.filtered(Self.exactMaps())
     let cloud = try PatchStereoTests.fused(maps)
     // Five views from about the same distance show nearly the same surface: one point per view
     // would be several times the patches of one view.
@@ -86,8 +85,7 @@ import Testing
   }
 
   @Test func neighborOrderDoesNotMatter() throws {
-    let maps = Self.exactMaps()
-    try PatchStereoTests.filter(maps)
+    let maps = try PatchStereoTests.filtered(Self.exactMaps())
     let options = PatchStereo.FilterOptions()
     for index in maps.indices {
       let others = PatchStereoTests.others(maps, index)
@@ -107,13 +105,12 @@ import Testing
       let maps = Self.exactMaps()
       var options = PatchStereo.FilterOptions()
       options.instructions = instructions
-      for index in maps.indices {
-        try PatchStereo.filter(
-          maps[index], neighbors: PatchStereoTests.others(maps, index), options: options,
-          control: KernelControl())
-      }
-      return maps.flatMap { map in
-        (0..<120).flatMap { y in (0..<160).map { map.isAccepted($0, y) } }
+      return try maps.indices.flatMap { index in
+        let map = maps[index].filtered(
+          try PatchStereo.filter(
+            maps[index], neighbors: PatchStereoTests.others(maps, index), options: options,
+            control: KernelControl()))
+        return (0..<120).flatMap { y in (0..<160).map { map.isAccepted($0, y) } }
       }
     }
     let expected = try accepted(.portable)

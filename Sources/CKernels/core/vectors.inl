@@ -1,0 +1,28 @@
+// Vectors in memory, included once for each instruction set: a function that returns a vector has
+// to be compiled for the same set as its caller.
+
+namespace ck {
+namespace {
+
+/// The 16 numbers from `p` on.
+CK_INLINE F16 load(const float* p) {
+  F16 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+/// The 8 numbers from `p` on.
+CK_INLINE F8 load8(const float* p) {
+  F8 v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+/// Writes the lanes from `p` on.
+template <typename Vector, typename T>
+CK_INLINE void store(T* p, const Vector& v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+
+}  // namespace
+}  // namespace ck

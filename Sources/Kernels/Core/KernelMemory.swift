@@ -1,0 +1,153 @@
+import CKernels
+import SceneModel
+
+/// Elements at a fixed address, for the structs of pointers that kernels take.
+///
+/// Keep it alive during the call with `withExtendedLifetime`.
+final class KernelArray<Element: BitwiseCopyable> {
+  let elements: UnsafeMutableBufferPointer<Element>
+
+  init(_ source: some Collection<Element>) {
+    elements = .allocate(capacity: source.count)
+    _ = elements.initialize(fromContentsOf: source)
+  }
+
+  deinit { elements.deallocate() }
+
+  var count: Int { elements.count }
+  var base: UnsafeMutablePointer<Element>? { elements.baseAddress }
+
+  var mutableSpan: ck_mutable_span {
+    ck_mutable_span(data: base, count: count, stride: MemoryLayout<Element>.stride)
+  }
+}
+
+/// Elements at a fixed address that nothing changes after `init`, so that threads may share them.
+final class FrozenArray<Element: BitwiseCopyable & Sendable>: Sendable {
+  nonisolated(unsafe) let elements: UnsafeBufferPointer<Element>
+
+  /// `fill` initializes all elements.
+  init(
+    count: Int, fill: (UnsafeMutableBufferPointer<Element>) throws -> Void
+  ) rethrows {
+    let memory = UnsafeMutableBufferPointer<Element>.allocate(capacity: count)
+    do {
+      try fill(memory)
+    } catch {
+      memory.deallocate()
+      throw error
+    }
+    elements = UnsafeBufferPointer(memory)
+  }
+
+  fileprivate init(owning memory: UnsafeMutableBufferPointer<Element>) {
+    elements = UnsafeBufferPointer(memory)
+  }
+
+  deinit { elements.deallocate() }
+
+  var base: UnsafePointer<Element>? { elements.baseAddress }
+}
+
+/// Elements at a fixed address with one owner, who may change them until they are frozen.
+struct UniqueArray<Element: BitwiseCopyable & Sendable>: ~Copyable {
+  let elements: UnsafeMutableBufferPointer<Element>
+
+  init(repeating element: Element, count: Int) {
+    elements = .allocate(capacity: count)
+    elements.initialize(repeating: element)
+  }
+
+  deinit { elements.deallocate() }
+
+  /// Hands the memory over.
+  consuming func frozen() -> FrozenArray<Element> {
+    let elements = elements
+    discard self
+    return FrozenArray(owning: elements)
+  }
+}
+
+extension Array where Element: BitwiseCopyable {
+  /// Calls `body` with the elements as a span; it is valid during the call only.
+  func withSpan<Result>(_ body: (ck_span) throws -> Result) rethrows -> Result {
+    try withUnsafeBytes {
+      try body(
+        ck_span(data: $0.baseAddress, count: count, stride: MemoryLayout<Element>.stride))
+    }
+  }
+
+  /// Calls `body` with the elements as a span to write; it is valid during the call only.
+  mutating func withMutableSpan<Result>(
+    _ body: (ck_mutable_span) throws -> Result
+  ) rethrows -> Result {
+    let count = count
+    return try withUnsafeMutableBytes {
+      try body(
+        ck_mutable_span(
+          data: $0.baseAddress, count: count, stride: MemoryLayout<Element>.stride))
+    }
+  }
+}
+
+/// Calls `body` with the elements of two arrays as spans; they are valid during the call only.
+func withSpans<A: BitwiseCopyable, B: BitwiseCopyable, Result>(
+  _ a: [A], _ b: [B], _ body: (ck_span, ck_span) throws -> Result
+) rethrows -> Result {
+  try a.withSpan { a in try b.withSpan { b in try body(a, b) } }
+}
+
+extension Mesh {
+  /// Calls `body` with the mesh's positions and triangles; they are valid during the call only.
+  func withKernelValue<Result>(
+    _ body: (UnsafePointer<ck_mesh>) throws -> Result
+  ) rethrows -> Result {
+    try withSpans(positions, triangles) { positions, triangles in
+      var mesh = ck_mesh(
+        positions: positions, triangles: triangles.data?.assumingMemoryBound(to: UInt32.self),
+        triangle_count: triangles.count)
+      return try body(&mesh)
+    }
+  }
+
+  /// Calls `body` with the mesh's positions and triangles to write; they are valid during the call
+  /// only.
+  mutating func withMutableKernelValue<Result>(
+    _ body: (inout ck_mutable_mesh) throws -> Result
+  ) rethrows -> Result {
+    try positions.withMutableSpan { positions in
+      try triangles.withMutableSpan { triangles in
+        var mesh = ck_mutable_mesh(
+          positions: positions, triangles: triangles.data?.assumingMemoryBound(to: UInt32.self),
+          triangle_count: triangles.count)
+        return try body(&mesh)
+      }
+    }
+  }
+}
+
+extension RasterImage {
+  /// Calls `body` with the pixels; they are valid during the call only.
+  package func withKernelPixels<Result>(
+    _ body: (UnsafePointer<ck_pixels>) throws -> Result
+  ) rethrows -> Result {
+    try pixels.withUnsafeBufferPointer { buffer in
+      var raw = ck_pixels(
+        data: buffer.baseAddress, width: Int32(width), height: Int32(height),
+        channels: Int32(channels), row_stride: width * channels)
+      return try body(&raw)
+    }
+  }
+
+  /// Calls `body` with the pixels to write; they are valid during the call only.
+  mutating func withMutableKernelPixels<Result>(
+    _ body: (UnsafePointer<ck_mutable_pixels>) throws -> Result
+  ) rethrows -> Result {
+    let (width, height, channels) = (Int32(width), Int32(height), Int32(channels))
+    return try pixels.withUnsafeMutableBufferPointer { buffer in
+      var raw = ck_mutable_pixels(
+        data: buffer.baseAddress, width: width, height: height, channels: channels)
+      return try body(&raw)
+    }
+  }
+}

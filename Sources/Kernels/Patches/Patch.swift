@@ -1,0 +1,47 @@
+import CKernels
+import SceneModel
+
+/// A sparse point in a view: pixel of the view and inverse depth.
+package struct PatchSeed: Hashable, Sendable {
+  package var pixel: SIMD2<Float>
+  package var inverseDepth: Float
+
+  package init(pixel: SIMD2<Float>, inverseDepth: Float) {
+    self.pixel = pixel
+    self.inverseDepth = inverseDepth
+  }
+}
+
+/// The patch of one pixel: a plane as its inverse depth at the pixel's centre and the gradient of
+/// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
+package struct Patch: Hashable, Sendable {
+  package var inverseDepth: Float
+  package var gradient: SIMD2<Float>
+  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
+  package var cost: Float
+
+  package init(inverseDepth: Float, gradient: SIMD2<Float>, cost: Float) {
+    self.inverseDepth = inverseDepth
+    self.gradient = gradient
+    self.cost = cost
+  }
+}
+
+extension ck_patch {
+  /// No patch.
+  static let none = ck_patch(inverse_depth: 0, gradient_x: 0, gradient_y: 0, cost: 2)
+
+  init(_ patch: Patch) {
+    self.init(
+      inverse_depth: patch.inverseDepth, gradient_x: patch.gradient.x,
+      gradient_y: patch.gradient.y, cost: patch.cost)
+  }
+}
+
+extension Patch {
+  init(_ patch: ck_patch) {
+    self.init(
+      inverseDepth: patch.inverse_depth, gradient: [patch.gradient_x, patch.gradient_y],
+      cost: patch.cost)
+  }
+}
