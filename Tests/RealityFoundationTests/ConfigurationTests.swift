@@ -25,7 +25,7 @@ import Testing
     let result = PipelineConfiguration(configuration, options)
     #expect(result.alignment.ordering == .sequential)
     #expect(result.alignment.features.sensitivity == .high)
-    #expect(result.alignment.framing.knownDistances == options.knownDistances)
+    #expect(result.alignment.worldAlignment.knownDistances == options.knownDistances)
     #expect(!result.ingestion.inspection.usesMasks && !result.meshGeneration.isolatesObject)
     #expect(result.ingestion.maskFolder == options.maskFolder)
     #expect(!result.meshGeneration.closesObject && result.photoRefinement != nil)

@@ -100,7 +100,7 @@ extension PipelineConfiguration {
     ingestion.maskFolder = options.maskFolder
     alignment.ordering = SampleOrdering(configuration.sampleOrdering)
     alignment.features.sensitivity = FeatureSensitivity(configuration.featureSensitivity)
-    alignment.framing.knownDistances = options.knownDistances
+    alignment.worldAlignment.knownDistances = options.knownDistances
     meshGeneration.closesObject = options.closesObject
     if options.refinesSurface { photoRefinement = PhotoRefinement.Options() }
     meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle

@@ -97,7 +97,7 @@
       configuration.isObjectMaskingEnabled = !noObjectMasking
       configuration.ingestion.maskFolder = try engine.masking.folder
       configuration.checkpointDirectory = target
-      configuration.alignment.framing.knownDistances = try engine.knownDistances(photos: photos)
+      configuration.alignment.worldAlignment.knownDistances = try engine.knownDistances(photos: photos)
       if let threads = engine.threads { configuration.threadCount = threads }
       return configuration
     }

@@ -14,7 +14,7 @@ import Testing
     configuration.checkpointDirectory = folder
     configuration.previewFile = file
     configuration.ingestion.maskFolder = folder
-    configuration.alignment.framing.knownDistances = [
+    configuration.alignment.worldAlignment.knownDistances = [
       KnownDistance(from: .camera("a.jpg"), to: .camera("b.jpg"), meters: 0.4)
     ]
     return configuration
