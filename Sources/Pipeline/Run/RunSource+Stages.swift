@@ -48,7 +48,7 @@ extension RunSource {
     _ photos: PhotoSet, _ configuration: PipelineConfiguration, _ context: StageContext
   ) throws -> Reconstruction {
     var options = configuration.alignment
-    options.framing.readings = photos.readings
+    options.worldAlignment.readings = photos.readings
     return try MaskedAlignment(ImageAlignment(options))
       .run(photos.ingested, images: photos.images, context)
   }
