@@ -52,11 +52,13 @@ var targets: [Target] = [
   .testTarget(
     name: "EvaluationTests", dependencies: ["Evaluation", "SceneModel"], swiftSettings: strict),
 ]
-var cliDependencies: [Target.Dependency] = [
+// The command line for any engine; on macOS it is linked against Apple's RealityKit.
+var sharedCommands: [Target.Dependency] = [
   argumentParser, logging, "Evaluation", "Formats", "SceneModel",
 ]
+var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneModel"]
 
-// On macOS the command line is linked against Apple's RealityKit; our engine is for Linux.
+// The engine, and the modules that stand in for Apple's, are for Linux.
 #if os(Linux)
   products += ["RealityKit", "RealityFoundation"].map { .library(name: $0, targets: [$0]) }
   // What else programs for the Mac import; a program names those that it needs.
@@ -110,6 +112,14 @@ var cliDependencies: [Target.Dependency] = [
       ],
       swiftSettings: strict),
     .target(name: "RealityKit", dependencies: ["RealityFoundation"], swiftSettings: strict),
+    // The commands and options that only this package's engine has.
+    .target(
+      name: "EngineCommands",
+      dependencies: [
+        argumentParser, logging, "SharedCommands", "RealityKit", "RealityFoundation", "Pipeline",
+        "Kernels", "Evaluation", "Formats", "SceneModel",
+      ],
+      swiftSettings: strict),
     .target(
       name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles", "Formats"],
       path: "Tests/TestSupport", swiftSettings: strict),
@@ -153,17 +163,22 @@ var cliDependencies: [Target.Dependency] = [
     .testTarget(
       name: "CommandLineTests",
       dependencies: [
-        "photogrammetry-cli", "Evaluation", "Formats", "Pipeline", "ImageFiles", "Kernels",
-        "SceneModel", "TestSupport",
+        "photogrammetry-cli", "SharedCommands", "EngineCommands", "Evaluation", "Formats",
+        "Pipeline", "ImageFiles", "Kernels", "RealityFoundation", "RealityKit", "SceneModel",
+        "TestSupport",
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]
-  cliDependencies += ["RealityKit", "Pipeline"]
+  sharedCommands.append("RealityKit")
+  program.append("EngineCommands")
 #endif
 
-targets.append(
+targets += [
+  .target(name: "SharedCommands", dependencies: sharedCommands, swiftSettings: strict),
   .executableTarget(
-    name: "photogrammetry-cli", dependencies: cliDependencies, swiftSettings: strict))
+    name: "photogrammetry-cli", dependencies: program,
+    swiftSettings: strict + [.define("APPLE_ENGINE", .when(platforms: [.macOS]))]),
+]
 
 let package = Package(
   name: "photogrammetry-cli",

@@ -1,5 +1,15 @@
 import ArgumentParser
 import Foundation
+import SceneModel
+import SharedCommands
+
+#if APPLE_ENGINE
+  private typealias Engine = AppleEngine
+#else
+  import EngineCommands
+
+  private typealias Engine = PipelineEngine
+#endif
 
 #if canImport(Kernels)
   import Kernels
@@ -15,26 +25,16 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
 
         photogrammetry-cli photos/ model.usdz
 
-      'reconstruct' is meant when no subcommand is named; \
-      'photogrammetry-cli reconstruct --help' tells everything about it.
+      'reconstruct' is the default subcommand; see 'photogrammetry-cli reconstruct --help'.
 
-      Exit codes: 0 all that was asked for was written, 1 the run failed, 2 the command line can't \
-      be carried out, 130 interrupted.
+      Exit codes: 0 all results were written, 1 the run failed, 2 invalid arguments or paths, \
+      130 interrupted.
       """,
-    subcommands: subcommands, defaultSubcommand: Reconstruct.self)
+    version: ProgramVersion.current,
+    subcommands: [Reconstruct<Engine>.self] + Engine.commands + [Evaluate.self],
+    defaultSubcommand: Reconstruct<Engine>.self)
 
-  private static var subcommands: [any ParsableCommand.Type] {
-    #if canImport(Pipeline)
-      [
-        Reconstruct.self, Batch.self, Align.self, Densify.self, Export.self, Inspect.self,
-        Evaluate.self,
-      ]
-    #else
-      [Reconstruct.self, Evaluate.self]
-    #endif
-  }
-
-  /// Runs the command that the arguments name and ends the process with its exit code.
+  /// Runs the command of the arguments and ends the process with its exit code.
   static func main() async {
     Terminal.shared.ignoreBrokenPipes()
     #if canImport(Kernels)
@@ -56,7 +56,7 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
     }
   }
 
-  /// Help goes to stdout; everything else is an error.
+  /// Prints help and the version to stdout, errors to stderr, and exits.
   private static func end(with error: any Error) -> Never {
     let code = exitCode(for: error)
     if error is ExitCode { Foundation.exit(code.rawValue) }
@@ -72,7 +72,7 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
       Terminal.shared.message(fullMessage(for: error))
       Foundation.exit(CommandFailure.usageCode)
     }
-    Terminal.shared.message("error: \(sentence(for: error))")
+    Terminal.shared.message("error: \(CommandFailure(error).sentence)")
     Foundation.exit(CommandFailure.runCode)
   }
 }

@@ -11,7 +11,8 @@ package enum RunSource: Sendable {
   /// The cameras and the surface of a finished run: nothing before the model is made again.
   case savedRun(SavedRun)
 
-  var photoFolder: URL {
+  /// The folder of the photos.
+  package var photoFolder: URL {
     switch self {
     case .photos(let folder, _), .photosWithCameras(let folder, _): folder
     case .savedRun(let saved): saved.photoFolder

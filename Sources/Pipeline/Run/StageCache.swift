@@ -122,6 +122,9 @@ extension StageCache {
       }
     }
     let mesh = try make()
+    // Remembered first: it serves later requests even where it can't be written.
+    surface = AtResolution(
+      viewPixels: configuration.pointCloudGeneration.maximumPixelsPerView, value: mesh)
     checkpoint?.removeRecord()
     try checkpoint?.write(mesh)
     try store?.sealSurface(

@@ -1,0 +1,45 @@
+import ArgumentParser
+import Formats
+import Foundation
+import Pipeline
+import RealityFoundation
+import RealityKit
+import SharedCommands
+
+/// Options of `reconstruct` that only this project's engine has.
+package struct PipelineArguments: EngineArguments {
+  @OptionGroup var preview: PreviewArguments
+
+  @OptionGroup var surface: SurfaceArguments
+
+  @OptionGroup var masking: MaskArguments
+
+  @OptionGroup var runArguments: RunArguments
+
+  @OptionGroup var scale: ScaleArguments
+
+  @Flag(
+    name: .customLong("dry-run"),
+    help: "Check photos, masks, output and machine, print what a run would do, and exit.")
+  package var isDryRun = false
+
+  package init() {}
+
+  package func outputs() throws -> EngineOutputs {
+    EngineOutputs(preview: try preview.file(), report: try runArguments.reportFile())
+  }
+
+  package func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {
+    session.engineOptions.threadCount = runArguments.threading.threadCount
+    session.engineOptions.knownDistances = try scale.knownDistances(photos: folder)
+    session.engineOptions.additionalFileFormats = Set(ModelFormat.files)
+    session.engineOptions.maskFolder = try masking.folder
+    session.engineOptions.previewFile = try preview.file()
+    session.engineOptions.closesObject = !surface.keepGaps
+    session.engineOptions.refinesSurface = surface.refine
+  }
+
+  package func report(of session: PhotogrammetrySession) throws -> Data? {
+    try session.report?.encoded()
+  }
+}

@@ -1,0 +1,207 @@
+import ArgumentParser
+import Formats
+import Foundation
+import Logging
+import Pipeline
+import SharedCommands
+
+/// Makes a model of each of many folders of photos.
+struct Batch: AsyncParsableCommand {
+  static let configuration = CommandConfiguration(
+    commandName: "batch",
+    abstract: "Reconstruct every folder of photos in a folder.",
+    discussion: """
+      Each folder in <folders> is a dataset: its photos are directly in it or in images/, masks \
+      where 'reconstruct' finds them or in masks/ next to images/, and measured distances, as for \
+      --measurements, in measurements.json. The model of <folders>/chair/ is \
+      <models>/chair.usdz. A failed dataset does not stop the others. The summary is printed at \
+      the end, and written to <models>/batch.json and batch.csv after every dataset.
+
+      Running the same command again makes only models that are missing or whose photos or options \
+      have changed. An interrupted batch resumes: until a model is done, its finished stages are \
+      kept in <models>/.work/.
+
+      EXAMPLES
+        photogrammetry-cli batch sets/ models/
+        photogrammetry-cli batch sets/ models/ --format glb -d medium
+            Another format and detail level.
+        photogrammetry-cli batch sets/ models/ --jobs 4 --previews
+            At most four datasets at once, and a picture of each model.
+
+      JOBS
+        Each dataset is processed in a separate process. One job runs per processor,
+        but at most --jobs, and no more than the free memory has room for. Transient
+        failures (a run that was killed or crashed, too little memory) are retried at
+        the end, one at a time.
+
+      EVENTS (with --json: one JSON object per line on stdout, and nothing else)
+        began     dataset
+        ended     dataset, status (done, skipped, failed, cancelled), photos,
+                  registered, triangles, seconds, attempts, path, message
+        and the events of 'reconstruct' with their dataset. The last event is one of
+        complete, failed, cancelled
+                  datasets, done, skipped, failed, cancelled, seconds, message
+
+      \(DetailArguments.help)
+      Exit codes: 0 all datasets have a model, 1 some have none, 2 invalid arguments or paths, \
+      130 interrupted.
+      """)
+
+  @Argument(
+    help: ArgumentHelp(
+      "The folder with a folder of photos for each object.", valueName: "folders"),
+    completion: .directory)
+  var folders: String
+
+  @Argument(
+    help: ArgumentHelp("The folder for the models; created if missing.", valueName: "models"),
+    completion: .directory)
+  var models: String
+
+  @Option(name: .long, help: "Format of the models.")
+  var format = ModelFormat.usdz
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "Maximum number of datasets to process at once. (default: the number of processors)",
+      valueName: "count"))
+  var jobs: Int?
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp("How often to retry transient failures.", valueName: "count"))
+  var retries = 1
+
+  @Flag(name: .long, help: "Keep the finished stages of finished datasets in <models>/.work/.")
+  var keepCheckpoints = false
+
+  @Flag(name: .long, help: "Render each model from eight sides, to <models>/<name>.png.")
+  var previews = false
+
+  @Flag(name: .long, help: "Write the camera poses to <models>/<name>.poses.json.")
+  var poses = false
+
+  @Flag(name: .long, help: "Write the colored points to <models>/<name>.points.ply.")
+  var pointClouds = false
+
+  @OptionGroup var detail: DetailArguments
+
+  @OptionGroup var alignment: AlignmentArguments
+
+  @Flag(name: .long, help: "Keep the surroundings instead of isolating the object; ignore masks.")
+  var noObjectMasking = false
+
+  @OptionGroup var surface: SurfaceArguments
+
+  @OptionGroup var shape: ShapeArguments
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "Threads of each job. (default: the processors divided by the jobs)", valueName: "count"))
+  var threads: Int?
+
+  @Flag(name: .long, help: "Report progress and results as JSON Lines on stdout.")
+  var json = false
+
+  @OptionGroup var logging: LoggingOptions
+
+  func validate() throws {
+    if let jobs, jobs < 1 { throw ValidationError("--jobs must be 1 or more.") }
+    if retries < 0 { throw ValidationError("--retries must be 0 or more.") }
+    if let threads, threads < 1 || threads > 1024 {
+      throw ValidationError("--threads must be from 1 to 1024.")
+    }
+  }
+
+  mutating func run() async throws {
+    logging.bootstrap()
+    let reporter = RunReporter(logging.style(json: json))
+    let failure: CommandFailure?
+    do {
+      let runner = try makeRunner(reporter.style)
+      let interrupts = InterruptHandler { runner.stop() }
+      try await runner.run()
+      failure = conclude(runner.summary, wasInterrupted: interrupts.wasInterrupted, reporter)
+    } catch {
+      let failure = CommandFailure(engineError: error)
+      reporter.failed(failure)
+      throw failure
+    }
+    if let failure { throw failure }
+  }
+}
+
+extension ModelFormat: ExpressibleByArgument {}
+
+extension Batch {
+  private func makeRunner(_ style: RunReporter.Style) throws -> BatchRunner {
+    let input = try PhotoFolderArgument(folders).url
+    let output = URL(fileURLWithPath: models, isDirectory: true)
+    try ModelOutput.checkWritable(output)
+    guard input.resolvingSymlinksInPath().path != output.resolvingSymlinksInPath().path else {
+      throw CommandFailure.usage(
+        "The models can't be written to the folder of the photos; name another.")
+    }
+    let datasets = try BatchDataset.all(in: input, except: output)
+    guard !datasets.isEmpty else {
+      throw CommandFailure.usage(
+        "\(folders) holds no folders. Name the folder that holds a folder of photos for each "
+          + "object; to reconstruct a single object omit 'batch'.")
+    }
+    return BatchRunner(
+      datasets, in: try BatchFolder(output, format: format), modelArguments: modelArguments,
+      companions: companions, style, options: options)
+  }
+
+  private var companions: [BatchCompanion] {
+    (previews ? [.preview] : []) + (poses ? [.poses] : []) + (pointClouds ? [.pointCloud] : [])
+  }
+
+  /// The options that affect models, as arguments of `reconstruct`.
+  var modelArguments: [String] {
+    detail.arguments + alignment.arguments + surface.arguments + shape.arguments
+      + (noObjectMasking ? ["--no-object-masking"] : [])
+  }
+
+  private func options(openDatasets: Int) -> BatchRunner.Options {
+    let plan = BatchPlan(
+      datasets: openDatasets, requestedJobs: jobs, requestedThreads: threads,
+      processors: ProcessInfo.processInfo.activeProcessorCount,
+      memory: Machine.current.availableMemoryBytes,
+      memoryOfJob: detail.detail.expectedMemoryBytes)
+    if plan.isLimitedByMemory {
+      Logger(label: "photogrammetry-cli").warning(
+        "The free memory has room for \(plan.jobs) job\(plan.jobs == 1 ? "" : "s") at once.")
+    }
+    return BatchRunner.Options(
+      plan: plan, retries: retries, keepsCheckpoints: keepCheckpoints,
+      arguments: modelArguments + (logging.verbose ? ["--verbose"] : []), companions: companions)
+  }
+
+  /// Prints the summary; returns a failure unless all datasets have a model.
+  private func conclude(
+    _ summary: BatchSummary, wasInterrupted: Bool, _ reporter: RunReporter
+  ) -> CommandFailure? {
+    if !json { summary.lines.forEach(Terminal.shared.result) }
+    let failed = summary.count(.failed)
+    let cancelled = summary.count(.cancelled)
+    var failure: CommandFailure?
+    if wasInterrupted, cancelled > 0 {
+      failure = .interrupted(BatchSummary.resumeHint)
+    } else if failed + cancelled > 0 {
+      failure = .run(
+        "\(failed + cancelled) of \(summary.datasets.count) datasets have no model.")
+    }
+    reporter.event(
+      RunEvent(failure == nil ? "complete" : wasInterrupted ? "cancelled" : "failed") { event in
+        event.message = failure?.sentence
+        event.seconds = reporter.elapsed
+        (event.datasets, event.done) = (summary.datasets.count, summary.count(.done))
+        (event.skipped, event.failed) = (summary.count(.skipped), failed)
+        event.cancelled = cancelled
+      })
+    return failure
+  }
+}

@@ -1,0 +1,94 @@
+import Foundation
+import Kernels
+import Pipeline
+
+/// A folder with the photos of one object, as part of a batch.
+struct BatchDataset: Equatable, Sendable {
+  /// The folder's name.
+  let name: String
+  /// The folder of the photos: the dataset's folder, or `images/` in it.
+  let photos: URL
+  /// The folder of masks next to `images/`; nil where masks are in the photos' folder.
+  let masks: URL?
+  /// Distances measured on the object: a file for `--measurements`.
+  let measurements: URL?
+
+  /// The folders in `folder`, in natural order, except hidden ones and `models`.
+  static func all(in folder: URL, except models: URL) throws -> [BatchDataset] {
+    let excluded = models.standardizedFileURL.resolvingSymlinksInPath().path
+    return try FileManager.default.contentsOfDirectory(atPath: folder.path)
+      .filter { !$0.hasPrefix(".") }
+      .map { folder.appendingPathComponent($0, isDirectory: true) }
+      .filter {
+        isFolder($0) && $0.standardizedFileURL.resolvingSymlinksInPath().path != excluded
+      }
+      .sorted { a, b in
+        let (a, b) = (a.lastPathComponent, b.lastPathComponent)
+        let order = a.compare(b, options: [.numeric, .caseInsensitive])
+        return order == .orderedSame ? a < b : order == .orderedAscending
+      }
+      .map(BatchDataset.init)
+  }
+
+  private init(_ folder: URL) {
+    name = folder.lastPathComponent
+    let images = folder.appendingPathComponent("images", isDirectory: true)
+    let hasOwn = Self.files(in: folder).contains { Self.isImage($0) }
+    let hasImages = !hasOwn && Self.isFolder(images)
+    photos = hasImages ? images : folder
+    masks =
+      hasImages
+      ? PhotoFolder.maskFolderNames.map { folder.appendingPathComponent($0, isDirectory: true) }
+        .first(where: Self.isFolder) : nil
+    let file = folder.appendingPathComponent("measurements.json", isDirectory: false)
+    measurements = FileManager.default.fileExists(atPath: file.path) ? file : nil
+  }
+
+  /// Options of `reconstruct` for the files of this dataset.
+  var arguments: [String] {
+    (masks.map { ["--masks", $0.path] } ?? [])
+      + (measurements.map { ["--measurements", $0.path] } ?? [])
+  }
+
+  /// Number of files that may be photos.
+  var photoCount: Int { Self.files(in: photos).count }
+
+  /// A hash, as 16 hexadecimal digits, of the photos, masks, measurements and `options`.
+  ///
+  /// Files are identified by name, size and modification time; hashing their contents would make
+  /// skipping finished datasets slow.
+  func fingerprint(options: [String]) -> String {
+    var fingerprint = Fingerprint()
+    for option in options { fingerprint.add(Array(option.utf8)) }
+    let folders =
+      [photos] + PhotoFolder.maskFolderNames.map { photos.appendingPathComponent($0) }
+      + (masks.map { [$0] } ?? [])
+    for file in folders.flatMap(Self.files) + (measurements.map { [$0] } ?? []) {
+      let attributes = try? FileManager.default.attributesOfItem(
+        atPath: file.resolvingSymlinksInPath().path)
+      fingerprint.add(Array(file.lastPathComponent.utf8))
+      fingerprint.add((attributes?[.size] as? NSNumber)?.intValue ?? -1)
+      let time = attributes?[.modificationDate] as? Date
+      fingerprint.add(time?.timeIntervalSinceReferenceDate ?? 0)
+    }
+    let digits = String(fingerprint.value, radix: 16)
+    return String(repeating: "0", count: 16 - digits.count) + digits
+  }
+
+  private static func files(in folder: URL) -> [URL] {
+    (try? PhotoFolder.files(in: folder)) ?? []
+  }
+
+  private static func isFolder(_ url: URL) -> Bool {
+    var isDirectory: ObjCBool = false
+    let exists = FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
+    return exists && isDirectory.boolValue
+  }
+
+  /// Whether the file name is that of an image, to find the folder of photos. Ingestion judges
+  /// files by their content.
+  private static func isImage(_ file: URL) -> Bool {
+    ["jpg", "jpeg", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif"]
+      .contains(file.pathExtension.lowercased())
+  }
+}

@@ -1,0 +1,101 @@
+import Formats
+import Foundation
+import Kernels
+import Pipeline
+import SharedCommands
+
+/// What `reconstruct` would do, and how long it would take.
+struct DryRun {
+  let report: InspectionReport
+  /// The model that would be written.
+  let output: ModelOutput
+  let limits: DetailSpecification
+  /// Usual duration of the run, in seconds.
+  let expectedSeconds: Double
+  let threadCount: Int
+  /// Memory that the run usually takes at most, and that is free, in bytes.
+  let memory: (needed: Int, free: Int)
+  /// Disk space that the model takes at most, and that is free, in bytes.
+  let space: (needed: Int, free: Int?)
+
+  /// Reads and checks all photos and masks.
+  init(
+    _ arguments: ReconstructArguments<PipelineArguments>, photos folder: URL,
+    output: ModelOutput
+  ) throws {
+    var configuration = PipelineConfiguration()
+    arguments.engine.runArguments.threading.apply(to: &configuration)
+    try arguments.engine.masking.apply(
+      to: &configuration, areIgnored: arguments.noObjectMasking)
+    try arguments.engine.scale.apply(to: &configuration, photos: folder)
+    threadCount = configuration.threadCount
+    let ingested = try PhotoIngestion(configuration.ingestion).run(
+      folder: folder, StageContext(control: KernelControl(threadCount: threadCount)))
+    report = InspectionReport(ingested)
+    self.output = output
+    limits = arguments.detail.limits
+    expectedSeconds =
+      StageDurationModel(
+        photos: PhotoTotals(ingested.photos), finest: limits, threadCount: threadCount
+      ).total
+    memory = (arguments.detail.detail.expectedMemoryBytes, Machine.current.availableMemoryBytes)
+    let system = try? FileManager.default.attributesOfFileSystem(
+      forPath: output.url.absoluteURL.deletingLastPathComponent().path)
+    space = (
+      limits.modelBytes(in: output.format), (system?[.systemFreeSize] as? NSNumber)?.intValue
+    )
+  }
+
+  /// Why the run could not succeed, in sentences with a remedy.
+  var faults: [String] {
+    var faults = Machine.current.shortfalls
+    do { try report.checkCount() } catch { faults.append(CommandFailure(error).sentence) }
+    if let free = space.free, free < space.needed {
+      faults.append(
+        "The disk has \(Self.megabytes(free)) free and the model may take "
+          + "\(Self.megabytes(space.needed)). Free some space or choose another disk.")
+    }
+    return faults
+  }
+
+  /// The plan as text.
+  var lines: [String] {
+    let texture = "\(limits.textureSide) x \(limits.textureSide)"
+    return report.lines + [
+      "\(output.url.relativePath) would be written: at most "
+        + "\(limits.maximumTriangles) triangles and textures of \(texture).",
+      "It would take about \(RunProgress.duration(expectedSeconds)) with \(threadCount) threads, "
+        + "at most \(Self.megabytes(memory.needed)) of memory "
+        + "(\(Self.megabytes(memory.free)) free) and at most "
+        + "\(Self.megabytes(space.needed)) of disk space"
+        + (space.free.map { " (\(Self.megabytes($0)) free)." } ?? "."),
+    ]
+  }
+
+  /// The plan as events: the files that would not be used, then the event `plan`.
+  var events: [RunEvent] {
+    let refused = report.refused.map { photo in
+      RunEvent("invalidSample") { $0.reason = photo.reason }
+    }
+    let masks = report.refusedMasks.map { mask in RunEvent("warning") { $0.message = mask.reason } }
+    let plan = RunEvent("plan") {
+      ($0.path, $0.photos) = (output.url.relativePath, report.used.count)
+      $0.expectedSeconds = expectedSeconds
+      ($0.memoryBytes, $0.diskBytes) = (memory.needed, space.needed)
+    }
+    return refused + masks + [plan]
+  }
+
+  private static func megabytes(_ bytes: Int) -> String { "\(bytes / 1_000_000) MB" }
+}
+
+extension DetailSpecification {
+  /// Size of a model at most, in bytes: barely compressed textures, and vertices with all their
+  /// attributes.
+  func modelBytes(in format: ModelFormat) -> Int {
+    let mesh = maximumTriangles * 60
+    guard format != .ply else { return mesh }
+    return mesh + maximumAtlases * textureSide * textureSide * 3
+      * maps.intersection(format.maps).count
+  }
+}

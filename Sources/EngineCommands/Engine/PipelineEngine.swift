@@ -1,0 +1,91 @@
+import ArgumentParser
+import Formats
+import Foundation
+import Pipeline
+import RealityFoundation
+import RealityKit
+import SharedCommands
+
+/// This project's engine.
+package enum PipelineEngine: EngineSupport {
+  package typealias Arguments = PipelineArguments
+
+  package static var commands: [any ParsableCommand.Type] {
+    [Batch.self, Align.self, Densify.self, Export.self, Inspect.self]
+  }
+  package static let modelFormats = ModelFormat.files
+  package static let sessionOutputSource: String? = RealityFoundation.sessionOutputSource
+
+  package static var unsupportedMachine: CommandFailure {
+    let machine = Machine.current
+    return .run(
+      machine.shortfalls.joined(separator: " "),
+      isTransient: machine.totalMemoryBytes >= Machine.neededMemoryBytes)
+  }
+
+  package static func isTransient(_ error: any Error) -> Bool {
+    CommandFailure.isTransient(error)
+  }
+
+  package static func intrinsics(
+    of pose: PhotogrammetrySession.Pose
+  ) -> PosesFile.Intrinsics? {
+    pose.intrinsics.map { k in
+      PosesFile.Intrinsics(
+        focalLength: [k.columns.0.x, k.columns.1.y],
+        principalPoint: [k.columns.2.x, k.columns.2.y])
+    }
+  }
+
+  package static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent) {
+    guard let report = session.report else { return }
+    event.photos = report.photos.count
+    event.registered = report.photos.count { $0.status == .registered }
+    let textured = report.stages.last { $0.name == PipelineStage.textureMapping.rawValue }
+    event.triangles = textured?.counts["triangles"].map { Int($0) }
+  }
+
+  package static func dryRun(
+    _ arguments: ReconstructArguments<PipelineArguments>, photos: URL, output: ModelOutput,
+    _ reporter: RunReporter
+  ) throws {
+    let plan = try DryRun(arguments, photos: photos, output: output)
+    if reporter.style == .json {
+      plan.events.forEach(reporter.event)
+    } else {
+      plan.lines.forEach(Terminal.shared.result)
+    }
+    guard plan.faults.isEmpty else {
+      throw CommandFailure.run(plan.faults.joined(separator: " "))
+    }
+  }
+}
+
+extension PipelineEngine {
+  package static var help: EngineHelp {
+    var help = EngineHelp()
+    help.examples = """
+        photogrammetry-cli photos/ model.usdz --preview model.png
+            Also renders the model from eight sides into one picture.
+        photogrammetry-cli photos/ shop.glb -d custom --max-polygons 20000 \\
+            --texture-side 1024 --maps color --texture-format jpeg:0.7
+            Custom limits, for a web shop.
+
+      """
+    help.outputs = """
+      OUTPUT
+        model.usdz  for AR Quick Look, usdview, Blender
+        model.glb   glTF 2.0, for browsers, game engines, Blender; no displacement
+        model.ply   the mesh with a normal and a color per vertex; no textures
+        model/      folder with OBJ, MTL, USDA and textures
+
+      """
+    help.input = MaskArguments.help + "\n" + ScaleArguments.help
+    help.events = """
+        plan                 with --dry-run: path, photos, expectedSeconds,
+                             memoryBytes, diskBytes
+
+      """
+    return help
+  }
+}

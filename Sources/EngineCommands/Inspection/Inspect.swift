@@ -1,0 +1,85 @@
+import ArgumentParser
+import Foundation
+import Kernels
+import Pipeline
+import SceneModel
+import SharedCommands
+
+/// Lists the photos that a run would use.
+struct Inspect: ParsableCommand {
+  static let configuration = CommandConfiguration(
+    commandName: "inspect",
+    abstract: "List the photos of a folder that a run would use, and why others are rejected.",
+    discussion: """
+      Reads and checks all photos and masks as 'reconstruct' does, without reconstructing. With \
+      --overlap it also lists which photos show the same parts and which overlap with none, so \
+      that you know where to take more photos; this takes as long as the first half of alignment.
+
+      EXAMPLES
+        photogrammetry-cli inspect photos/
+        photogrammetry-cli inspect photos/ --overlap
+
+      Exit codes: 0 there are enough photos, 1 there are too few, 2 the folder can't be read.
+      """)
+
+  @Argument(
+    help: ArgumentHelp("The folder with the photos.", valueName: "input-folder"),
+    completion: .directory)
+  var inputFolder: String
+
+  @Flag(name: .long, help: "List which photos overlap.")
+  var overlap = false
+
+  @Flag(name: .long, help: "Print one JSON object instead of a table.")
+  var json = false
+
+  @OptionGroup var threading: ThreadArguments
+
+  @OptionGroup var masking: MaskArguments
+
+  @OptionGroup var logging: LoggingOptions
+
+  mutating func run() throws {
+    logging.bootstrap()
+    let folder = try PhotoFolderArgument(inputFolder).url
+    var configuration = PipelineConfiguration()
+    threading.apply(to: &configuration)
+    try masking.apply(to: &configuration)
+    let reporter = ProgressBox(RunReporter(logging.style()))
+    let control = KernelControl(threadCount: configuration.threadCount) { reporter.update($0) }
+    let ingested = try PhotoIngestion(configuration.ingestion).run(
+      folder: folder, StageContext(control: control))
+    var report = InspectionReport(ingested)
+    if overlap, ingested.photos.count >= 2 {
+      let images = ImageStore(
+        photos: ingested.photos, byteBudget: configuration.imageMemory,
+        processingPixels: ingested.processingPixels)
+      let survey = try OverlapSurvey().run(
+        photos: ingested.photos, cameras: ingested.cameras, images: images,
+        StageContext(control: control))
+      report.overlap = OverlapReport(survey, ingested.photos)
+    }
+    reporter.finish()
+    if json {
+      Terminal.shared.result(try report.encoded())
+    } else {
+      report.lines.forEach(Terminal.shared.result)
+    }
+    try report.checkCount()
+  }
+}
+
+/// A reporter that any thread may use.
+private final class ProgressBox: Sendable {
+  private let reporter: Locked<RunReporter>
+
+  init(_ reporter: RunReporter) { self.reporter = Locked(reporter) }
+
+  func update(_ fraction: Double) {
+    reporter.withLock {
+      $0.update(RunProgress(fraction: fraction, stage: .preProcessing, remaining: nil))
+    }
+  }
+
+  func finish() { reporter.withLock { $0.finish() } }
+}

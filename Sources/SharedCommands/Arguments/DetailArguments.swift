@@ -1,0 +1,123 @@
+import ArgumentParser
+import Foundation
+import RealityKit
+
+/// The detail of a model: one of the levels, or custom limits.
+package struct DetailArguments: ParsableArguments {
+  package typealias Specification =
+    PhotogrammetrySession.Configuration.CustomDetailSpecification
+
+  /// The levels and their limits, as a section of help.
+  package static let help = """
+    DETAIL LEVELS (upper bounds; poor photos give less)
+      level     triangles    texture           maps
+      preview      25,000    1024 x 1024       color, normal, occlusion
+      reduced      50,000    2048 x 2048       color, normal, occlusion
+      medium      100,000    4096 x 4096       color, normal, occlusion
+      full        250,000    8192 x 8192       and roughness, displacement
+      raw      30,000,000    8192 x 8192, 16   color
+      custom   set by --max-polygons, --texture-side, --maps and
+               --texture-format; defaults as for medium
+
+    """
+
+  @Option(name: .shortAndLong, help: "Detail level of the model; see the table above.")
+  package var detail = DetailChoice.level(.reduced)
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp("With -d custom: maximum number of triangles.", valueName: "count"))
+  package var maxPolygons: UInt?
+
+  @Option(name: .long, help: "With -d custom: maximum texture side in texels.")
+  package var textureSide: TextureSideArgument?
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      """
+      With -d custom: comma-separated list of color, normal, roughness, displacement, occlusion \
+      or all.
+      """,
+      valueName: "maps"))
+  package var maps: TextureMapsArgument?
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "With -d custom: png, jpeg or jpeg:<quality>, quality from 0 to 1 (default 0.8).",
+      valueName: "format"))
+  package var textureFormat: TextureFormatArgument?
+
+  package init() {}
+
+  package func validate() throws {
+    let options: [(name: String, isGiven: Bool)] = [
+      ("--max-polygons", maxPolygons != nil), ("--texture-side", textureSide != nil),
+      ("--maps", maps != nil), ("--texture-format", textureFormat != nil),
+    ]
+    if detail != .custom, let option = options.first(where: \.isGiven) {
+      throw ValidationError("\(option.name) is for --detail custom; add -d custom.")
+    }
+    if maxPolygons == 0 { throw ValidationError("--max-polygons must be 1 or more.") }
+  }
+
+  /// The limits of `custom`.
+  package var specification: Specification {
+    var result = Specification()
+    if let maxPolygons { result.maximumPolygonCount = maxPolygons }
+    if let textureSide { result.maximumTextureDimension = textureSide.dimension }
+    if let maps { result.outputTextureMaps = maps.outputs }
+    if let textureFormat { result.textureFormat = textureFormat.format }
+    return result
+  }
+}
+
+/// The detail levels with fixed limits.
+package enum DetailArgument: String, ExpressibleByArgument, CaseIterable, Sendable {
+  case preview, reduced, medium, full, raw
+
+  /// The level of a session's request.
+  package var requestDetail: PhotogrammetrySession.Request.Detail {
+    switch self {
+    case .preview: .preview
+    case .reduced: .reduced
+    case .medium: .medium
+    case .full: .full
+    case .raw: .raw
+    }
+  }
+}
+
+/// A detail level, or custom limits.
+package enum DetailChoice: ExpressibleByArgument, Equatable, Sendable {
+  case level(DetailArgument)
+  case custom
+
+  package init?(argument: String) {
+    if argument == "custom" {
+      self = .custom
+    } else if let level = DetailArgument(rawValue: argument) {
+      self = .level(level)
+    } else {
+      return nil
+    }
+  }
+
+  package static let allValueStrings = DetailArgument.allCases.map(\.rawValue) + ["custom"]
+
+  package var defaultValueDescription: String {
+    switch self {
+    case .level(let level): level.rawValue
+    case .custom: "custom"
+    }
+  }
+
+  /// The level of a session's request.
+  package var requestDetail: PhotogrammetrySession.Request.Detail {
+    switch self {
+    case .level(let level): level.requestDetail
+    case .custom: .custom
+    }
+  }
+}

@@ -1,0 +1,57 @@
+import Foundation
+import Synchronization
+
+/// Turns the first SIGINT or SIGTERM into a request to stop; the second one ends the process.
+package final class InterruptHandler: Sendable {
+  private final class Requests: Sendable {
+    let signals = Atomic<Int>(0)
+    let hasInputEnded = Atomic<Bool>(false)
+  }
+
+  private let requests: Requests
+  // Retained so that the sources stay active; nothing is read from them.
+  private nonisolated(unsafe) let sources: [any DispatchSourceSignal]
+
+  /// Whether a stop was requested.
+  package var wasInterrupted: Bool {
+    requests.signals.load(ordering: .relaxed) > 0
+      || requests.hasInputEnded.load(ordering: .relaxed)
+  }
+
+  /// Calls `onFirst` at the first signal, on a background queue; it may be called more than once.
+  ///
+  /// With `untilInputEnds` the end of standard input requests a stop, too, and ends the process two
+  /// seconds later: the process at the other end is gone. Both may arrive: a signal to the process
+  /// group reaches parent and child.
+  package init(untilInputEnds: Bool = false, _ onFirst: @escaping @Sendable () -> Void) {
+    let requests = Requests()
+    self.requests = requests
+    sources = [SIGINT, SIGTERM].map { number in
+      signal(number, SIG_IGN)
+      let source = DispatchSource.makeSignalSource(signal: number, queue: .global())
+      source.setEventHandler { Self.received(requests, onFirst) }
+      source.resume()
+      return source
+    }
+    guard untilInputEnds else { return }
+    Thread.detachNewThread {
+      while !FileHandle.standardInput.availableData.isEmpty {}
+      requests.hasInputEnded.store(true, ordering: .relaxed)
+      onFirst()
+      // The parent is gone: a step that can't be canceled must not keep this process alive.
+      Thread.sleep(forTimeInterval: 2)
+      _exit(CommandFailure.interruptedCode)
+    }
+  }
+
+  private static func received(_ requests: Requests, _ onFirst: @Sendable () -> Void) {
+    if requests.signals.add(1, ordering: .relaxed).oldValue == 0 {
+      Terminal.shared.message("Stopping; press Ctrl-C again to quit immediately.")
+      onFirst()
+    } else {
+      Terminal.shared.show(status: "")
+      // Not `exit`, which would wait for working threads.
+      _exit(CommandFailure.interruptedCode)
+    }
+  }
+}

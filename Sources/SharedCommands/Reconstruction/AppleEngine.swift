@@ -1,0 +1,49 @@
+import ArgumentParser
+import Formats
+import Foundation
+import RealityKit
+
+/// Apple's engine: nothing beyond the public API of RealityKit.
+package enum AppleEngine: EngineSupport {
+  package struct Arguments: EngineArguments {
+    package var isDryRun: Bool { false }
+
+    package init() {}
+
+    package func outputs() throws -> EngineOutputs { EngineOutputs() }
+    package func configure(_ session: PhotogrammetrySession, photos: URL) throws {}
+    package func report(of session: PhotogrammetrySession) throws -> Data? { nil }
+  }
+
+  package static var commands: [any ParsableCommand.Type] { [] }
+  package static let modelFormats = [ModelFormat.usdz]
+  package static let sessionOutputSource: String? = nil
+
+  package static var help: EngineHelp {
+    var help = EngineHelp()
+    help.outputs = """
+      OUTPUT
+        model.usdz  for AR Quick Look
+        model/      folder with OBJ, MTL, USDA and textures
+
+      """
+    return help
+  }
+
+  package static var unsupportedMachine: CommandFailure {
+    .run("This machine can't reconstruct models.")
+  }
+
+  package static func isTransient(_ error: any Error) -> Bool { false }
+
+  package static func intrinsics(
+    of pose: PhotogrammetrySession.Pose
+  ) -> PosesFile.Intrinsics? { nil }
+
+  package static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent) {}
+
+  package static func dryRun(
+    _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,
+    _ reporter: RunReporter
+  ) throws {}
+}

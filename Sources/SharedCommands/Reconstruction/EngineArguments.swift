@@ -1,0 +1,29 @@
+import ArgumentParser
+import Foundation
+import RealityKit
+
+/// Options of `reconstruct` that only one engine has.
+package protocol EngineArguments: ParsableArguments {
+  /// Whether to check and print the plan only.
+  var isDryRun: Bool { get }
+
+  /// The files to write besides those that every engine writes. Throws a `CommandFailure` where one
+  /// can't be written.
+  func outputs() throws -> EngineOutputs
+  /// Sets up a session that reads the folder `photos`.
+  func configure(_ session: PhotogrammetrySession, photos: URL) throws
+  /// The run's report as JSON; nil where there is none.
+  func report(of session: PhotogrammetrySession) throws -> Data?
+}
+
+/// Files that only some engines write.
+package struct EngineOutputs: Equatable, Sendable {
+  /// A picture of the model, written with it.
+  package var preview: URL?
+  /// The report of the run.
+  package var report: URL?
+
+  package init(preview: URL? = nil, report: URL? = nil) {
+    (self.preview, self.report) = (preview, report)
+  }
+}

@@ -1,0 +1,46 @@
+import ArgumentParser
+import Formats
+import Foundation
+import RealityKit
+
+/// An engine behind `PhotogrammetrySession`, as far as the command line depends on it.
+package protocol EngineSupport: Sendable {
+  /// Options of `reconstruct` that only this engine has.
+  associatedtype Arguments: EngineArguments
+
+  /// Subcommands besides `reconstruct` and `evaluate`.
+  static var commands: [any ParsableCommand.Type] { get }
+  /// Formats of model files that the engine writes.
+  static var modelFormats: [ModelFormat] { get }
+  /// Sections of the help of `reconstruct`.
+  static var help: EngineHelp { get }
+  /// The source of log messages that repeat outputs of the session; nil where it logs none.
+  static var sessionOutputSource: String? { get }
+  /// Why this machine can't reconstruct, where the session isn't supported.
+  static var unsupportedMachine: CommandFailure { get }
+
+  /// Whether another attempt may succeed after `error`.
+  static func isTransient(_ error: any Error) -> Bool
+  /// Intrinsics of a photo's camera; nil where the engine does not provide them.
+  static func intrinsics(of pose: PhotogrammetrySession.Pose) -> PosesFile.Intrinsics?
+  /// Adds the number of photos, registered photos and triangles to the event `complete`.
+  static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent)
+  /// Prints what a run would do; throws a `CommandFailure` where it could not succeed.
+  static func dryRun(
+    _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,
+    _ reporter: RunReporter) throws
+}
+
+/// Sections of the help of `reconstruct` that depend on the engine; empty where it adds nothing.
+package struct EngineHelp: Sendable {
+  /// Further command lines of the section on examples.
+  package var examples = ""
+  /// The formats of models.
+  package var outputs = ""
+  /// Sections on masks and the scale.
+  package var input = ""
+  /// Further lines of the section on events.
+  package var events = ""
+
+  package init() {}
+}

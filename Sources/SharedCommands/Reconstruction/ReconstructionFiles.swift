@@ -1,0 +1,54 @@
+import Formats
+import Foundation
+import RealityKit
+import SceneModel
+
+/// The folder that `reconstruct` reads and the files that it writes.
+struct ReconstructionFiles {
+  let input: URL
+  let output: ModelOutput
+  let poses: URL?
+  let pointCloud: URL?
+  let checkpoint: URL?
+  let additional: EngineOutputs
+
+  /// Checks all paths; throws a `CommandFailure`. `formats` are those of model files.
+  init<Engine>(_ arguments: ReconstructArguments<Engine>, formats: [ModelFormat]) throws {
+    input = try PhotoFolderArgument(arguments.inputFolder).url
+    output = try ModelOutput(arguments.output, formats: formats)
+    func url(_ path: String?, isDirectory: Bool = false) throws -> URL? {
+      let url = path.map { URL(fileURLWithPath: $0, isDirectory: isDirectory) }
+      if let url { try ModelOutput.checkWritable(url) }
+      return url
+    }
+    poses = try url(arguments.poses)
+    pointCloud = try url(arguments.pointCloud)
+    additional = try arguments.engine.outputs()
+    checkpoint = try url(arguments.checkpointDirectory, isDirectory: true)
+  }
+
+  /// Writes the result of a request, if a file was named for it.
+  func store(
+    _ result: PhotogrammetrySession.Result, _ reporter: RunReporter,
+    intrinsics: (PhotogrammetrySession.Pose) -> PosesFile.Intrinsics?
+  ) throws {
+    switch result {
+    case .modelFile(let url):
+      reporter.wrote("model", url.relativePath)
+      if let preview = additional.preview { reporter.wrote("preview", preview.relativePath) }
+    case .poses(let result):
+      guard let poses else { return }
+      try AtomicFile.write(
+        try PosesFile(result, intrinsics: intrinsics).encoded(), to: poses)
+      reporter.wrote("poses", poses.relativePath)
+    case .pointCloud(let cloud):
+      guard let pointCloud else { return }
+      let points = SceneModel.PointCloud(
+        positions: cloud.points.map(\.position),
+        colors: cloud.points.map { [$0.color.x, $0.color.y, $0.color.z] })
+      try PLY.write(points, to: pointCloud)
+      reporter.wrote("pointCloud", pointCloud.relativePath)
+    default: break
+    }
+  }
+}

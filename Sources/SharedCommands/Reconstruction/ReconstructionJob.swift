@@ -1,0 +1,109 @@
+import Formats
+import Foundation
+import Logging
+import RealityKit
+import SceneModel
+
+/// Carries out `reconstruct`: sets up the session and its requests, follows its outputs and writes
+/// their results.
+struct ReconstructionJob<Engine: EngineSupport> {
+  private let arguments: ReconstructArguments<Engine.Arguments>
+  private let files: ReconstructionFiles
+  private let logger = Logger(label: "photogrammetry-cli")
+
+  /// Checks all paths; throws a `CommandFailure`.
+  init(_ arguments: ReconstructArguments<Engine.Arguments>) throws {
+    self.arguments = arguments
+    files = try ReconstructionFiles(arguments, formats: Engine.modelFormats)
+  }
+
+  /// Runs to the end; throws a `CommandFailure` if a requested result is missing.
+  func run(_ reporter: RunReporter) async throws {
+    guard PhotogrammetrySession.isSupported else { throw Engine.unsupportedMachine }
+    if arguments.engine.isDryRun {
+      return try Engine.dryRun(arguments, photos: files.input, output: files.output, reporter)
+    }
+    ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
+    let session = try PhotogrammetrySession(input: files.input, configuration: configuration)
+    try arguments.engine.configure(session, photos: files.input)
+    var run = SessionRun<Engine>(files: files, reporter: reporter)
+    do {
+      try await follow(session, &run)
+    } catch {
+      reporter.finish()
+      throw error
+    }
+    reporter.finish()
+    try writeReport(of: session, reporter)
+    if run.isCancelled { throw interrupted }
+    if let failure = run.failures.first {
+      for sentence in run.failures.dropFirst() { logger.error("\(sentence)") }
+      throw CommandFailure.run(failure, isTransient: run.isTransient)
+    }
+    reporter.event(
+      RunEvent("complete") { event in
+        event.seconds = reporter.elapsed
+        Engine.addCounts(of: session, to: &event)
+      })
+    logger.info("Done in \(RunProgress.duration(reporter.elapsed)).")
+  }
+
+  /// Processes the requests and records all outputs; throws where an interrupt ended the session.
+  private func follow(_ session: PhotogrammetrySession, _ run: inout SessionRun<Engine>)
+    async throws
+  {
+    let cancellable = Cancellable(session: session)
+    let interrupts = InterruptHandler(untilInputEnds: arguments.untilInputEnds) {
+      cancellable.session.cancel()
+    }
+    do {
+      try session.process(requests: requests)
+      // An interrupt before this point had nothing to cancel.
+      if interrupts.wasInterrupted { session.cancel() }
+      for try await output in session.outputs {
+        if try run.isLast(output) { break }
+      }
+    } catch {
+      throw interrupts.wasInterrupted ? interrupted : error
+    }
+  }
+
+  private var interrupted: CommandFailure {
+    let rest = files.checkpoint.map { " Finished stages are in \($0.path)." } ?? ""
+    return .interrupted("Interrupted; no model was written.\(rest)")
+  }
+
+  private var configuration: PhotogrammetrySession.Configuration {
+    var configuration = PhotogrammetrySession.Configuration()
+    configuration.isObjectMaskingEnabled = !arguments.noObjectMasking
+    arguments.alignment.configure(&configuration)
+    configuration.checkpointDirectory = files.checkpoint
+    configuration.customDetailSpecification = arguments.detail.specification
+    configuration.meshPrimitive = arguments.shape.primitive
+    return configuration
+  }
+
+  private var requests: [PhotogrammetrySession.Request] {
+    var requests = [
+      PhotogrammetrySession.Request.modelFile(
+        url: files.output.url, detail: arguments.detail.detail.requestDetail,
+        geometry: arguments.shape.geometry)
+    ]
+    if files.poses != nil { requests.append(.poses) }
+    if files.pointCloud != nil { requests.append(.pointCloud) }
+    return requests
+  }
+
+  private func writeReport(of session: PhotogrammetrySession, _ reporter: RunReporter) throws {
+    guard let url = files.additional.report,
+      let data = try arguments.engine.report(of: session)
+    else { return }
+    try AtomicFile.write(data, to: url)
+    reporter.wrote("report", url.relativePath)
+  }
+}
+
+/// A session whose `cancel()` is safe on any thread, even if its type isn't `Sendable`.
+private struct Cancellable: @unchecked Sendable {
+  let session: PhotogrammetrySession
+}

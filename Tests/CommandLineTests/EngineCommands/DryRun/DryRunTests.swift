@@ -1,0 +1,67 @@
+import Formats
+import Foundation
+import Pipeline
+import SharedCommands
+import TestSupport
+import Testing
+
+@testable import EngineCommands
+
+@Suite struct DryRunTests {
+  private let temporary: TemporaryFolder
+
+  init() throws { temporary = try TemporaryFolder() }
+
+  private func plan(
+    _ detail: [String] = [], _ options: [String] = [], model: String = "m.usdz",
+    photos: URL = Fixtures.images(of: "orbit")
+  ) throws -> DryRun {
+    let path = temporary.url.path + "/" + model
+    return try DryRun(
+      try .parse(["photos", path] + detail + options), photos: photos,
+      output: try ModelOutput(path, formats: ModelFormat.files))
+  }
+
+  @Test func planNamesModelTimeAndSpace() throws {
+    let plan = try plan(["-d", "medium"], ["--threads", "3"])
+    #expect(plan.threadCount == 3 && plan.expectedSeconds > 1)
+    #expect(plan.memory.needed == 3 << 30)
+    #expect(plan.report.used.count == 20)
+    let lines = plan.lines.suffix(2)
+    #expect(lines.first?.contains("m.usdz would be written: at most 100000 triangles") == true)
+    #expect(lines.first?.contains("4096 x 4096") == true)
+    #expect(lines.last?.contains("with 3 threads, at most 3221 MB of memory") == true)
+  }
+
+  @Test func rejectedFilesComeBeforeThePlan() throws {
+    try temporary.write(Array("no photo".utf8), as: "photos/a.jpg")
+    let photos = temporary.url.appendingPathComponent("photos", isDirectory: true)
+    let plan = try plan(photos: photos)
+    #expect(plan.events.map(\.event) == ["invalidSample", "plan"])
+    #expect(plan.events[0].reason?.contains("a.jpg") == true)
+    #expect(plan.events[1].photos == 0 && plan.events[1].diskBytes == plan.space.needed)
+    #expect(plan.faults.contains { $0.contains("at least 3") })
+  }
+
+  @Test func lackOfMemoryIsAFault() throws {
+    let small = Machine(totalMemoryBytes: 1 << 30)
+    let faults = try Machine.$override.withValue(small) { try plan().faults }
+    #expect(faults.contains { $0.contains("MB of memory") }, "\(faults)")
+  }
+
+  @Test func unknownPhotosOfDistancesAreInvalid() {
+    #expect(throws: CommandFailure.self) {
+      try plan([], ["--camera-distance", "none.jpg,other.jpg=1"])
+    }
+  }
+
+  @Test func sizeDependsOnTheFormat() {
+    let limits = DetailSpecification(.reduced)
+    let mesh = limits.maximumTriangles * 60
+    #expect(limits.modelBytes(in: .ply) == mesh)
+    let map = limits.maximumAtlases * 2048 * 2048 * 3
+    #expect(limits.modelBytes(in: .usdz) == mesh + map * limits.maps.count)
+    let full = DetailSpecification(.full)
+    #expect(full.modelBytes(in: .glb) < full.modelBytes(in: .usdz))
+  }
+}

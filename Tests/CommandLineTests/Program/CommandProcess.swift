@@ -1,0 +1,42 @@
+import Foundation
+import TestSupport
+
+/// A finished process of the built program.
+struct CommandProcess {
+  var exitCode: Int32
+  var output: String
+  var errors: String
+
+  /// Runs to the end. Calls `interrupting` with the process once it has written to stderr.
+  static func run(
+    _ arguments: [String], in folder: URL, interrupting: ((Process) -> Void)? = nil
+  ) throws -> CommandProcess {
+    let process = Process()
+    // The program is built next to the bundle of the tests.
+    let products = URL(fileURLWithPath: CommandLine.arguments[0]).deletingLastPathComponent()
+    process.executableURL = products.appendingPathComponent("photogrammetry-cli")
+    process.arguments = arguments
+    process.currentDirectoryURL = folder
+    let names = ["output", "errors"].map {
+      FileManager.default.temporaryDirectory.appendingPathComponent("\($0)-\(UUID().uuidString)")
+    }
+    defer { for name in names { try? FileManager.default.removeItem(at: name) } }
+    for name in names { try Data().write(to: name) }
+    process.standardInput = FileHandle.nullDevice
+    process.standardOutput = try FileHandle(forWritingTo: names[0])
+    process.standardError = try FileHandle(forWritingTo: names[1])
+    try process.run()
+    if let interrupting {
+      while process.isRunning, try text(of: names[1]).isEmpty { usleep(10_000) }
+      interrupting(process)
+    }
+    process.waitUntilExit()
+    return CommandProcess(
+      exitCode: process.terminationStatus, output: try text(of: names[0]),
+      errors: try text(of: names[1]))
+  }
+
+  private static func text(of file: URL) throws -> String {
+    String(decoding: try Data(contentsOf: file), as: UTF8.self)
+  }
+}

@@ -1,0 +1,40 @@
+import Formats
+import Foundation
+import TestSupport
+import Testing
+
+@testable import SharedCommands
+
+@Suite struct ModelOutputTests {
+  @Test func extensionSelectsTheFormat() throws {
+    let temporary = try TemporaryFolder()
+    let folder = temporary.url
+    let path = folder.path
+    for format in ModelFormat.files {
+      let file = try ModelOutput(path + "/m.\(format.rawValue)", formats: ModelFormat.files)
+      #expect(file.format == format)
+      #expect(file.url == URL(fileURLWithPath: path + "/m.\(format.rawValue)", isDirectory: false))
+    }
+    for name in ["/new", "/new.v2/", "", "/ü 模型", "/..."] {
+      let output = try ModelOutput(path + name, formats: ModelFormat.files)
+      #expect(output.url.hasDirectoryPath)
+      #expect(output.format == .folder, "\(name)")
+    }
+    #expect(
+      try ModelOutput(path + "/M.USDZ", formats: ModelFormat.files).url.lastPathComponent
+        == "M.USDZ")
+    #expect(try ModelOutput(path + "/M.Glb", formats: ModelFormat.files).format == .glb)
+    for name in ["/m.obj", "/m.txt", "/no/such/m.usdz", "/m.usdz/", "/m.glb/", "/.usdz", "/.ply"] {
+      let failure = #expect(throws: CommandFailure.self, "\(name)") {
+        try ModelOutput(path + name, formats: ModelFormat.files)
+      }
+      #expect(failure?.exitCode == 2)
+    }
+    #expect(throws: CommandFailure.self) { try ModelOutput("", formats: ModelFormat.files) }
+    try Data().write(to: folder.appendingPathComponent("plain"))
+    #expect(throws: CommandFailure.self) {
+      try ModelOutput(path + "/plain", formats: ModelFormat.files)
+    }
+    _ = temporary
+  }
+}

@@ -1,0 +1,23 @@
+import Foundation
+import Synchronization
+import Testing
+
+@testable import SharedCommands
+
+@Suite(.serialized) struct InterruptHandlerTests {
+  private final class Counter: Sendable {
+    let calls = Atomic<Int>(0)
+  }
+
+  @Test(arguments: [SIGINT, SIGTERM])
+  func firstSignalRequestsAStop(_ number: Int32) throws {
+    let counter = Counter()
+    let handler = InterruptHandler { counter.calls.add(1, ordering: .relaxed) }
+    #expect(!handler.wasInterrupted)
+    kill(getpid(), number)
+    let end = Date().addingTimeInterval(10)
+    while counter.calls.load(ordering: .relaxed) == 0, Date() < end { usleep(1000) }
+    #expect(handler.wasInterrupted)
+    #expect(counter.calls.load(ordering: .relaxed) == 1)
+  }
+}

@@ -1,0 +1,62 @@
+// swift-tools-version: 6.2
+import Foundation
+import PackageDescription
+
+// The command line as macOS compiles it: the same sources with Apple's engine chosen, in a package of
+// its own, which sees nothing but the public API of the modules that stand in for Apple's.
+
+/// The packages that the program depends on, from where its package has them.
+func dependency(_ name: String, url: String, from version: Version) -> Package.Dependency {
+  let environment = ProcessInfo.processInfo.environment
+  let cache =
+    environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")
+  let folder = environment["PHOTOGRAMMETRY_PACKAGES"] ?? cache + "/photogrammetry-cli/packages"
+  let path = "\(folder)/\(name)"
+  return FileManager.default.fileExists(atPath: path + "/Package.swift")
+    ? .package(path: path) : .package(url: url, from: version)
+}
+
+/// The platform-independent modules are compiled again under these names: a module of the engine's
+/// package would show its `package` declarations to nobody else.
+let modules = ["SceneModel", "Formats", "Evaluation", "SharedCommands"]
+let settings: [SwiftSetting] = [
+  .define("APPLE_ENGINE"), .treatAllWarnings(as: .error),
+  .unsafeFlags(modules.flatMap { ["-module-alias", "\($0)=Mac\($0)"] }),
+]
+
+func module(_ name: String, _ dependencies: [Target.Dependency]) -> Target {
+  .target(
+    name: "Mac" + name, dependencies: dependencies, path: "Sources/\(name)",
+    swiftSettings: settings)
+}
+
+let argumentParser = Target.Dependency.product(
+  name: "ArgumentParser", package: "swift-argument-parser")
+
+let package = Package(
+  name: "MacCommandLine",
+  platforms: [.macOS(.v15)],
+  dependencies: [
+    .package(name: "photogrammetry-cli", path: "../.."),
+    dependency(
+      "swift-argument-parser", url: "https://github.com/apple/swift-argument-parser",
+      from: "1.4.0"),
+    dependency("swift-log", url: "https://github.com/apple/swift-log", from: "1.5.0"),
+  ],
+  targets: [
+    module("SceneModel", []),
+    module("Formats", ["MacSceneModel"]),
+    module("Evaluation", ["MacSceneModel"]),
+    module(
+      "SharedCommands",
+      [
+        "MacSceneModel", "MacFormats", "MacEvaluation", argumentParser,
+        .product(name: "Logging", package: "swift-log"),
+        .product(name: "RealityKit", package: "photogrammetry-cli"),
+      ]),
+    .executableTarget(
+      name: "mac-command-line",
+      dependencies: ["MacSceneModel", "MacSharedCommands", argumentParser],
+      path: "Sources/photogrammetry-cli", swiftSettings: settings),
+  ]
+)
