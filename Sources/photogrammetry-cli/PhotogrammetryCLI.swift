@@ -11,10 +11,6 @@ import SharedCommands
   private typealias Engine = PipelineEngine
 #endif
 
-#if canImport(Kernels)
-  import Kernels
-#endif
-
 @main
 struct PhotogrammetryCLI: AsyncParsableCommand {
   static let configuration = CommandConfiguration(
@@ -37,9 +33,7 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
   /// Runs the command of the arguments and ends the process with its exit code.
   static func main() async {
     Terminal.shared.ignoreBrokenPipes()
-    #if canImport(Kernels)
-      NativeLibraries.silence()
-    #endif
+    Engine.prepareProcess()
     do {
       try await execute()
     } catch {

@@ -1,6 +1,7 @@
 import ArgumentParser
 import Formats
 import Foundation
+import Kernels
 import Pipeline
 import RealityFoundation
 import RealityKit
@@ -22,6 +23,9 @@ package enum PipelineEngine: EngineSupport {
       machine.shortfalls.joined(separator: " "),
       isTransient: machine.totalMemoryBytes >= Machine.neededMemoryBytes)
   }
+
+  /// Keeps the native libraries from writing to standard error.
+  package static func prepareProcess() { NativeLibraries.silence() }
 
   package static func isTransient(_ error: any Error) -> Bool {
     CommandFailure.isTransient(error)

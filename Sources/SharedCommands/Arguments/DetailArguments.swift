@@ -4,9 +4,6 @@ import RealityKit
 
 /// The detail of a model: one of the levels, or custom limits.
 package struct DetailArguments: ParsableArguments {
-  package typealias Specification =
-    PhotogrammetrySession.Configuration.CustomDetailSpecification
-
   /// The levels and their limits, as a section of help.
   package static let help = """
     DETAIL LEVELS (upper bounds; poor photos give less)
@@ -63,8 +60,8 @@ package struct DetailArguments: ParsableArguments {
   }
 
   /// The limits of `custom`.
-  package var specification: Specification {
-    var result = Specification()
+  package var specification: CustomDetail {
+    var result = CustomDetail()
     if let maxPolygons { result.maximumPolygonCount = maxPolygons }
     if let textureSide { result.maximumTextureDimension = textureSide.dimension }
     if let maps { result.outputTextureMaps = maps.outputs }

@@ -1,5 +1,10 @@
 import ArgumentParser
 import Foundation
+import RealityKit
+
+/// The limits of `--detail custom`.
+package typealias CustomDetail =
+  PhotogrammetrySession.Configuration.CustomDetailSpecification
 
 /// The side of a texture in texels.
 package enum TextureSideArgument: String, ExpressibleByArgument, CaseIterable, Sendable {
@@ -9,7 +14,7 @@ package enum TextureSideArgument: String, ExpressibleByArgument, CaseIterable, S
   case eightK = "8192"
   case sixteenK = "16384"
 
-  var dimension: DetailArguments.Specification.TextureDimension {
+  var dimension: CustomDetail.TextureDimension {
     switch self {
     case .oneK: .oneK
     case .twoK: .twoK
@@ -22,7 +27,7 @@ package enum TextureSideArgument: String, ExpressibleByArgument, CaseIterable, S
 
 /// The texture maps of a model, by name.
 package struct TextureMapsArgument: ExpressibleByArgument {
-  package var outputs: DetailArguments.Specification.TextureMapOutputs = []
+  package var outputs: CustomDetail.TextureMapOutputs = []
 
   package init?(argument: String) {
     for name in argument.split(separator: ",", omittingEmptySubsequences: false) {
@@ -41,7 +46,7 @@ package struct TextureMapsArgument: ExpressibleByArgument {
 
 /// The image format of textures.
 package struct TextureFormatArgument: ExpressibleByArgument {
-  package var format: DetailArguments.Specification.TextureFormat
+  package var format: CustomDetail.TextureFormat
 
   package init?(argument: String) {
     let parts = argument.split(separator: ":", omittingEmptySubsequences: false)

@@ -34,6 +34,8 @@ package enum AppleEngine: EngineSupport {
     .run("This machine can't reconstruct models.")
   }
 
+  package static func prepareProcess() {}
+
   package static func isTransient(_ error: any Error) -> Bool { false }
 
   package static func intrinsics(

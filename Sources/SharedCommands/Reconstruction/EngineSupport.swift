@@ -19,6 +19,8 @@ package protocol EngineSupport: Sendable {
   /// Why this machine can't reconstruct, where the session isn't supported.
   static var unsupportedMachine: CommandFailure { get }
 
+  /// Prepares the process of the command line; called once, before any command.
+  static func prepareProcess()
   /// Whether another attempt may succeed after `error`.
   static func isTransient(_ error: any Error) -> Bool
   /// Intrinsics of a photo's camera; nil where the engine does not provide them.
