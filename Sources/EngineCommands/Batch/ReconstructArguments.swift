@@ -17,7 +17,7 @@ extension DetailArguments {
 
 extension TextureMapsArgument {
   fileprivate var text: String {
-    let names: [(DetailArguments.Specification.TextureMapOutputs, String)] = [
+    let names: [(CustomDetail.TextureMapOutputs, String)] = [
       (.diffuseColor, "color"), (.normal, "normal"), (.roughness, "roughness"),
       (.displacement, "displacement"), (.ambientOcclusion, "occlusion"),
     ]

@@ -14,7 +14,7 @@ import Testing
     #expect(custom.specification.outputTextureMaps == [.diffuseColor, .ambientOcclusion])
     #expect(custom.specification.textureFormat == .jpeg(compressionQuality: 0.5))
     let plain = try DetailArguments.parse(["-d", "custom"])
-    #expect(plain.specification == DetailArguments.Specification())
+    #expect(plain.specification == CustomDetail())
   }
 
   @Test(arguments: [
