@@ -1,6 +1,6 @@
-# Sourced by scripts/test-client and scripts/test-examples: makes this package a dependency by git URL
-# and version, and builds packages that depend on it. All of them share one scratch folder, where the
-# engine is built once.
+# Sourced by scripts/test-client and scripts/test-examples: makes this package a dependency by git
+# URL and version, and builds packages that depend on it. All of them share one scratch folder, where
+# the engine is built once.
 # shellcheck shell=bash
 
 clients=$PWD/.build/clients
@@ -39,7 +39,8 @@ build_client() {
 
 # Makes the package in the folder $1 depend on the published version instead of on a path.
 depend_by_version() {
-  sed -i -E 's|\.package\(name: "photogrammetry-cli", path: "[./]+"\)|'".package(url: \"$url\", from: \"$version\")|" \
+  local dependency=".package(url: \"$url\", from: \"$version\")"
+  sed -i -E "s|\.package\(name: \"photogrammetry-cli\", path: \"[./]+\"\)|$dependency|" \
     "$1/Package.swift"
   grep -qF "$url" "$1/Package.swift"
 }
