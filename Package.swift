@@ -1,19 +1,5 @@
 // swift-tools-version: 6.2
-import Foundation
 import PackageDescription
-
-/// Uses the unpacked sources that `scripts/setup` leaves where GitHub can't be reached, and the
-/// canonical URL everywhere else.
-func dependency(_ name: String, url: String, from version: Version) -> Package.Dependency {
-  let environment = ProcessInfo.processInfo.environment
-  let cache =
-    environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")
-  let folder =
-    environment["PHOTOGRAMMETRY_PACKAGES"] ?? cache + "/photogrammetry-cli/packages"
-  let path = "\(folder)/\(name)"
-  return FileManager.default.fileExists(atPath: path + "/Package.swift")
-    ? .package(path: path) : .package(url: url, from: version)
-}
 
 let argumentParser = Target.Dependency.product(
   name: "ArgumentParser", package: "swift-argument-parser")
@@ -21,16 +7,19 @@ let logging = Target.Dependency.product(name: "Logging", package: "swift-log")
 
 let strict: [SwiftSetting] = [.treatAllWarnings(as: .error)]
 
-// Debian keeps these headers outside the default search path; as system headers they don't warn.
 let strictCxx: [CXXSetting] = [
   .headerSearchPath("."),
+  .headerSearchPath("../SystemLibraries/COpenCV"),
   .enableWarning("all"),
   .treatAllWarnings(as: .error),
-  .unsafeFlags([
-    "-isystem", "/usr/include/opencv4", "-isystem", "/usr/include/eigen3",
-    "-O3", "-fno-math-errno",
-  ]),
 ]
+
+/// A library of the system; see `Sources/SystemLibraries/README.md`.
+func systemLibrary(_ name: String, pkgConfig: String? = nil, apt packages: [String]) -> Target {
+  .systemLibrary(
+    name: name, path: "Sources/SystemLibraries/\(name)", pkgConfig: pkgConfig,
+    providers: [.apt(packages)])
+}
 
 /// A module that stands in for one of Apple's; see `Sources/AppleModules/README.md`.
 func appleModule(_ name: String, _ dependencies: [Target.Dependency] = []) -> Target {
@@ -68,15 +57,31 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
   ].map { .library(name: $0, targets: [$0]) }
   targets += [
     .target(
-      name: "CKernels", cxxSettings: strictCxx,
-      linkerSettings: [
+      name: "CKernels",
+      dependencies: [
+        "CCeres", "CDeflate", "CEigen", "CEmbree", "CGlog", "CHEIF", "CJPEG", "CLittleCMS",
+        "COpen3D", "COpenCV", "CPNG", "CXXHash",
+      ],
+      cxxSettings: strictCxx,
+      linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
         .linkedLibrary("opencv_imgcodecs"),
-        .linkedLibrary("ceres"), .linkedLibrary("glog"), .linkedLibrary("Open3D"),
-        .linkedLibrary("embree3"),
-        .linkedLibrary("jpeg"), .linkedLibrary("png"), .linkedLibrary("deflate"),
-        .linkedLibrary("xxhash"), .linkedLibrary("heif"), .linkedLibrary("lcms2"),
+        .linkedLibrary("ceres"), .linkedLibrary("Open3D"), .linkedLibrary("embree3"),
       ]),
+    systemLibrary("CCeres", apt: ["libceres-dev"]),
+    systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
+    systemLibrary("CEigen", pkgConfig: "eigen3", apt: ["libeigen3-dev"]),
+    systemLibrary("CEmbree", apt: ["libembree-dev"]),
+    systemLibrary("CGlog", pkgConfig: "libglog", apt: ["libgoogle-glog-dev"]),
+    systemLibrary("CHEIF", pkgConfig: "libheif", apt: ["libheif-dev"]),
+    systemLibrary("CJPEG", pkgConfig: "libjpeg", apt: ["libjpeg-dev"]),
+    systemLibrary("CLittleCMS", pkgConfig: "lcms2", apt: ["liblcms2-dev"]),
+    systemLibrary("COpen3D", apt: ["libopen3d-dev"]),
+    systemLibrary(
+      "COpenCV",
+      apt: ["libopencv-core-dev", "libopencv-imgproc-dev", "libopencv-imgcodecs-dev"]),
+    systemLibrary("CPNG", pkgConfig: "libpng", apt: ["libpng-dev"]),
+    systemLibrary("CXXHash", pkgConfig: "libxxhash", apt: ["libxxhash-dev"]),
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(
       name: "ImageFiles", dependencies: ["CKernels", "Kernels", "SceneModel"],
@@ -185,10 +190,10 @@ let package = Package(
   platforms: [.macOS(.v15)],
   products: products,
   dependencies: [
-    dependency(
-      "swift-argument-parser", url: "https://github.com/apple/swift-argument-parser",
-      from: "1.4.0"),
-    dependency("swift-log", url: "https://github.com/apple/swift-log", from: "1.5.0"),
+    // The lowest versions are the ones that tests run with where `scripts/setup` provides them. All
+    // of a major version is accepted, because programs that use this package name these, too.
+    .package(url: "https://github.com/apple/swift-argument-parser", "1.4.0"..<"2.0.0"),
+    .package(url: "https://github.com/apple/swift-log", "1.5.4"..<"2.0.0"),
   ],
   targets: targets,
   cxxLanguageStandard: .cxx17

@@ -7,17 +7,6 @@ import PackageDescription
 let environment = ProcessInfo.processInfo.environment
 let languageModes: [SwiftLanguageMode] = environment["CLIENT_LANGUAGE_MODE"] == "5" ? [.v5] : [.v6]
 
-/// ArgumentParser from the same source as in the engine's package.
-let argumentParser: Package.Dependency = {
-  let cache =
-    environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")
-  let folder = environment["PHOTOGRAMMETRY_PACKAGES"] ?? cache + "/photogrammetry-cli/packages"
-  let path = "\(folder)/swift-argument-parser"
-  return FileManager.default.fileExists(atPath: path + "/Package.swift")
-    ? .package(path: path)
-    : .package(url: "https://github.com/apple/swift-argument-parser", from: "1.4.0")
-}()
-
 func module(_ name: String) -> Target.Dependency {
   .product(name: name, package: "photogrammetry-cli")
 }
@@ -29,7 +18,10 @@ func program(_ name: String, _ modules: String..., others: [Target.Dependency] =
 let package = Package(
   name: "Clients",
   platforms: [.macOS(.v15)],
-  dependencies: [.package(name: "photogrammetry-cli", path: "../.."), argumentParser],
+  dependencies: [
+    .package(name: "photogrammetry-cli", path: "../.."),
+    .package(url: "https://github.com/apple/swift-argument-parser", from: "1.4.0"),
+  ],
   targets: [
     program(
       "DetailedCommand", "RealityKit", "Metal", "os",

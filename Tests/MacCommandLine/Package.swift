@@ -1,20 +1,8 @@
 // swift-tools-version: 6.2
-import Foundation
 import PackageDescription
 
 // The command line as macOS compiles it: the same sources with Apple's engine chosen, in a package of
 // its own, which sees nothing but the public API of the modules that stand in for Apple's.
-
-/// The packages that the program depends on, from where its package has them.
-func dependency(_ name: String, url: String, from version: Version) -> Package.Dependency {
-  let environment = ProcessInfo.processInfo.environment
-  let cache =
-    environment["XDG_CACHE_HOME"] ?? (environment["HOME"].map { $0 + "/.cache" } ?? "/var/cache")
-  let folder = environment["PHOTOGRAMMETRY_PACKAGES"] ?? cache + "/photogrammetry-cli/packages"
-  let path = "\(folder)/\(name)"
-  return FileManager.default.fileExists(atPath: path + "/Package.swift")
-    ? .package(path: path) : .package(url: url, from: version)
-}
 
 /// The platform-independent modules are compiled again under these names: a module of the engine's
 /// package would show its `package` declarations to nobody else.
@@ -38,10 +26,8 @@ let package = Package(
   platforms: [.macOS(.v15)],
   dependencies: [
     .package(name: "photogrammetry-cli", path: "../.."),
-    dependency(
-      "swift-argument-parser", url: "https://github.com/apple/swift-argument-parser",
-      from: "1.4.0"),
-    dependency("swift-log", url: "https://github.com/apple/swift-log", from: "1.5.0"),
+    .package(url: "https://github.com/apple/swift-argument-parser", from: "1.4.0"),
+    .package(url: "https://github.com/apple/swift-log", from: "1.5.4"),
   ],
   targets: [
     module("SceneModel", []),

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
 #include <cstdint>
 #include <utility>
 #include <vector>
+
+#include "core/eigen_sparse.h"
 
 namespace ck {
 

@@ -1,9 +1,9 @@
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "ck_global.h"
+#include "core/eigen_sparse.h"
 #include "core/guard.h"
 #include "core/span.h"
 #include "geometry/camera_model.h"

@@ -1,8 +1,7 @@
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCore>
 #include <vector>
 
 #include "ck_texture.h"
+#include "core/eigen_sparse.h"
 #include "core/guard.h"
 
 ck_status ck_solve_sparse(const ck_sparse_matrix* input, size_t channels,

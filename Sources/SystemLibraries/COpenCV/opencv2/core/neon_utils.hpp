@@ -1,0 +1,1 @@
+#include <opencv4/opencv2/core/neon_utils.hpp>
