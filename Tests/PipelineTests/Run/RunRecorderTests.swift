@@ -33,7 +33,7 @@ import Testing
     let value = try recorder.run(.meshGeneration, images: store) { context in
       context.notes.record("triangles", 12)
       context.notes.warn("A.")
-      context.notes.tell("B.")
+      context.notes.log("B.")
       for _ in 0..<2 { _ = try store.image(ID(0)) }
       return 7
     }
