@@ -45,7 +45,7 @@ import Testing
       as: "rig/cameras.json")
     let known = try cameras("rig").cameras
     #expect(known.reconstruction.photos.map(\.name) == ["a.jpg", "b.jpg"])
-    #expect(known.sizeless.map(\.index) == [0])
+    #expect(known.photosOfUnknownSize.map(\.index) == [0])
   }
 
   @Test func foldersWithoutCamerasAreInvalid() throws {
