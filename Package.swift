@@ -35,9 +35,13 @@ var targets: [Target] = [
   .target(name: "SceneModel", swiftSettings: strict),
   .target(name: "Formats", dependencies: ["SceneModel"], swiftSettings: strict),
   .target(name: "Evaluation", dependencies: ["SceneModel"], swiftSettings: strict),
+  .target(
+    name: "DamagedInput", dependencies: ["SceneModel"], path: "Tests/DamagedInput",
+    swiftSettings: strict),
   .testTarget(name: "SceneModelTests", dependencies: ["SceneModel"], swiftSettings: strict),
   .testTarget(
-    name: "FormatsTests", dependencies: ["Formats", "SceneModel"], swiftSettings: strict),
+    name: "FormatsTests", dependencies: ["Formats", "SceneModel", "DamagedInput"],
+    swiftSettings: strict),
   .testTarget(
     name: "EvaluationTests", dependencies: ["Evaluation", "SceneModel"], swiftSettings: strict),
 ]
@@ -128,6 +132,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(
       name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles", "Formats"],
       path: "Tests/TestSupport", swiftSettings: strict),
+    .target(name: "TestLevels", path: "Tests/TestLevels", swiftSettings: strict),
     .executableTarget(
       name: "render-fixtures",
       dependencies: ["TestSupport", "SceneModel", "Kernels", "ImageFiles", "Formats"],
@@ -142,27 +147,33 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation"],
       path: "Tests/CancelBenchmark", swiftSettings: strict),
     .testTarget(
-      name: "KernelsTests", dependencies: ["CKernels", "Kernels", "SceneModel", "TestSupport"],
+      name: "KernelsTests",
+      dependencies: ["CKernels", "Kernels", "SceneModel", "TestLevels", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
       name: "ImageFilesTests",
-      dependencies: ["ImageFiles", "Kernels", "SceneModel", "TestSupport"],
+      dependencies: ["DamagedInput", "ImageFiles", "Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
       name: "AppleModulesTests",
-      dependencies: ["RealityFoundation", "Metal", "SceneModel", "os", "simd", logging],
+      dependencies: [
+        "BitmapGraphics", "Combine", "CoreFoundationTypes", "CoreImage", "CoreMotion", "CoreVideo",
+        "ImageFiles", "ImageIO", "Metal", "OSLog", "QuartzCore", "SceneModel", "TestSupport",
+        "UniformTypeIdentifiers", "os", "simd", logging,
+      ],
       swiftSettings: strict),
     .testTarget(
       name: "PipelineTests",
       dependencies: [
-        "Pipeline", "Evaluation", "Formats", "ImageFiles", "Kernels", "SceneModel", "TestSupport",
+        "Pipeline", "DamagedInput", "Evaluation", "Formats", "ImageFiles", "Kernels", "SceneModel",
+        "TestLevels", "TestSupport",
       ],
       swiftSettings: strict),
     .testTarget(
       name: "RealityFoundationTests",
       dependencies: [
         "RealityKit", "RealityFoundation", "Metal", "os", "Pipeline", "Formats", "ImageFiles",
-        "Kernels", "SceneModel", "simd", "TestSupport", logging,
+        "Kernels", "SceneModel", "simd", "TestLevels", "TestSupport", logging,
       ],
       swiftSettings: strict),
     .testTarget(
@@ -170,7 +181,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       dependencies: [
         "photogrammetry-cli", "SharedCommands", "EngineCommands", "Evaluation", "Formats",
         "Pipeline", "ImageFiles", "Kernels", "RealityFoundation", "RealityKit", "SceneModel",
-        "TestSupport",
+        "TestLevels", "TestSupport",
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]

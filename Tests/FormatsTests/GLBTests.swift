@@ -106,7 +106,9 @@ import Testing
     let file = try GLBReader(
       try GLBFile.encode(square, materials: [material], creator: "tests"))
     #expect(try file.image(0, "occlusionTexture") == nil)
-    #expect(try file.image(0, "pbrMetallicRoughness", "metallicRoughnessTexture") != nil)
+    #expect(
+      try file.image(0, "pbrMetallicRoughness", "metallicRoughnessTexture")?.bytes
+        == Array("rough".utf8))
   }
 
   @Test func missingAttributesAreOmitted() throws {

@@ -1,4 +1,5 @@
 import Foundation
+import TestLevels
 import TestSupport
 import Testing
 
@@ -6,7 +7,7 @@ import Testing
 @testable import RealityFoundation
 
 /// Sessions with the real engine on rendered photos.
-@Suite(.serialized, .timeLimit(.minutes(15))) struct ReconstructionSessionTests {
+@Suite(.endToEnd, .serialized, .timeLimit(.minutes(15))) struct ReconstructionSessionTests {
   typealias Session = PhotogrammetrySession
   typealias Output = Session.Output
 

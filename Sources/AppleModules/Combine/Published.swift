@@ -38,6 +38,20 @@ public struct Published<Value> {
     }
   }
 
+  /// The publisher of the values, which announces changes by `assign(to:)` as those of the object.
+  public static subscript<Owner: AnyObject>(
+    _enclosingInstance owner: Owner,
+    projected projected: ReferenceWritableKeyPath<Owner, Publisher>,
+    storage storage: ReferenceWritableKeyPath<Owner, Published<Value>>
+  ) -> Publisher {
+    get {
+      let property = owner[keyPath: storage].storage
+      property.belongs(to: owner as? any ObservableObject)
+      return Publisher(storage: property)
+    }
+    set { newValue.copyValue(to: owner[keyPath: storage].storage) }
+  }
+
   /// The publisher of a property's values.
   public struct Publisher: Combine.Publisher {
     /// The type of the values.
@@ -55,7 +69,7 @@ public struct Published<Value> {
     /// Assigns the values of a publisher to the property.
     func assignValues(_ publisher: some Combine.Publisher<Value, Never>) {
       let storage = storage
-      storage.source = publisher.sink { [weak storage] in storage?.set($0) }
+      storage.keep(publisher.sink { [weak storage] in storage?.announceAndSet($0) })
     }
 
     /// Assigns the value of this property to another one.
@@ -66,8 +80,9 @@ public struct Published<Value> {
   final class Storage: @unchecked Sendable {
     private let lock = NSLock()
     private var current: Value
+    private weak var owner: (any ObservableObject)?
+    private var sources: [AnyCancellable] = []
     let subject: CurrentValueSubject<Value, Never>
-    var source: AnyCancellable?
 
     init(_ value: Value) {
       current = value
@@ -80,6 +95,17 @@ public struct Published<Value> {
       subject.send(value)
       lock.withLock { current = value }
     }
+
+    /// Names the object whose changes those of the value are.
+    func belongs(to object: (any ObservableObject)?) { lock.withLock { owner = object } }
+
+    func announceAndSet(_ value: Value) {
+      lock.withLock { owner }?.announceChange()
+      set(value)
+    }
+
+    /// Keeps the subscription to a publisher whose values become the property's.
+    func keep(_ source: AnyCancellable) { lock.withLock { sources.append(source) } }
   }
 }
 

@@ -72,8 +72,8 @@ struct ClosureSubscriber<Input, Failure: Error>: Subscriber {
   func receive(completion: Subscribers.Completion<Failure>) { end(completion) }
 }
 
-/// Holds a subscription until it is canceled.
-private final class SubscriptionHolder: @unchecked Sendable {
+/// Holds a subscription until it is canceled or ends.
+final class SubscriptionHolder: @unchecked Sendable {
   private let lock = NSLock()
   private var subscription: (any Subscription)?
   private var wasCancelled = false
@@ -81,6 +81,14 @@ private final class SubscriptionHolder: @unchecked Sendable {
   var isCancelled: Bool { lock.withLock { wasCancelled } }
 
   func set(_ subscription: any Subscription) { lock.withLock { self.subscription = subscription } }
+
+  /// Requests values of the subscription while there is one.
+  func request(_ demand: Subscribers.Demand) {
+    guard demand > .none else { return }
+    lock.withLock { subscription }?.request(demand)
+  }
+
+  func release() { lock.withLock { subscription = nil } }
 
   func cancel() {
     let subscription = lock.withLock {

@@ -67,7 +67,8 @@ public enum Subscribers {
     /// The sum of two demands.
     public static func + (lhs: Demand, rhs: Demand) -> Demand {
       guard let left = lhs.max, let right = rhs.max else { return .unlimited }
-      return .max(left + right)
+      let (sum, overflow) = left.addingReportingOverflow(right)
+      return overflow ? .unlimited : .max(sum)
     }
 
     /// Whether the first requests fewer values.

@@ -27,9 +27,9 @@ public struct Just<Output>: Publisher {
 
   /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Never {
-    let subject = CurrentValueSubject<Output, Never>(output)
-    subject.receive(subscriber: subscriber)
-    subject.send(completion: .finished)
+    let subscription = SingleValueSubscription(subscriber)
+    subscriber.receive(subscription: subscription)
+    subscription.fulfill(.success(output))
   }
 }
 
@@ -38,24 +38,96 @@ public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendabl
   /// Fulfills the future with a value or an error.
   public typealias Promise = (Swift.Result<Output, Failure>) -> Void
 
-  private let subject = CurrentValueSubject<Output?, Failure>(nil)
+  private let state = State()
 
-  /// Creates a future and runs `attemptToFulfill` immediately.
+  /// Creates a future and runs `attemptToFulfill` immediately. Only the first call of the promise has
+  /// an effect.
   public init(_ attemptToFulfill: @escaping (@escaping Promise) -> Void) {
-    let subject = subject
+    let state = state
     attemptToFulfill { result in
-      switch result {
-      case .success(let value):
-        subject.send(value)
-        subject.send(completion: .finished)
-      case .failure(let error): subject.send(completion: .failure(error))
-      }
+      for subscription in state.fulfill(result) { subscription.fulfill(result) }
     }
   }
 
   /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
-    subject.compactMap { $0 }.receive(subscriber: subscriber)
+    let subscription = SingleValueSubscription(subscriber)
+    subscriber.receive(subscription: subscription)
+    if let result = state.add(subscription) { subscription.fulfill(result) }
+  }
+
+  /// The result, and the subscriptions that wait for it.
+  private final class State: @unchecked Sendable {
+    private let lock = NSLock()
+    private var result: Swift.Result<Output, Failure>?
+    private var waiting: [SingleValueSubscription<Output, Failure>] = []
+
+    /// The result; nil where the subscription has to wait.
+    func add(
+      _ subscription: SingleValueSubscription<Output, Failure>
+    ) -> Swift.Result<Output, Failure>? {
+      lock.withLock {
+        if result == nil { waiting.append(subscription) }
+        return result
+      }
+    }
+
+    /// The subscriptions that waited for the result; none for a second result.
+    func fulfill(
+      _ result: Swift.Result<Output, Failure>
+    ) -> [SingleValueSubscription<Output, Failure>] {
+      lock.withLock {
+        guard self.result == nil else { return [] }
+        self.result = result
+        defer { waiting = [] }
+        return waiting
+      }
+    }
+  }
+}
+
+/// Delivers one value and the completion once both the value and a demand for it exist, or a failure
+/// without demand.
+private final class SingleValueSubscription<Output, Failure: Error>: Subscription,
+  @unchecked Sendable
+{
+  private let lock = NSLock()
+  private var subscriber: ClosureSubscriber<Output, Failure>?
+  private var result: Swift.Result<Output, Failure>?
+  private var hasDemand = false
+  private var isCancelled = false
+
+  init(_ subscriber: some Subscriber<Output, Failure>) {
+    self.subscriber = ClosureSubscriber(subscriber)
+  }
+
+  func request(_ demand: Subscribers.Demand) {
+    lock.withLock { hasDemand = hasDemand || demand > .none }
+    deliver()
+  }
+
+  func fulfill(_ result: Swift.Result<Output, Failure>) {
+    lock.withLock { self.result = result }
+    deliver()
+  }
+
+  func cancel() { lock.withLock { (subscriber, isCancelled) = (nil, true) } }
+
+  private func deliver() {
+    let delivery = lock.withLock {
+      () -> (ClosureSubscriber<Output, Failure>, Swift.Result<Output, Failure>)? in
+      guard let subscriber, let result else { return nil }
+      if case .success = result, !hasDemand { return nil }
+      self.subscriber = nil
+      return (subscriber, result)
+    }
+    guard let (subscriber, result) = delivery else { return }
+    switch result {
+    case .success(let value):
+      _ = subscriber.receive(value)
+      if !lock.withLock({ isCancelled }) { subscriber.receive(completion: .finished) }
+    case .failure(let error): subscriber.receive(completion: .failure(error))
+    }
   }
 }
 
@@ -147,7 +219,7 @@ extension Publisher where Output: Equatable {
   }
 }
 
-/// Delivers a publisher's values on a scheduler, in order.
+/// Delivers a publisher's values on a scheduler, in their order.
 private struct ReceiveOnPublisher<Upstream: Publisher, Context: Scheduler>: Publisher {
   typealias Output = Upstream.Output
   typealias Failure = Upstream.Failure
@@ -156,14 +228,23 @@ private struct ReceiveOnPublisher<Upstream: Publisher, Context: Scheduler>: Publ
   let scheduler: Context
 
   func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
+    let holder = SubscriptionHolder()
     upstream.receive(
       subscriber: ClosureSubscriber(
-        begin: subscriber.receive(subscription:),
-        take: { value in
-          scheduler.schedule { _ = subscriber.receive(value) }
-          // The subscriber's demand is known only later, so it is not counted.
-          return .max(1)
+        begin: {
+          holder.set($0)
+          subscriber.receive(subscription: $0)
         },
-        end: { completion in scheduler.schedule { subscriber.receive(completion: completion) } }))
+        take: { value in
+          // The subscriber returns its demand later, on the scheduler.
+          scheduler.schedule { holder.request(subscriber.receive(value)) }
+          return .none
+        },
+        end: { completion in
+          scheduler.schedule {
+            holder.release()
+            subscriber.receive(completion: completion)
+          }
+        }))
   }
 }

@@ -22,7 +22,7 @@ public final class PassthroughSubject<Output, Failure: Error>: Subject, @uncheck
 
   /// Attaches a subscriber.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
-    core.add(subscriber, first: nil)
+    core.add(subscriber)
   }
 
   /// Sends a value to the subscribers.
@@ -49,11 +49,12 @@ public final class CurrentValueSubject<Output, Failure: Error>: Subject, @unchec
 
   /// Attaches a subscriber; it receives the current value first.
   public func receive<S: Subscriber>(subscriber: S) where S.Input == Output, S.Failure == Failure {
-    core.add(subscriber, first: value)
+    core.add(subscriber, value: value)
   }
 
   /// Stores a value and sends it to the subscribers.
   public func send(_ value: Output) {
+    guard !core.isFinished else { return }
     lock.withLock { current = value }
     core.send(value)
   }
@@ -69,10 +70,22 @@ private final class SubscriptionList<Output, Failure: Error>: @unchecked Sendabl
   private var order: [ObjectIdentifier] = []
   private var end: Subscribers.Completion<Failure>?
 
-  func add<S: Subscriber>(_ subscriber: S, first: Output?)
+  var isFinished: Bool { lock.withLock { end != nil } }
+
+  func add<S: Subscriber>(_ subscriber: S) where S.Input == Output, S.Failure == Failure {
+    add(subscriber, SubjectSubscription(subscriber.receive, subscriber.receive(completion:)))
+  }
+
+  /// Adds a subscriber that receives the current value first, and the latest one whenever it
+  /// requests values after it had no demand.
+  func add<S: Subscriber>(_ subscriber: S, value: Output)
   where S.Input == Output, S.Failure == Failure {
-    let member = SubjectSubscription<Output, Failure>(
-      subscriber.receive, subscriber.receive(completion:), first: first)
+    let member = SubjectSubscription(
+      subscriber.receive, subscriber.receive(completion:), latest: value)
+    add(subscriber, member)
+  }
+
+  private func add(_ subscriber: some Subscriber, _ member: SubjectSubscription<Output, Failure>) {
     let id = ObjectIdentifier(member)
     member.onCancel = { [weak self] in self?.remove(id) }
     let end = lock.withLock {
@@ -82,6 +95,7 @@ private final class SubscriptionList<Output, Failure: Error>: @unchecked Sendabl
       }
       return self.end
     }
+    if end != nil { member.dropLatest() }
     subscriber.receive(subscription: member)
     if let end { member.finish(end) }
   }
@@ -110,37 +124,49 @@ private final class SubscriptionList<Output, Failure: Error>: @unchecked Sendabl
   }
 }
 
-/// One subscriber of a subject with its remaining demand. Values beyond the demand are dropped.
+/// One subscriber of a subject with its remaining demand. A value without demand is dropped, or kept
+/// until the next request if the subscriber receives the latest value.
 private final class SubjectSubscription<Output, Failure: Error>: Subscription, @unchecked Sendable {
   private let lock = NSRecursiveLock()
   private var demand = Subscribers.Demand.none
-  private var first: Output?
+  private let keepsLatest: Bool
+  private var latest: Output?
   private var take: ((Output) -> Subscribers.Demand)?
   private var end: ((Subscribers.Completion<Failure>) -> Void)?
   var onCancel: () -> Void = {}
 
   init(
     _ take: @escaping (Output) -> Subscribers.Demand,
-    _ end: @escaping (Subscribers.Completion<Failure>) -> Void, first: Output?
-  ) { (self.take, self.end, self.first) = (take, end, first) }
+    _ end: @escaping (Subscribers.Completion<Failure>) -> Void
+  ) { (self.take, self.end, keepsLatest) = (take, end, false) }
+
+  init(
+    _ take: @escaping (Output) -> Subscribers.Demand,
+    _ end: @escaping (Subscribers.Completion<Failure>) -> Void, latest: Output
+  ) { (self.take, self.end, self.latest, keepsLatest) = (take, end, latest, true) }
 
   func request(_ demand: Subscribers.Demand) {
     let waiting: Output? = lock.withLock {
       self.demand = self.demand + demand
-      defer { if self.demand > .none { first = nil } }
-      return self.demand > .none ? first : nil
+      guard self.demand > .none else { return nil }
+      defer { latest = nil }
+      return latest
     }
     if let waiting { send(waiting) }
   }
 
   func send(_ value: Output) {
     let take = lock.withLock { () -> ((Output) -> Subscribers.Demand)? in
-      guard demand > .none else { return nil }
+      guard demand > .none else {
+        if keepsLatest { latest = value }
+        return nil
+      }
       if let count = demand.max { demand = .max(count - 1) }
+      latest = nil
       return self.take
     }
     guard let more = take?(value) else { return }
-    lock.withLock { demand = demand + more }
+    request(more)
   }
 
   func finish(_ completion: Subscribers.Completion<Failure>) {
@@ -150,6 +176,8 @@ private final class SubjectSubscription<Output, Failure: Error>: Subscription, @
     }
     end?(completion)
   }
+
+  func dropLatest() { lock.withLock { latest = nil } }
 
   func cancel() {
     lock.withLock { (take, end) = (nil, nil) }

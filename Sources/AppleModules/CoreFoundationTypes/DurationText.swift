@@ -17,9 +17,12 @@ struct DurationText {
     let units = chosen.isEmpty ? others : DurationUnit.all.filter { chosen.contains($0.unit) }
     var parts = Self.split(
       abs(seconds), into: units, keepsFraction: formatter.allowsFractionalUnits)
-    if formatter.collapsesLargestUnit, parts.count > 1, parts[0].count == 1 {
-      parts[1].count += (parts[0].unit.seconds / parts[1].unit.seconds).rounded()
-      parts.removeFirst()
+    if formatter.collapsesLargestUnit, let first = parts.firstIndex(where: { $0.count > 0 }),
+      first + 1 < parts.count, parts[first].count == 1
+    {
+      parts[first + 1].count +=
+        (parts[first].unit.seconds / parts[first + 1].unit.seconds).rounded()
+      parts.removeFirst(first + 1)
     }
     self.parts = Self.limited(parts, to: formatter.maximumUnitCount, abs(seconds), formatter)
   }

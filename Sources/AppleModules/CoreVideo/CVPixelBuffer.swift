@@ -40,7 +40,7 @@ public typealias CVImageBuffer = CVPixelBuffer
 /// A buffer of any kind; always a pixel buffer here.
 public typealias CVBuffer = CVPixelBuffer
 
-private func bytesPerPixel(of format: OSType) -> Int? {
+func bytesPerPixel(of format: OSType) -> Int? {
   switch format {
   case kCVPixelFormatType_32BGRA, kCVPixelFormatType_32ARGB, kCVPixelFormatType_32RGBA: 4
   case kCVPixelFormatType_DepthFloat32, kCVPixelFormatType_DisparityFloat32: 4

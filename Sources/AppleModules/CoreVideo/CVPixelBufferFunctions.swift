@@ -23,7 +23,12 @@ public struct CVPixelBufferLockFlags: OptionSet, Sendable {
   _ pixelBufferAttributes: CFDictionary?, _ pixelBufferOut: inout CVPixelBuffer?
 ) -> CVReturn {
   pixelBufferOut = CVPixelBuffer(width: width, height: height, pixelFormat: pixelFormatType)
-  return pixelBufferOut == nil ? kCVReturnInvalidArgument : kCVReturnSuccess
+  return pixelBufferOut == nil ? failure(pixelFormatType) : kCVReturnSuccess
+}
+
+/// Why there is no buffer of a format: the format, or else the size.
+func failure(_ pixelFormat: OSType) -> CVReturn {
+  bytesPerPixel(of: pixelFormat) == nil ? kCVReturnInvalidPixelFormat : kCVReturnInvalidArgument
 }
 
 /// Called when the bytes that a buffer was created with are no longer needed.
@@ -43,7 +48,7 @@ public typealias CVPixelBufferReleaseBytesCallback =
   pixelBufferOut = CVPixelBuffer(width: width, height: height, pixelFormat: pixelFormatType)
   guard let buffer = pixelBufferOut, bytesPerRow >= buffer.rowSize else {
     pixelBufferOut = nil
-    return kCVReturnInvalidArgument
+    return failure(pixelFormatType)
   }
   let source = UnsafeRawBufferPointer(start: baseAddress, count: height * bytesPerRow)
   for row in 0..<height {

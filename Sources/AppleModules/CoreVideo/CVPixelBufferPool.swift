@@ -38,5 +38,5 @@ public final class CVPixelBufferPool: Sendable {
   _ pixelBufferOut: inout CVPixelBuffer?
 ) -> CVReturn {
   pixelBufferOut = pixelBufferPool.makeBuffer()
-  return pixelBufferOut == nil ? kCVReturnInvalidArgument : kCVReturnSuccess
+  return pixelBufferOut == nil ? failure(pixelBufferPool.format) : kCVReturnSuccess
 }

@@ -41,16 +41,20 @@ struct LogFormat {
     var text = ""
     for (index, piece) in pieces.enumerated() {
       guard values.indices.contains(index) else {
-        text += piece.format
+        text += Self.unescaped(piece.format)
         continue
       }
       if piece.isHidden {
         let literal = piece.format[..<(piece.format.lastIndex(of: "%") ?? piece.format.endIndex)]
-        text += literal + "<private>"
+        text += Self.unescaped(literal) + "<private>"
       } else {
         text += String(format: piece.format, arguments: [values[index]])
       }
     }
-    return text + tail.replacingOccurrences(of: "%%", with: "%")
+    return text + Self.unescaped(tail)
+  }
+
+  private static func unescaped(_ text: some StringProtocol) -> String {
+    text.replacingOccurrences(of: "%%", with: "%")
   }
 }

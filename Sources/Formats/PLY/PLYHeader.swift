@@ -86,6 +86,9 @@ extension PLYHeader {
         guard let count = Int(words[2]), count >= 0 else {
           throw PLYFault("the element count '\(words[2])' is not a number")
         }
+        guard !elements.contains(where: { $0.name == words[1] }) else {
+          throw PLYFault("it has two elements with the name '\(words[1])'")
+        }
         elements.append(Element(name: String(words[1]), count: count))
       case "property":
         guard !elements.isEmpty, let property = Self.property(words) else {

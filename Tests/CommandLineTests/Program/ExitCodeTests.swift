@@ -3,12 +3,13 @@ import ImageFiles
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 @testable import SharedCommands
 
-@Suite struct ExitCodeTests {
+@Suite(.endToEnd) struct ExitCodeTests {
   /// Writes `count` photos of noise into a folder `name`.
   private func makePhotos(_ count: Int, in folder: URL, _ name: String) throws {
     let photos = folder.appendingPathComponent(name)

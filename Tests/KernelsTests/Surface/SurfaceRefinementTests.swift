@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -48,7 +49,7 @@ import Testing
     mesh.positions.reduce(0) { $0 + abs($1.length - 1) } / Float(mesh.positions.count)
   }
 
-  @Test func photosDetermineTheShape() throws {
+  @Test(.endToEnd) func photosDetermineTheShape() throws {
     let start = wavy
     let (mesh, moved) = try refined(start, by: Self.textured)
     #expect(error(mesh) < 0.5 * error(start))
@@ -56,14 +57,14 @@ import Testing
     #expect(mesh.triangles == start.triangles)
   }
 
-  @Test func threadCountDoesNotMatter() throws {
+  @Test(.endToEnd) func threadCountDoesNotMatter() throws {
     let one = try refined(wavy, by: Self.textured, threads: 1)
     let three = try refined(wavy, by: Self.textured, threads: 3)
     #expect(one.mesh.positions == three.mesh.positions)
     #expect(one.moved == three.moved)
   }
 
-  @Test func untexturedSurfaceDoesNotMove() throws {
+  @Test(.endToEnd) func untexturedSurfaceDoesNotMove() throws {
     let (mesh, moved) = try refined(wavy, by: Self.plain)
     #expect(mesh.positions == wavy.positions)
     #expect(moved == 0)
@@ -88,7 +89,7 @@ import Testing
     #expect(moved == 0)
   }
 
-  @Test func boundariesDoNotMove() throws {
+  @Test(.endToEnd) func boundariesDoNotMove() throws {
     var start = wavy
     start.triangles.removeAll { t in
       [t.a, t.b, t.c].contains { start.positions[Int($0)].y > 0.5 }

@@ -3,6 +3,7 @@ import Foundation
 import ImageFiles
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -90,7 +91,7 @@ private struct FinishedRun {
   }
 }
 
-@Suite struct SavedRunTests {
+@Suite(.endToEnd) struct SavedRunTests {
   private let small = DetailSpecification(
     maximumTriangles: 3000, textureSide: 512, maps: Set(TextureMap.allCases), viewPixels: 80_000)
 
@@ -176,13 +177,18 @@ private struct FinishedRun {
 
   @Test func photosMayMove() throws {
     let run = try FinishedRun()
+    let original = try ReconstructionPipeline(
+      try run.saved(), configuration: PipelineConfiguration()
+    ).model(for: small)
     let moved = run.folder.appendingPathComponent("moved", isDirectory: true)
     try FileManager.default.moveItem(at: run.photos, to: moved)
     #expect(run.fault() == .noPhotos(folder: run.photos.standardizedFileURL.path))
     let pipeline = ReconstructionPipeline(
       .savedRun(try run.saved(photos: moved)), configuration: PipelineConfiguration())
     let model = try pipeline.model(for: small)
-    #expect(!model.mesh.triangles.isEmpty)
+    #expect(model.mesh.triangles == original.mesh.triangles && !model.mesh.triangles.isEmpty)
+    #expect(model.mesh.positions == original.mesh.positions)
+    #expect(model.atlases.map(\.maps) == original.atlases.map(\.maps))
   }
 
   @Test func missingFilesAreReported() throws {
@@ -253,14 +259,17 @@ private struct FinishedRun {
       Data(PLY.encode(Mesh(positions: run.surface.positions))), Data(PLY.encode(noNumber)),
       Data(PLY.encode(elsewhere)),
     ]
+    var reasons: Set<String> = []
     for (index, data) in faults.enumerated() {
       try data.write(to: file)
       guard case .damaged(file.path, let reason) = run.fault() else {
         Issue.record("fault \(index) is taken")
         continue
       }
-      #expect(!reason.isEmpty)
+      reasons.insert(reason)
     }
+    // Of the header, the size, the triangles, the normal and the index.
+    #expect(reasons.count >= 5 && !reasons.contains(""))
   }
 
   @Test func everyErrorHasASentenceAndARemedy() {

@@ -113,7 +113,10 @@ import Testing
       try store { $0.photoRefinement = PhotoRefinement.Options() },
       try store { $0.threadCount = 1 },
     ]
-    for store in same { #expect(store.reconstruction(of: ingested.photos, StageNotes()) != nil) }
+    for store in same {
+      let stored = try #require(store.reconstruction(of: ingested.photos, StageNotes()))
+      #expect(stored.poses == reconstruction.poses && stored.points == reconstruction.points)
+    }
   }
 
   @Test func surfaceIsUsedForWhatItWasMadeFrom() throws {
@@ -169,8 +172,19 @@ import Testing
   }
 
   @Test func lockIsReleasedWithItsOwner() throws {
-    do { _ = try DirectoryLock(folder.url, isShared: false) }
-    _ = try DirectoryLock(folder.url, isShared: false)
+    for isShared in [false, true] {
+      do {
+        let lock = try DirectoryLock(folder.url, isShared: isShared)
+        #expect(!isAvailable)
+        withExtendedLifetime(lock) {}
+      }
+      #expect(isAvailable)
+    }
+  }
+
+  /// Whether an exclusive lock can be taken now.
+  private var isAvailable: Bool {
+    (try? DirectoryLock(folder.url, isShared: false)) != nil
   }
 
   @Test func sharesGoTogether() throws {

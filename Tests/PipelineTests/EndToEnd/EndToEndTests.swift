@@ -3,11 +3,12 @@ import Formats
 import Foundation
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 /// Photos in, USDZ out, compared with the exact cameras and surface of a rendered set.
-@Suite(.serialized) struct EndToEndTests {
+@Suite(.endToEnd, .serialized) struct EndToEndTests {
   @Test func orbitIsReconstructed() throws {
     let folder = try TemporaryFolder()
     var configuration = PipelineConfiguration()

@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -56,7 +57,7 @@ import Testing
   }
 
   /// Lambertian surfaces: a point has nearly the same color in all photos.
-  @Test func colorsAgreeBetweenRenders() throws {
+  @Test(.endToEnd) func colorsAgreeBetweenRenders() throws {
     var scene = RenderedScene.relief(photoCount: 3, width: 240, height: 180)
     scene.noise = 0
     let images = try scene.photos()

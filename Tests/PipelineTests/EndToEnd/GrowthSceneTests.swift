@@ -26,7 +26,9 @@ import Testing
     }
     let overlaps = scene.overlaps(minimum: 40)
     let step = layout == .streets ? 2 : 1
-    #expect(overlaps[PhotoPair(ID(0), ID(step))] != nil)
+    let shared = try #require(overlaps[PhotoPair(ID(0), ID(step))])
+    #expect(shared >= 40 && shared <= scene.features[0].count)
+    #expect(shared > overlaps[PhotoPair(ID(0), ID(step + 10))] ?? 0)
   }
 
   @Test(arguments: GrowthScene.Layout.allCases)

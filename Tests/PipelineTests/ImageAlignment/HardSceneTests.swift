@@ -2,11 +2,12 @@ import Foundation
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 /// Photos that are hard to align: results are correct, and unusable photos are reported by name.
-@Suite(.serialized) struct HardSceneTests {
+@Suite(.endToEnd, .serialized) struct HardSceneTests {
   /// Checks that every photo has a pose or a reason that contains its name.
   private func expectEveryPhotoIsReported(_ result: Reconstruction) {
     let missing = Set(result.unregistered.map(\.name))

@@ -2,11 +2,12 @@ import ImageFiles
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 /// Alignment of photos with masks.
-@Suite(.serialized) struct MaskedAlignmentTests {
+@Suite(.endToEnd, .serialized) struct MaskedAlignmentTests {
   @Test func featuresAreInsideTheMask() throws {
     let image = TexturePattern.image(width: 640, height: 480, seed: 3)
     var mask = RasterImage(width: 640, height: 480, channels: 1)

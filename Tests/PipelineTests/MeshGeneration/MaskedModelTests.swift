@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -35,14 +36,15 @@ import Testing
     }
   }
 
-  @Test func modelMatchesTheMasksAtAnyThreadCount() throws {
+  @Test(.endToEnd) func modelMatchesTheMasksAtAnyThreadCount() throws {
     let masked = try Masked()
     let (scene, limit) = (masked.scene, Self.limit)
     let notes = StageNotes()
     let cloud = try masked.cloud(threads: 1, notes: notes)
     let again = try masked.cloud(threads: 2)
     #expect(cloud.positions == again.positions && cloud.photoIndices == again.photoIndices)
-    #expect(notes.counts["pointsOutsideMasks"] != nil)
+    let outside = try #require(notes.counts["pointsOutsideMasks"])
+    #expect(outside > 0 && outside < Double(cloud.count))
     #expect(cloud.count > 1500)
     // A pixel is 2.2 mm wide, and the masks are one pixel too wide.
     #expect(cloud.positions.allSatisfy { $0.y > limit - 0.008 })

@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -89,7 +90,7 @@ import Testing
     #expect(context.notes.counts["triangles"] == Double(mesh.triangles.count))
   }
 
-  @Test func threadsDoNotChangeTheMesh() throws {
+  @Test(.endToEnd) func threadsDoNotChangeTheMesh() throws {
     let (cloud, reconstruction) = ball()
     let meshes = try [1, 2].map { threads in
       try MeshGeneration().run(
@@ -212,7 +213,7 @@ import Testing
     }
   }
 
-  @Test func wholeSceneIsKeptWithoutIsolation() throws {
+  @Test(.endToEnd) func wholeSceneIsKeptWithoutIsolation() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()
     let centers = reconstruction.poses.compactMap { $0?.center }

@@ -84,8 +84,8 @@ import Testing
     let centers = reconstruction.poses.compactMap { $0?.center }
     scene.addPlane(radius: 2.2, label: 0, centers: centers)
     let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
-    #expect(result.failure != nil)
-    #expect(result.isKept.allSatisfy { $0 })
+    #expect(result.failure != nil && result.support == nil)
+    #expect(result.isKept.count == scene.cloud.count && result.isKept.allSatisfy { $0 })
   }
 
   @Test func sparsePointsGiveTheObjectBounds() throws {

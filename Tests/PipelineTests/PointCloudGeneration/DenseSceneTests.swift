@@ -2,12 +2,13 @@ import Evaluation
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 /// Clouds of rendered scenes with exact cameras, compared with the exact surface. The thresholds
 /// are slightly below the measured scores.
-@Suite struct DenseSceneTests {
+@Suite(.endToEnd) struct DenseSceneTests {
   /// A pixel of these photos covers 1.3 mm of the object; scores are at distances of one and two
   /// pixels.
   static let thresholds = [0.0013, 0.0026]

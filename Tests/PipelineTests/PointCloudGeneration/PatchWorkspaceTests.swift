@@ -278,7 +278,7 @@ import Testing
     try workspace.checkSpace(1)
     let error = #expect(throws: WorkspaceError.self) { try workspace.checkSpace(.max) }
     #expect(error?.errorDescription?.contains(folder.url.path) == true)
-    #expect(error?.recoverySuggestion?.isEmpty == false)
+    #expect(error?.recoverySuggestion?.contains("lower detail level") == true)
     let file = try folder.write([], as: "file")
     #expect(throws: WorkspaceError.self) { try PatchWorkspace(folder: file) }
   }

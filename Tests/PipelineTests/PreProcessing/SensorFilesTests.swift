@@ -2,6 +2,7 @@ import Foundation
 import ImageFiles
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -35,7 +36,7 @@ import Testing
       TexturePattern.image(width: 400, height: 320, seed: seed), content)
   }
 
-  @Test func readingsBelongToTheirPhotos() throws {
+  @Test(.endToEnd) func readingsBelongToTheirPhotos() throws {
     let folder = try TemporaryFolder()
     try folder.write(heic(orientation: 6, seed: 1), as: "IMG_1.HEIC")
     try folder.write(Array("0.0,-1.0,0.0".utf8), as: "IMG_1_gravity.TXT")

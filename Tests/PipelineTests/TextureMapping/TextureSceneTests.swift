@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -8,7 +9,7 @@ import Testing
 
 /// Disturbances in photos must not be visible in the texture: compared with held-out photos, it is
 /// nearly as good as from clean photos.
-@Suite struct TextureSceneTests {
+@Suite(.endToEnd) struct TextureSceneTests {
   private static let (width, fineness) = (200, 0.1)
   private static let control = KernelControl(threadCount: 2)
   private static let held = TextureScene.held(width: width, fineness: fineness)

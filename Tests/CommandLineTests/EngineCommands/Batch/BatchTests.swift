@@ -1,11 +1,12 @@
 import Foundation
+import TestLevels
 import TestSupport
 import Testing
 
 @testable import EngineCommands
 @testable import SharedCommands
 
-@Suite struct BatchTests {
+@Suite(.endToEnd) struct BatchTests {
   private let temporary: TemporaryFolder
 
   init() throws { temporary = try TemporaryFolder() }

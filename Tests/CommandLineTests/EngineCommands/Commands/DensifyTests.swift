@@ -3,13 +3,14 @@ import ImageFiles
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 @testable import EngineCommands
 @testable import SharedCommands
 
-@Suite struct DensifyTests {
+@Suite(.endToEnd) struct DensifyTests {
   private let temporary: TemporaryFolder
 
   init() throws { temporary = try TemporaryFolder() }

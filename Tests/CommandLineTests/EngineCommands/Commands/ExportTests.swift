@@ -2,6 +2,7 @@ import Foundation
 import ImageFiles
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -9,7 +10,7 @@ import Testing
 @testable import EngineCommands
 @testable import SharedCommands
 
-@Suite struct ExportTests {
+@Suite(.endToEnd) struct ExportTests {
   private let temporary: TemporaryFolder
 
   init() throws { temporary = try TemporaryFolder() }

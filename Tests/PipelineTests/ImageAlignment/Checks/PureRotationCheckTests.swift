@@ -1,6 +1,7 @@
 import Foundation
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -14,7 +15,7 @@ import Testing
       scene.viewGraph, features: scene.features, photos: scene.photos, cameras: [camera])
   }
 
-  @Test(arguments: SyntheticScene.Layout.allCases, [1, 0.7])
+  @Test(.endToEnd, arguments: SyntheticScene.Layout.allCases, [1, 0.7])
   func translationIsNotPureRotation(layout: SyntheticScene.Layout, focalFactor: Double) {
     var options = SyntheticScene.Options()
     (options.layout, options.pixelNoise) = (layout, 0.5)

@@ -2,6 +2,7 @@ import Foundation
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -65,7 +66,7 @@ import Testing
 
   /// For a statue with hardly any texture, high sensitivity yields more photos or more points, with
   /// correct poses.
-  @Test func highSensitivityRegistersMoreOfAFaintObject() throws {
+  @Test(.endToEnd) func highSensitivityRegistersMoreOfAFaintObject() throws {
     var scene = RenderedScene.faintStatue()
     let noise = scene.noise
     scene = scene.seen(from: Array(scene.poses.prefix(8)))

@@ -1,6 +1,7 @@
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -67,7 +68,7 @@ import Testing
     #expect(Double(found) > 0.95 * Double(overlaps.count))
   }
 
-  @Test func preemptiveMatchingIsValidatedByASample() throws {
+  @Test(.endToEnd) func preemptiveMatchingIsValidatedByASample() throws {
     let scene = try Self.scene(.streets, photos: 30)
     var options = CorrespondenceSearch.Options()
     options.selection.preemptiveMatching.features = 300
@@ -115,7 +116,7 @@ import Testing
     #expect(pairs.count < 60 * 6)
     #expect(!pairs.contains { [20, 21].contains($0.first.index) || $0.second.index == 21 })
     let overlaps = scene.overlaps(minimum: 100)
-    #expect(overlaps[PhotoPair(ID(19), ID(22))] != nil)
+    #expect(try #require(overlaps[PhotoPair(ID(19), ID(22))]) >= 100)
     #expect(pairs.contains(PhotoPair(ID(19), ID(22))))
     // For each photo, the one from another time that shares the most points.
     let distant = overlaps.filter { $0.key.second.index - $0.key.first.index > 4 }

@@ -54,10 +54,14 @@ import Testing
     #expect((fit.pixel([310.5, 70.5]) - expected).length < 1e-9)
   }
 
-  @Test func sizesMayBeRounded() {
+  @Test func sizesMayBeRounded() throws {
     // 400 × 300 reduced to a width of 255 is 191.25 high.
-    #expect(CameraFit(camera, to: photo(255, 191), isSizeKnown: true) != nil)
-    #expect(CameraFit(camera, to: photo(255, 192), isSizeKnown: true) != nil)
+    for height in [191, 192] {
+      let fit = try #require(CameraFit(camera, to: photo(255, height), isSizeKnown: true))
+      #expect(fit.camera.width == 255 && fit.camera.height == height && fit.isScaled)
+      #expect(abs(fit.camera.focalLength.x - 500 * 255 / 400) < 1)
+      #expect((fit.pixel([400, 300]) - [255, Double(height)]).length < 1)
+    }
     #expect(CameraFit(camera, to: photo(255, 195), isSizeKnown: true) == nil)
   }
 

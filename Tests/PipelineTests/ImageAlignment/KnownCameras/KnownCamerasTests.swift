@@ -3,11 +3,12 @@ import Foundation
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 /// Photos with exact cameras in, a dense cloud on the true surface out.
-@Suite struct KnownCamerasTests {
+@Suite(.endToEnd) struct KnownCamerasTests {
   @Test func pointsOfKnownPosesLieOnTheSurface() throws {
     let set = try KnownPhotoSet()
     let notes = StageNotes()

@@ -1,10 +1,11 @@
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
 @Suite struct IncrementalMappingTests {
-  @Test(arguments: SyntheticScene.Layout.allCases, [0, 0.2, 0.4])
+  @Test(.endToEnd, arguments: SyntheticScene.Layout.allCases, [0, 0.2, 0.4])
   func allPhotosAreRegistered(layout: SyntheticScene.Layout, outliers: Double) throws {
     let scene = SyntheticScene(.noisy(layout, outliers: outliers))
     let result = try scene.mapped(.incremental)

@@ -2,6 +2,7 @@ import Foundation
 import Kernels
 import Pipeline
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -13,7 +14,7 @@ import Testing
       pairs: scene.viewGraph.pairs.filter { $0.pair.second.index - $0.pair.first.index <= reach })
   }
 
-  @Test(arguments: SyntheticScene.Layout.allCases, [0, 0.2, 0.4])
+  @Test(.endToEnd, arguments: SyntheticScene.Layout.allCases, [0, 0.2, 0.4])
   func globalIsAsGoodAsIncremental(layout: SyntheticScene.Layout, outliers: Double) throws {
     let scene = SyntheticScene(.noisy(layout, outliers: outliers))
     let notes = StageNotes()

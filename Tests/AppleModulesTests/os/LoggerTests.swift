@@ -1,42 +1,14 @@
 import Foundation
-import Logging
 import Testing
 
 @testable import os
-import SceneModel
-
-/// Collects the log lines.
-private final class LogRecord: Sendable {
-  private let state = Locked<[String]>([])
-
-  var lines: [String] { state.withLock { $0 } }
-
-  func append(_ line: String) { state.withLock { $0.append(line) } }
-}
-
-private struct RecordingHandler: LogHandler {
-  let record: LogRecord
-  var metadata: Logging.Logger.Metadata = [:]
-  var logLevel = Logging.Logger.Level.trace
-
-  subscript(metadataKey key: String) -> Logging.Logger.Metadata.Value? {
-    get { metadata[key] }
-    set { metadata[key] = newValue }
-  }
-
-  func log(
-    level: Logging.Logger.Level, message: Logging.Logger.Message,
-    metadata: Logging.Logger.Metadata?, source: String, file: String, function: String, line: UInt
-  ) { record.append("\(level) \(message)") }
-}
 
 @Suite struct LoggerTests {
   private func text(_ message: OSLogMessage) -> String { message.interpolation.text }
 
   @Test func levelsMapToSwiftLog() {
     let record = LogRecord()
-    let logger = os.Logger(
-      Logging.Logger(label: "test") { _ in RecordingHandler(record: record) })
+    let logger = record.logger
     logger.trace("1")
     logger.debug("2")
     logger.info("3")
