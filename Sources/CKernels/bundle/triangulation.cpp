@@ -12,7 +12,7 @@
 namespace ck {
 namespace {
 
-/// The views with rotations as matrices.
+/// The photos' cameras, and their poses with rotations as matrices.
 struct Views {
   std::vector<Pose> poses;
   std::vector<Vector3> centers;

@@ -11,7 +11,7 @@ namespace ck {
 /// Disjoint sets of the numbers 0..<count (union–find with path halving).
 class DisjointSets {
  public:
-  /// Each number is a set of its own.
+  /// Each number is a separate set.
   explicit DisjointSets(size_t count) : parents_(count) {
     std::iota(parents_.begin(), parents_.end(), 0u);
   }
@@ -24,14 +24,14 @@ class DisjointSets {
     return i;
   }
 
-  /// Joins two sets; the lower of their roots represents them.
+  /// Unites two sets; the lower of their roots represents the union.
   void join(uint32_t a, uint32_t b) {
     a = root(a);
     b = root(b);
     parents_[std::max(a, b)] = std::min(a, b);
   }
 
-  /// Joins the set that `gone` represents with that of `kept`, whose root represents them.
+  /// Unites the set that `gone` represents with that of `kept`, whose root represents the union.
   void attach(uint32_t gone, uint32_t kept) { parents_[gone] = kept; }
 
   /// The root of every number.

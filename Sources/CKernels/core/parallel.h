@@ -24,15 +24,15 @@ class ThreadGroup {
     for (std::thread& thread : threads_) thread.join();
   }
 
-  /// Starts at most `count` threads, each made by `create()`; fewer where the system has no room
-  /// for more, which is not an error.
+  /// Starts at most `count` threads, each made by `create()`; fewer if the system refuses more,
+  /// which is not an error.
   template <typename Create>
   void start(size_t count, Create&& create) noexcept {
     try {
       threads_.reserve(count);
       for (size_t i = 0; i < count; ++i) threads_.push_back(create());
     } catch (const std::exception&) {
-      // std::system_error or std::bad_alloc: the work is done by the threads that exist.
+      // std::system_error or std::bad_alloc: the threads that exist do the work.
     }
   }
 
@@ -40,7 +40,7 @@ class ThreadGroup {
   std::vector<std::thread> threads_;
 };
 
-/// Makes a thread that runs `work`.
+/// Creates a thread that runs `work`.
 struct StandardThreads {
   template <typename Work>
   std::thread operator()(Work& work) const {
@@ -50,10 +50,10 @@ struct StandardThreads {
 
 /// Calls `body(i)` for every i in 0..<count on the control's threads and reports progress.
 ///
-/// The calling thread takes part; where the system refuses more threads it works with those it got.
-/// Bodies must not depend on each other's order, so that the result is the same at any number of
-/// threads. The first exception stops the rest and is rethrown. `create(work)` makes a thread that
-/// runs `work`.
+/// The calling thread takes part; if the system refuses to create more threads, those that exist do
+/// the work. Calls of `body` must not depend on each other's order, so that the result is the same
+/// with any number of threads. The first exception stops the rest and is rethrown. `create(work)`
+/// creates a thread that runs `work`.
 template <typename Body, typename Create = StandardThreads>
 void parallel_for(const ck_control* control, size_t count, Body&& body,
                   const Create& create = Create()) {

@@ -29,7 +29,7 @@ struct Strided {
   }
 };
 
-/// The elements of a span that a kernel writes.
+/// The elements of a span that a kernel writes to.
 template <typename Scalar>
 struct MutableStrided {
   char* base;

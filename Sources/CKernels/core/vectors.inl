@@ -1,17 +1,17 @@
-// Vectors in memory, included once for each instruction set: a function that returns a vector has
-// to be compiled for the same set as its caller.
+// Loads and stores of vectors, included once for each instruction set: a function that returns a
+// vector must be compiled for the same set as its caller.
 
 namespace ck {
 namespace {
 
-/// The 16 numbers from `p` on.
+/// Loads the 16 numbers from `p` on.
 CK_INLINE F16 load(const float* p) {
   F16 v;
   __builtin_memcpy(&v, p, sizeof v);
   return v;
 }
 
-/// The 8 numbers from `p` on.
+/// Loads the 8 numbers from `p` on.
 CK_INLINE F8 load8(const float* p) {
   F8 v;
   __builtin_memcpy(&v, p, sizeof v);

@@ -11,7 +11,7 @@ CK_INLINE int mirrored(int i, int count) {
   return i;
 }
 
-// ---- Grey rows of the photo -----------------------------------------------------------------
+// ---- Gray rows of the photo -----------------------------------------------------------------
 
 void gray_row(const Photo& photo, int y, float* out) {
   const uint8_t* p = photo.pixels + static_cast<size_t>(y) * photo.stride;
@@ -28,7 +28,8 @@ void gray_row(const Photo& photo, int y, float* out) {
   }
 }
 
-/// Doubles a row linearly about pixel centres; `in[-1]` and `in[width]` are overwritten.
+/// Upsamples a row to twice its width by linear interpolation between pixel centers; `in[-1]` and
+/// `in[width]` are overwritten.
 void doubled_row(float* in, int width, float* out) {
   in[-1] = in[0];
   in[width] = in[width - 1];
@@ -38,7 +39,7 @@ void doubled_row(float* in, int width, float* out) {
   }
 }
 
-/// The rows of a photo from top to bottom, doubled where wanted.
+/// The rows of a photo from top to bottom, upsampled to twice the size if requested.
 struct PhotoRows {
   const Photo& photo;
   bool is_doubled;
@@ -76,7 +77,7 @@ constexpr int kMargin = 64;
 
 struct Gaussian {
   int radius = 0;
-  /// From the centre outwards.
+  /// From the center outwards.
   std::vector<float> taps;
 
   Gaussian() = default;
@@ -90,8 +91,8 @@ struct Gaussian {
   }
 };
 
-/// Blurs along y: four rows from the 2 · radius + 4 rows around them. `known` is the radius where
-/// the compiler may unroll for it, or 0.
+/// Blurs along y: four rows from the 2 · radius + 4 rows around them. `known` is the radius if it
+/// is a compile-time constant, so that the loop is unrolled, or 0.
 template <int known>
 void blur_columns(const float* const* rows, const Gaussian& gaussian, int width,
                   float* const* out) {
@@ -130,7 +131,7 @@ void blur_columns(const float* const* rows, const Gaussian& gaussian, int width,
   }
 }
 
-/// Blurs along x. Reads `radius` values on both sides of the row.
+/// Sixteen values blurred along x. Reads `radius` values on both sides of the row.
 CK_INLINE F16 blurred(const float* p, const float* taps, int radius) {
   F16 sum = load(p) * taps[0];
   for (int i = 1; i <= radius; ++i) sum += (load(p - i) + load(p + i)) * taps[i];
@@ -144,7 +145,7 @@ void mirror_ends(float* row, int width, int radius) {
   }
 }
 
-/// Where a blurred row goes, besides to the level itself.
+/// Destinations of a blurred row in addition to the level itself.
 struct RowOutputs {
   float* level;
   const float* previous = nullptr;
@@ -179,7 +180,7 @@ constexpr Blur blur_of() {
   return {blur_columns<known>, blur_row<known>};
 }
 
-/// The radii of three scales an octave from a first blur of 1.6 are unrolled.
+/// Unrolled for the radii of three scales per octave with a first blur of σ = 1.6.
 Blur blur_of_radius(int radius) {
   switch (radius) {
     case 4:

@@ -1,7 +1,7 @@
 // The scale space of an octave and its extrema, included once for each instruction set after
-// gaussian_blur.inl and the definition of `lane_bits`. Only what descriptors need is held for the
-// whole octave: the levels and their differences roll by row, each level just far enough ahead of
-// the next.
+// gaussian_blur.inl and the definition of `lane_bits`. Only what descriptors need is stored for the
+// whole octave: the levels and their differences are ring buffers of rows, each level just far
+// enough ahead of the next.
 
 namespace ck::sift {
 namespace {

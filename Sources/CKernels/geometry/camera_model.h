@@ -45,7 +45,7 @@ inline Eigen::Quaterniond exponential(const Vector3& omega) {
                             factor * omega.z());
 }
 
-/// Applies the lens distortion to normalised image coordinates.
+/// Applies the lens distortion to normalized image coordinates.
 inline Vector2 distort(const ck_camera& c, const Vector2& p) {
   const double r2 = p.squaredNorm();
   const double radial = 1 + r2 * (c.k1 + r2 * c.k2);
@@ -54,7 +54,7 @@ inline Vector2 distort(const ck_camera& c, const Vector2& p) {
           p.y() * radial + c.p1 * (r2 + 2 * p.y() * p.y()) + 2 * c.p2 * xy};
 }
 
-/// The derivative of `distort` by its point.
+/// The Jacobian of `distort` with respect to the point.
 inline Eigen::Matrix2d distort_jacobian(const ck_camera& c, const Vector2& p) {
   const double r2 = p.squaredNorm();
   const double radial = 1 + r2 * (c.k1 + r2 * c.k2);
@@ -66,13 +66,13 @@ inline Eigen::Matrix2d distort_jacobian(const ck_camera& c, const Vector2& p) {
   return j;
 }
 
-/// The pixel of a point in the camera frame.
+/// Projects a point in the camera frame to a pixel.
 inline Vector2 project(const ck_camera& c, const Vector3& point) {
   const Vector2 d = distort(c, point.head<2>() / point.z());
   return {c.fx * d.x() + c.cx, c.fy * d.y() + c.cy};
 }
 
-/// The derivative of `project` by its point.
+/// The Jacobian of `project` with respect to the point.
 inline Eigen::Matrix<double, 2, 3> project_jacobian(const ck_camera& c, const Vector3& point) {
   const double inverse = 1 / point.z();
   const Vector2 p = point.head<2>() * inverse;
@@ -85,7 +85,7 @@ inline Eigen::Matrix<double, 2, 3> project_jacobian(const ck_camera& c, const Ve
   return j;
 }
 
-/// The point at depth 1 on the ray of a pixel; inverts the distortion by Newton's method.
+/// The point at depth 1 on the viewing ray of a pixel; inverts the distortion by Newton's method.
 inline Vector2 unproject(const ck_camera& c, double x, double y) {
   const Vector2 target((x - c.cx) / c.fx, (y - c.cy) / c.fy);
   if (c.k1 == 0 && c.k2 == 0 && c.p1 == 0 && c.p2 == 0) return target;

@@ -15,7 +15,7 @@ namespace ck::texture {
 struct Projection {
   double rows[3][4];
   Vec3 center;
-  /// `cameraFromWorld` by rows.
+  /// Rotation of `cameraFromWorld`, row-major.
   std::array<double, 9> rotation;
 
   explicit Projection(const ck_view& view) : rotation(rotation_rows(view.camera_from_world)) {

@@ -6,9 +6,9 @@
 
 namespace ck {
 
-/// The rotation of a pose as a matrix by rows. Its quaternion is of unit length.
+/// The rotation of a pose as a row-major matrix; the quaternion must have unit length.
 inline std::array<double, 9> rotation_rows(const ck_pose& pose) {
-  // The same bytes on every processor.
+  // No fused multiply-add, so that the result is the same on every processor.
 #pragma clang fp contract(off)
   const double x = pose.qx, y = pose.qy, z = pose.qz, w = pose.qw;
   return {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),

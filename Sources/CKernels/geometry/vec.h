@@ -30,7 +30,7 @@ inline Vec3 normalized(Vec3 a) {
   return l > 0 ? a * (1 / l) : a;
 }
 
-/// The vector at `index` of a span of three floats.
+/// Element `index` of a span of vectors (3 floats each).
 inline Vec3 vec_at(const ck_span& span, size_t index) {
   const float* p = Strided<float>(span)[index];
   return {p[0], p[1], p[2]};

@@ -171,7 +171,7 @@ ck_status ck_image_encode(const ck_pixels* pixels, ck_codec codec, int32_t quali
       result->data = ck::encode_png(data, width, height, channels);
     } else {
       const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(data));
-      // Of its own, since OpenCV would write into a matrix of the right size that it is given.
+      // A separate matrix: OpenCV would write into an existing one of the same size.
       cv::Mat swapped;
       if (channels == 3) {
         ck::on_one_thread([&] { cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR); });

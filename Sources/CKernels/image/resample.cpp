@@ -14,7 +14,8 @@ cv::Mat wrap(const ck_pixels& image) {
                  const_cast<uint8_t*>(image.data), image.row_stride);
 }
 
-/// The matrix of an output; its size is what OpenCV will write, so it allocates no other.
+/// A matrix over the memory of an output. It has the size that OpenCV writes, so that OpenCV does
+/// not allocate another one.
 cv::Mat wrap(const ck_mutable_pixels& image) {
   const size_t row_stride = static_cast<size_t>(image.width) * image.channels;
   return wrap({image.data, image.width, image.height, image.channels, row_stride});
@@ -27,7 +28,7 @@ void fill_maps(const ck_camera& from, const ck_camera& to, int first, int last, 
   for (int row = first; row < last; ++row) {
     float* to_x = map_x.ptr<float>(row - first);
     float* to_y = map_y.ptr<float>(row - first);
-    // Our pixel centres are at one half, OpenCV's at whole numbers.
+    // Pixel centers are at one half here, but at integers in OpenCV.
     const double y = (row + 0.5 - to.cy) / to.fy;
     for (int column = 0; column < to.width; ++column) {
       const double x = (column + 0.5 - to.cx) / to.fx;

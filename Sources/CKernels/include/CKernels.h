@@ -1,15 +1,14 @@
-/// The umbrella of the C boundary: one header per kernel family.
+/// Umbrella header of the C interface: one header per kernel family.
 ///
 /// Conventions of all functions:
-/// - Arguments come in this order: the object that the function works on (a handle, or a scene that
-///   it changes in place), inputs, options, control, outputs.
-/// - Vectors come as `ck_span`, other arrays as pointer and count without padding. The caller owns
-///   all arrays; a comment gives the size of an output, or an argument its capacity.
-/// - A largest value is called `maximum_…`, a smallest `minimum_…`; a flag is a `bool`.
+/// - Parameters are in this order: the object that the function works on (a handle, or a scene that
+///   it modifies in place), inputs, options, control, outputs.
+/// - Vectors are passed as `ck_span`, other arrays as pointer and count without padding. The caller
+///   owns all arrays; a comment states the size of an output, or a parameter its capacity.
+/// - Upper bounds are named `maximum_…`, lower bounds `minimum_…`; flags are `bool`.
 /// - A function has at most eight parameters.
-/// - A function that can fail returns a `ck_status` and lets no exception out. None prints, changes
-/// a
-///   setting of the process, or ends it.
+/// - A function that can fail returns a `ck_status`; no exception leaves it. Apart from
+///   `ck_silence_libraries`, no function prints, changes a setting of the process, or ends it.
 #ifndef CKERNELS_H
 #define CKERNELS_H
 

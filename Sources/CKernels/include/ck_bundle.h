@@ -11,16 +11,17 @@ extern "C" {
 typedef struct {
   /// Largest reprojection error of an inlier, in pixels.
   double maximum_error;
-  /// Smallest accepted value of the largest angle between two inlier rays, in radians.
+  /// Smallest triangulation angle in radians: the largest angle between two inlier rays must reach
+  /// it.
   double minimum_angle;
 } ck_triangulation_options;
 
 /// Triangulates tracks: robust hypotheses from pairs of rays, then least squares on the
 /// reprojection error.
 ///
-/// For each track `found` becomes 1 and its element of `positions` (3 doubles) the point if at
-/// least two observations agree, in front of their cameras and at a sufficient angle. `inliers`
-/// becomes 1 for the observations that agree, 0 for the others.
+/// For each track, `found` is set to 1 and its element of `positions` (3 doubles) to the point if
+/// at least two observations agree, with the point in front of their cameras and at a sufficient
+/// triangulation angle. `inliers` is set to 1 for the observations that agree, to 0 for the others.
 ck_status ck_triangulate(const ck_tracks* tracks, const ck_posed_photos* photos,
                          const ck_triangulation_options* options, const ck_control* control,
                          ck_mutable_span positions, uint8_t* found, uint8_t* inliers);
@@ -28,7 +29,7 @@ ck_status ck_triangulate(const ck_tracks* tracks, const ck_posed_photos* photos,
 /// Reprojection errors and triangulation angles of tracks with known `positions` (3 doubles).
 ///
 /// `errors` holds one value per observation in pixels (infinite behind the camera), `angles` one
-/// value per track: the largest angle in radians between two rays with errors of at most
+/// value per track: the largest angle in radians between two rays whose error is at most
 /// `maximum_error`.
 ck_status ck_measure_tracks(const ck_tracks* tracks, ck_span positions,
                             const ck_posed_photos* photos, double maximum_error,
@@ -77,9 +78,9 @@ typedef struct {
   /// `ck_pose_freedom` for each photo.
   const uint8_t* pose_freedom;
   size_t photo_count;
-  /// 3 doubles.
+  /// World coordinates, 3 doubles each.
   ck_mutable_span points;
-  /// 1 for points that may move.
+  /// 1 for points to optimize, 0 for constant ones.
   const uint8_t* point_freedom;
   const ck_observation* observations;
   size_t observation_count;
@@ -109,14 +110,15 @@ typedef struct {
 /// Minimizes the Huber loss of the reprojection errors (Triggs et al., "Bundle adjustment: a modern
 /// synthesis", 1999) with Ceres.
 ///
-/// fx and fy keep their ratio. Runs on one thread, so that the sums don't depend on their number.
+/// The ratio of fx and fy is constant. Runs on one thread so that the sums do not depend on the
+/// number of threads.
 ck_status ck_bundle_adjust(ck_bundle* bundle, const ck_bundle_options* options,
                            const ck_control* control, ck_bundle_summary* summary);
 
 /// The reprojection error of one observation and its derivatives, as bundle adjustment uses them.
 ///
 /// `pose_jacobian` is 2×6 (rotation vector applied from the left, translation), `point_jacobian`
-/// 2×3, `camera_jacobian` 2×7 (fx with fy in proportion, cx, cy, k1, k2, p1, p2), all by rows.
+/// 2×3, `camera_jacobian` 2×7 (fx with fy in proportion, cx, cy, k1, k2, p1, p2), all row-major.
 ck_status ck_reprojection_jacobians(const ck_camera* camera, const ck_pose* pose,
                                     const double* point, const double* pixel, double* residual,
                                     double* pose_jacobian, double* point_jacobian,

@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-/// A pinhole camera with OpenCV's distortion.
+/// A pinhole camera with OpenCV's distortion model.
 ///
 /// `pixel = (fx, fy) · distorted (x / z, y / z) + (cx, cy)`; the pixel origin is the corner of the
 /// top-left pixel. x points right, y down, z forward.
@@ -19,37 +19,37 @@ typedef struct {
   int32_t width, height;
 } ck_camera;
 
-/// `cameraFromWorld`: a unit quaternion and a translation.
+/// `cameraFromWorld`: a unit quaternion and a translation in world units.
 typedef struct {
   double qx, qy, qz, qw;
   double tx, ty, tz;
 } ck_pose;
 
-/// A photo without lens distortion: where it was taken, and by which camera, whose distortion is
-/// not read.
+/// The camera and pose of an undistorted photo; the camera's distortion is ignored.
 typedef struct {
   ck_camera camera;
   ck_pose camera_from_world;
 } ck_view;
 
-/// The pixel at which photo `photo` shows point `point`.
+/// The pixel position at which photo `photo` observes point `point`.
 typedef struct {
   int32_t photo;
   int32_t point;
   double x, y;
 } ck_observation;
 
-/// Cameras and posed photos.
+/// Cameras, and photos with poses.
 typedef struct {
   const ck_camera* cameras;
   size_t camera_count;
   const ck_pose* poses;
-  /// An index into `cameras` for each photo.
+  /// Index into `cameras` for each photo.
   const int32_t* photo_cameras;
   size_t photo_count;
 } ck_posed_photos;
 
-/// Tracks: track i has the observations `offsets[i]..<offsets[i + 1]`, whose `point` is not read.
+/// Observations grouped by track: track i has the observations `offsets[i]..<offsets[i + 1]`. Their
+/// `point` field is ignored.
 typedef struct {
   /// `count + 1` ascending indices, the first 0.
   const int32_t* offsets;

@@ -30,16 +30,16 @@ typedef struct {
   int32_t threads;
 } ck_control;
 
-/// `count` elements, each `stride` bytes after the one before; `data` may be null without elements.
+/// `count` elements, one every `stride` bytes; `data` may be null if there are none.
 ///
-/// The function that takes a span says what an element is.
+/// The function that takes a span specifies its element type.
 typedef struct {
   const void* data;
   size_t count;
   size_t stride;
 } ck_span;
 
-/// A span that a kernel writes.
+/// A span that a kernel writes to.
 typedef struct {
   void* data;
   size_t count;
@@ -55,14 +55,14 @@ typedef struct {
   size_t row_stride;
 } ck_pixels;
 
-/// Pixels that a kernel writes, without padding between rows.
+/// 8-bit pixels that a kernel writes, in the same layout but without padding between rows.
 typedef struct {
   uint8_t* data;
   int32_t width, height;
   int32_t channels;
 } ck_mutable_pixels;
 
-/// Sets of instructions that a kernel may use, each with all of those before it.
+/// Instruction sets that a kernel may use; each includes those listed before it.
 typedef enum {
   /// The most capable set that the processor supports.
   ck_instructions_automatic = 0,
@@ -89,10 +89,10 @@ const char* ck_last_error(void);
 uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 
 /// Suppresses the messages of OpenCV, glog and Open3D and everything that C++ code writes to
-/// `std::cerr`, and keeps OpenCV on one thread, for the whole process.
+/// `std::cerr`, and limits OpenCV to one thread, for the whole process.
 ///
-/// For the `main` of an executable: no kernel changes such a setting of the process that it runs
-/// in. Call once, before the first kernel.
+/// To be called once from the `main` of an executable, before the first kernel: kernels themselves
+/// do not change settings of the process.
 void ck_silence_libraries(void);
 
 #ifdef __cplusplus

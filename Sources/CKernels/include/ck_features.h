@@ -35,9 +35,9 @@ typedef struct {
   ck_instructions instructions;
 } ck_sift_options;
 
-/// Where detected features go. The caller owns the arrays, which hold `maximum_features` elements.
+/// Buffers for the detected features, owned by the caller; each holds `maximum_features` elements.
 typedef struct {
-  /// x, y in pixels.
+  /// x, y in pixels; the origin is the corner of the top-left pixel.
   float* positions;
   /// σ in pixels.
   float* scales;
@@ -49,12 +49,12 @@ typedef struct {
   ck_mutable_span colors;
 } ck_sift_output;
 
-/// Detects SIFT features (Lowe, IJCV 2004) and describes them by root-SIFT bytes (Arandjelović and
-/// Zisserman, CVPR 2012): `min(255, round(512 √(d / |d|₁)))`.
+/// Detects SIFT features (Lowe, IJCV 2004) and computes root-SIFT descriptors (Arandjelović and
+/// Zisserman, CVPR 2012): `min(255, round(512 √(d / |d|₁)))` as bytes.
 ///
-/// `photo` has 1, 3 or 4 channels. `mask` is null, or has a byte per pixel, `width` per row: no
-/// feature is detected where it is 0. `count` receives the number of features, which are sorted by
-/// scale, largest first.
+/// `photo` has 1, 3 (RGB) or 4 (RGBA) channels. `mask` is null, or has one byte per pixel, `width`
+/// per row: features at pixels where it is 0 are discarded. `count` receives the number of
+/// features, which are sorted by scale, largest first.
 ck_status ck_sift_detect(const ck_pixels* photo, const uint8_t* mask,
                          const ck_sift_options* options, const ck_control* control,
                          const ck_sift_output* features, size_t* count);

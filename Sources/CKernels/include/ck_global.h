@@ -30,9 +30,9 @@ typedef struct {
 /// Averages relative rotations: L1 averaging first, then a robust loss (Chatterjee and Govindu,
 /// "Efficient and robust large-scale rotation averaging", ICCV 2013).
 ///
-/// The pairs must connect all photos; photo 0 keeps its rotation. `rotations` are quaternions of
-/// `cameraFromWorld` (4 doubles x, y, z, w), one per photo, the start on entry. `errors` receives
-/// for each pair the angle in radians by which it disagrees.
+/// The pairs must connect all photos; photo 0 keeps its rotation. `rotations` holds a quaternion of
+/// `cameraFromWorld` (4 doubles x, y, z, w) for each photo; on entry, the initial values. `errors`
+/// receives the angular residual of each pair in radians.
 ck_status ck_average_rotations(const ck_relative_rotation* pairs, size_t pair_count,
                                const ck_rotation_averaging_options* options,
                                const ck_control* control, ck_mutable_span rotations,
@@ -67,7 +67,8 @@ typedef struct {
 /// c, points X and one factor d > 0 per direction, where ρ is the Huber loss.
 ///
 /// The directions are grouped by point, ascending. `centers` and `points` (3 doubles) hold the
-/// start on entry; the gauge of the result, a similarity, is arbitrary. Runs on one thread.
+/// initial values on entry; the gauge of the result (a similarity: position, orientation and scale)
+/// is arbitrary. Runs on one thread.
 ck_status ck_position_globally(const ck_direction* directions, size_t direction_count,
                                const ck_positioning_options* options, const ck_control* control,
                                ck_mutable_span centers, ck_mutable_span points,

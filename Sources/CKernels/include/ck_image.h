@@ -32,9 +32,9 @@ typedef struct {
   int64_t maximum_pixels;
 } ck_decode_limits;
 
-/// Decodes an image file in memory to RGB as stored: no EXIF orientation is applied (but TIFF and
-/// HEIF files are turned by what they say themselves), alpha is dropped, 16 bits become 8, gray,
-/// palette and CMYK become RGB.
+/// Decodes an image file in memory to 8-bit RGB as stored: EXIF orientation is not applied (but
+/// TIFF and HEIF files are rotated as their container specifies), alpha is dropped, 16-bit samples
+/// become 8-bit, gray, palette and CMYK images become RGB.
 ///
 /// `reduction` is 1, 2, 4 or 8: the sides of a JPEG are divided by it and rounded up, which takes
 /// less time; other formats are decoded at full size.
@@ -95,7 +95,7 @@ typedef struct {
   size_t color_profile_count;
 } ck_heif_options;
 
-/// Encodes RGB or RGBA as HEIC. Fails with `ck_invalid_argument` where libheif has no encoder.
+/// Encodes RGB or RGBA as HEIC. Fails with `ck_invalid_argument` if libheif has no HEVC encoder.
 ck_status ck_heif_encode(const ck_pixels* pixels, const ck_heif_options* options,
                          ck_bytes** encoded);
 
@@ -116,7 +116,7 @@ ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_color
 /// Inflates a zlib stream to at most `maximum` bytes.
 ck_status ck_inflate(const uint8_t* bytes, size_t byte_count, size_t maximum, ck_bytes** inflated);
 
-/// Encodes gray, RGB or RGBA (JPEG: gray or RGB). `quality` is 0…100, JPEG only.
+/// Encodes gray, RGB or RGBA (JPEG: gray or RGB). `quality` is 0…100 and used by JPEG only.
 ck_status ck_image_encode(const ck_pixels* pixels, ck_codec codec, int32_t quality,
                           ck_bytes** encoded);
 
@@ -127,29 +127,33 @@ void ck_bytes_copy(const ck_bytes* bytes, uint8_t* destination);
 /// Frees the bytes; null does nothing.
 void ck_bytes_free(ck_bytes* bytes);
 
-/// Resizes to the size of `destination`: area averages where it shrinks, linear where it grows.
+/// Resizes an image to the size of `destination`: area averaging when shrinking, bilinear
+/// interpolation when enlarging.
 ck_status ck_image_resize(const ck_pixels* source, const ck_mutable_pixels* destination);
 
-/// Turns stored pixels upright by EXIF orientation 1…8; orientations 5…8 swap width and height.
+/// Rotates stored pixels upright according to EXIF orientation 1…8. Orientations 5…8 swap width and
+/// height.
 ck_status ck_image_orient(const ck_pixels* source, int32_t orientation,
                           const ck_mutable_pixels* destination);
 
-/// Resamples (bicubic) what `source_camera` saw as `destination_camera`, which has no distortion.
+/// Resamples (bicubic) an image of `source_camera` as seen by `destination_camera`, which has no
+/// distortion.
 ///
-/// Pixels without source repeat the border. Both images have the size of their camera.
+/// Pixels outside the source repeat its border. Both images have the size of their camera.
 ck_status ck_image_undistort(const ck_pixels* source, const ck_camera* source_camera,
                              const ck_camera* destination_camera,
                              const ck_mutable_pixels* destination);
 
-/// Gives each pixel of a gray image the largest value of the square around it that extends `radius`
-/// pixels to each side.
+/// Dilates a gray image: each pixel becomes the maximum of the square that extends `radius` pixels
+/// to each side of it.
 ck_status ck_image_dilate(const ck_pixels* source, int32_t radius,
                           const ck_mutable_pixels* destination);
 
-/// How much of the gradient energy of a gray image's textured parts a slight blur removes, in the
-/// direction that loses least: about 0.2 for a blurred photo, 1.5 and more for a sharp one.
+/// Sharpness of a gray image: the relative loss of gradient energy of its textured parts under a
+/// slight blur, in the direction that loses least; about 0.2 for a blurred photo, 1.5 and more for
+/// a sharp one.
 ///
-/// Degenerate for an image without texture.
+/// Returns `ck_degenerate` for an image without texture.
 ck_status ck_image_sharpness(const ck_pixels* gray, double* sharpness);
 
 #ifdef __cplusplus

@@ -16,7 +16,7 @@ typedef struct {
   size_t triangle_count;
 } ck_mesh;
 
-/// A triangle mesh that a kernel changes in place.
+/// A triangle mesh that a kernel modifies in place.
 typedef struct {
   /// 3 floats.
   ck_mutable_span positions;
@@ -24,12 +24,13 @@ typedef struct {
   size_t triangle_count;
 } ck_mutable_mesh;
 
-/// Collapses edges by quadric error (Garland and Heckbert, SIGGRAPH 1997) until at most
-/// `maximum_triangles` are left, then fits the vertices to the original surface (after Hoppe et
-/// al., SIGGRAPH 1993). Preserves the surface's topology and never folds it; so it can stop early.
+/// Simplifies a mesh by edge collapse with quadric error metrics (Garland and Heckbert, SIGGRAPH
+/// 1997) until at most `maximum_triangles` are left, then fits the vertices to the original surface
+/// (after Hoppe et al., SIGGRAPH 1993). Preserves the topology and never folds the surface; it may
+/// therefore stop at more triangles.
 ///
 /// Positions and triangles are moved and compacted in place; on return the counts of `mesh` are
-/// those of the simplified one.
+/// those of the simplified mesh.
 ck_status ck_simplify(ck_mutable_mesh* mesh, size_t maximum_triangles, const ck_control* control);
 
 #ifdef __cplusplus

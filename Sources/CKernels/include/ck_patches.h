@@ -7,22 +7,24 @@
 extern "C" {
 #endif
 
-/// A photo without lens distortion, as patch stereo takes it.
+/// An undistorted photo with its camera, pose and luma, as input of patch stereo. The camera's
+/// distortion is ignored.
 typedef struct {
   ck_camera camera;
   ck_pose camera_from_world;
-  /// A byte per pixel, top row first, without padding.
+  /// One byte per pixel, top row first, without padding.
   const uint8_t* luma;
-  /// Standard deviation of the luma's noise in gray levels.
+  /// Standard deviation of the luma noise, in gray levels (0…255).
   float noise;
 } ck_patch_view;
 
-/// Averages 2 × 2 pixels of `width × height` bytes; `result` holds `(width / 2) × (height / 2)`.
+/// Halves a `width × height` luma image by averaging 2 × 2 pixels; `result` holds `(width / 2) ×
+/// (height / 2)` bytes.
 void ck_patches_halve(const uint8_t* luma, int32_t width, int32_t height, uint8_t* result);
 
-/// Estimates the standard deviation of the noise of `width × height` bytes in gray levels, from the
-/// deviation from a smooth surface in the smoothest parts (after Immerkær, CVIU 1996); at least
-/// that of rounding.
+/// Estimates the standard deviation of the noise of a `width × height` luma image in gray levels,
+/// from the deviation from a smooth surface in its smoothest parts (after Immerkær, CVIU 1996); at
+/// least the standard deviation of rounding.
 float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height);
 
 /// A sparse point in a reference view: pixel position and inverse depth.
@@ -52,11 +54,11 @@ typedef struct {
   int32_t refinement_steps;
   /// Difference in gray levels at which the bilateral weight is one half.
   float bilateral_contrast;
-  /// Views offer each other their patches.
+  /// True to propagate patches across views.
   bool expands_across_views;
-  /// Patches face the camera instead of following the surface.
+  /// True for fronto-parallel patches instead of slanted ones.
   bool is_fronto_parallel;
-  /// The same seed gives the same patches.
+  /// Random seed; the same seed gives the same patches.
   uint32_t seed;
   /// Instruction set of the inner loops. Results differ by rounding only.
   ck_instructions instructions;
@@ -66,7 +68,7 @@ typedef struct {
 /// with one plane per pixel as in Bleyer et al., BMVC 2011).
 ///
 /// `sources` are at most 8 views, the best first. `patches` holds `width × height` values of the
-/// reference. Runs on one thread: call it for several views at once.
+/// reference. Runs on one thread; may be called for several views at once.
 ck_status ck_patches_reconstruct(const ck_patch_view* reference, const ck_patch_view* sources,
                                  size_t source_count, const ck_patch_seed* seeds, size_t seed_count,
                                  const ck_patch_options* options, const ck_control* control,
@@ -92,8 +94,9 @@ typedef struct {
 ///
 /// `coarse` holds the filtered patches of the reference halved by `ck_patches_halve`, with half its
 /// focal lengths and principal point; its neighbors were the halved `sources`, in the same order.
-/// Each patch is compared with the sources that agree with the coarse ones around (its visible
-/// photos, Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width × height` values.
+/// Each patch is compared with the sources that are consistent with the surrounding coarse patches
+/// (its visible photos; Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width ×
+/// height` values.
 ck_status ck_patches_refine(const ck_patch_view* reference, const ck_patch_view* sources,
                             size_t source_count, const ck_patch_map* coarse,
                             const ck_patch_options* options, const ck_control* control,
@@ -132,10 +135,10 @@ typedef struct {
 /// Marks the patches of `reference` that enough neighbors confirm and not too many contradict
 /// (geometric consistency).
 ///
-/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint, so
-/// that views tell which of them shows a piece of surface finest. `states` holds `width × height`
-/// bytes, and `visibility` as many, or is null; `neighbors` are the views that may confirm, the
-/// best first. Runs on one thread: call it for several views at once.
+/// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint,
+/// which determines the view that resolves a surface element best. `states` holds `width × height`
+/// bytes, and so does `visibility` unless it is null; `neighbors` are the views to compare with,
+/// the best first. Runs on one thread; may be called for several views at once.
 ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* neighbors,
                             size_t neighbor_count, const ck_patch_filter_options* options,
                             const ck_control* control, uint8_t* states, uint8_t* visibility);
@@ -147,8 +150,8 @@ ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* n
 /// surrounding patches. Finally patches are smoothed; the weaker the texture, the stronger the
 /// smoothing.
 ///
-/// All maps have states; `completed` holds `width × height` patches, for the filter to judge. Runs
-/// on one thread.
+/// All maps have states; `completed` holds `width × height` patches, which have to be filtered
+/// again. Runs on one thread.
 ck_status ck_patches_complete(const ck_patch_map* reference, const ck_patch_map* neighbors,
                               size_t neighbor_count, const ck_patch_options* options,
                               const ck_control* control, ck_patch* completed);
@@ -169,10 +172,10 @@ typedef struct {
 
 /// Fuses the accepted patches of `reference` with the consistent patches of its neighbors.
 ///
-/// A piece of surface that several views show becomes a point of the view that shows it at the
-/// smallest footprint, of the lowest photo among equals. Each view decides by itself which points
-/// it owns, so views are fused in any order, or concurrently. `fused` has room for `capacity`
-/// points; as many as the view has accepted patches suffice. Runs on one thread.
+/// A surface element seen by several views becomes a point of the view with the smallest footprint,
+/// on a tie of the lowest photo. Each view determines its points independently, so views can be
+/// fused in any order, or concurrently. `fused` has room for `capacity` points; the number of
+/// accepted patches of the view is sufficient. Runs on one thread.
 ck_status ck_patches_fuse(const ck_patch_map* reference, const ck_patch_map* neighbors,
                           size_t neighbor_count, const ck_patch_filter_options* options,
                           const ck_control* control, ck_fused_patch* fused, size_t capacity,

@@ -41,18 +41,18 @@ typedef struct {
   double zncc;
 } ck_template_match;
 
-/// Reads templates from a photo.
+/// Extracts templates from a photo with 1, 3 (RGB) or 4 channels.
 ///
-/// `samples` receives `CK_TEMPLATE_SAMPLES` values per place, 64 times the luma 0…255; `valid`
-/// becomes 1 where the square lies within the photo and holds texture in two directions.
+/// `samples` receives `CK_TEMPLATE_SAMPLES` values per location: 64 times the luma 0…255. `valid`
+/// is set to 1 if the square lies within the photo and has texture in two directions.
 ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_location* locations,
                                size_t place_count, uint16_t* samples, uint8_t* valid);
 
-/// Finds templates in a photo by least squares matching (Gruen, "Adaptive least squares
+/// Locates templates in a photo by least squares matching (Gruen, "Adaptive least squares
 /// correlation", 1985) of position, gain and offset, in the inverse compositional form (Baker and
-/// Matthews, IJCV 2004). A search fails that moves more than `maximum_shift` pixels from its start.
+/// Matthews, IJCV 2004). A search that moves more than `maximum_shift` pixels from its start fails.
 ///
-/// `samples` are those of `template_count` templates; `matches` holds one element per search.
+/// `samples` holds those of `template_count` templates, `matches` one element per search.
 ck_status ck_match_templates(const ck_pixels* photo, const uint16_t* samples, size_t template_count,
                              const ck_template_search* searches, size_t search_count,
                              double maximum_shift, ck_template_match* matches);

@@ -21,9 +21,10 @@ typedef struct {
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points.
 ///
-/// Positions and normals (3 floats) are equal in number. Runs on one separate thread, as the
-/// results of several differ from run to run; a cancelled call returns at once and leaves that
-/// thread to finish. Triangles are counter-clockwise seen from where normals point.
+/// Positions and normals (3 floats) have the same count. Runs on one dedicated thread because
+/// results of several threads differ between runs; a canceled call returns at once and leaves that
+/// thread to finish in the background. Triangles are counter-clockwise when seen from the side that
+/// the normals point to.
 ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
                      const ck_control* control, ck_surface** surface);
 
@@ -32,7 +33,7 @@ size_t ck_surface_vertex_count(const ck_surface* surface);
 /// Number of triangles of the mesh.
 size_t ck_surface_triangle_count(const ck_surface* surface);
 /// Copies the positions (3 floats), the octree depth that the samples around each vertex support
-/// (one float per vertex), and three indices per triangle.
+/// (the sampling density, one float per vertex), and three indices per triangle.
 void ck_surface_copy(const ck_surface* surface, ck_mutable_span positions, float* densities,
                      uint32_t* triangles);
 /// Frees the mesh; null does nothing.
@@ -41,22 +42,23 @@ void ck_surface_free(ck_surface* surface);
 /// Assigns points to the cells of a cubic grid and finds the connected components of the occupied
 /// cells (26-neighborhood).
 ///
-/// A point of level l falls into a grid of `cell_size × 2^l`; `levels` may be null (all 0), and
-/// only cells of one level are neighbors. `cells` receives each point's cell, numbered in
-/// lexicographic order of (level, x, y, z); `components` (may be null) each point's component,
-/// numbered by their first cell. Points that are not finite get −1 in both.
+/// A point of level l falls into a grid with cells of `cell_size × 2^l`; `levels` may be null (all
+/// 0), and only cells of the same level are neighbors. `cells` receives each point's cell, numbered
+/// in lexicographic order of (level, x, y, z); `components` (may be null) receives each point's
+/// component, numbered by their first cell. Points that are not finite get −1 in both.
 ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* levels,
                          const ck_control* control, int32_t* cells, size_t* cell_count,
                          int32_t* components, size_t* component_count);
 
-/// How many points are nearest, and how far away at most.
+/// Limits of a nearest-neighbor search.
 typedef struct {
   int32_t neighbors;
-  /// Above 0, may be infinite.
+  /// Search radius, in units of the coordinates; above 0, may be infinite.
   double maximum_distance;
 } ck_nearest_options;
 
-/// Finds for every query the nearest points; points and queries are 3 floats.
+/// Finds the nearest `neighbors` points within `maximum_distance` of every query. Points and
+/// queries are 3 floats each.
 ///
 /// `indices` and `distances` hold `neighbors` elements per query, the nearest first; −1 and
 /// infinity where there are fewer.
@@ -72,21 +74,22 @@ typedef struct {
   int32_t size[3];
 } ck_free_space_grid;
 
-/// Points and the photos that see them.
+/// Points and the photos in which each is visible.
 typedef struct {
   /// 3 floats.
   ck_span positions;
-  /// How far in front of each point a ray ends.
+  /// Distance in front of each point at which its rays end.
   const float* clearances;
-  /// Point i is seen by `photos[photo_offsets[i]..<photo_offsets[i + 1]]`.
+  /// Point i is visible in `photos[photo_offsets[i]..<photo_offsets[i + 1]]`.
   const uint32_t* photo_offsets;
   const uint16_t* photos;
 } ck_seen_points;
 
-/// Counts for every cell the photos that look through it at a point behind it, up to 255.
+/// Free-space evidence: counts for every cell the photos with a ray through it to a visible point
+/// behind it, up to 255.
 ///
-/// `centers` (3 floats) are those of the photos' cameras. Points and centers may lie outside the
-/// grid. `counts` holds a byte per cell.
+/// `centers` holds the camera center of each photo (3 floats). Points and camera centers may lie
+/// outside the grid. `counts` holds one byte per cell.
 ck_status ck_free_space(const ck_free_space_grid* grid, const ck_seen_points* points,
                         ck_span centers, const ck_control* control, uint8_t* counts);
 
@@ -110,13 +113,13 @@ typedef struct {
   float smoothness;
 } ck_photo_refinement_options;
 
-/// Begins to fit a mesh to photos; copies its arrays. Free with `ck_photo_refinement_free`.
+/// Starts the refinement of a mesh; copies its arrays. Free with `ck_photo_refinement_free`.
 ck_status ck_photo_refinement_create(const ck_mesh* mesh,
                                      const ck_photo_refinement_options* options,
                                      const ck_control* control, ck_photo_refinement** refinement);
 
-/// Adds a photo. `rgb` has 3 bytes per pixel; `mask` is null, or has a byte per pixel: where it is
-/// below 128 the photo isn't compared. Keeps two bytes per pixel.
+/// Adds a photo. `rgb` has 3 bytes per pixel; `mask` is null, or has one byte per pixel: pixels
+/// below 128 are not compared. Keeps two bytes per pixel.
 ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_view* view,
                                   const uint8_t* rgb, const uint8_t* mask,
                                   const ck_control* control);
@@ -125,7 +128,7 @@ ck_status ck_photo_refinement_add(ck_photo_refinement* refinement, const ck_view
 /// Vertices on mesh boundaries, and those without texture visible in two photos, do not move.
 ///
 /// `positions` receives 3 floats per vertex, `moved` (may be null) the number of vertices that the
-/// photos determine.
+/// photos constrain.
 ck_status ck_photo_refinement_run(ck_photo_refinement* refinement, const ck_control* control,
                                   ck_mutable_span positions, size_t* moved);
 

@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-// Entry points for tests of what kernels share. No other code calls them.
+// Entry points for tests of the code that kernels share. Not for any other use.
 
 /// Runs the loop over 0..<`count` that all kernels share, on a system that refuses to create more
 /// than `available_threads` threads.
@@ -18,7 +18,7 @@ extern "C" {
 ck_status ck_test_parallel_for(size_t count, size_t available_threads, size_t failing,
                                const ck_control* control, int32_t* visits, size_t* created_threads);
 
-/// Whether `std::cerr` writes to something and glog and OpenCV log as they do by default: false
+/// Whether `std::cerr` has a stream buffer and glog and OpenCV log at their default levels: false
 /// after `ck_silence_libraries`.
 bool ck_test_is_logging(void);
 

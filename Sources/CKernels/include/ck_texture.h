@@ -7,14 +7,14 @@
 extern "C" {
 #endif
 
-// Texels have their origin at the corner of the top-left one, y down.
+// Texel coordinates have their origin at the corner of the top-left texel, y down.
 
-/// A choice of one label for every node of a graph.
+/// A labeling problem: every node of a graph gets one of its candidate labels.
 typedef struct {
   size_t node_count;
   /// Node i has the candidates `offsets[i]..<offsets[i + 1]`.
   const uint32_t* offsets;
-  /// The candidates' labels, ascending for each node.
+  /// Labels of the candidates, ascending for each node.
   const int32_t* labels;
   /// Cost of each candidate.
   const float* costs;
@@ -25,18 +25,18 @@ typedef struct {
   const float* edge_weights;
 } ck_label_problem;
 
-/// Chooses one of its candidates for every node, so that the sum of the costs of the nodes and of
-/// the weights of edges between different labels is small: a Potts model, minimized by sequential
+/// Selects one candidate label for every node such that the sum of the nodes' costs and of the
+/// weights of edges between different labels is small: a Potts model, minimized by sequential
 /// tree-reweighted message passing (Kolmogorov, PAMI 2006).
 ///
-/// `choices` receives the index of each node's candidate, −1 for nodes without candidates.
+/// `choices` receives the index of each node's selected candidate, −1 for nodes without candidates.
 ck_status ck_select_labels(const ck_label_problem* problem, size_t iterations,
                            const ck_control* control, int32_t* choices);
 
-/// A sparse symmetric positive definite matrix: entries of the lower triangle and the diagonal, of
-/// which those at equal positions are added.
+/// A sparse symmetric positive definite matrix, given by the entries of its lower triangle and
+/// diagonal; entries at equal positions are added.
 typedef struct {
-  /// Rows and columns.
+  /// Number of rows and columns.
   size_t size;
   size_t entry_count;
   const uint32_t* rows;
@@ -44,17 +44,17 @@ typedef struct {
   const double* entries;
 } ck_sparse_matrix;
 
-/// When the method of conjugate gradients stops.
+/// Termination criteria of conjugate gradients.
 typedef struct {
-  /// Residual relative to the right side.
+  /// Norm of the residual relative to that of the right-hand side.
   double tolerance;
   size_t maximum_iterations;
 } ck_conjugate_gradient_options;
 
-/// Solves a system for several right sides by conjugate gradients from zero.
+/// Solves a system for several right-hand sides by conjugate gradients; the initial value is zero.
 ///
-/// `values` holds `size × channels` numbers, row by row: the right sides on entry, the solutions on
-/// return.
+/// `values` holds `size × channels` numbers, row-major: the right-hand sides on entry, the
+/// solutions on return.
 ck_status ck_solve_sparse(const ck_sparse_matrix* matrix, size_t channels,
                           const ck_conjugate_gradient_options* options, const ck_control* control,
                           double* values);
@@ -73,8 +73,9 @@ typedef struct {
 /// boundary shortening by multilevel refinement (after Karypis and Kumar, SIAM J. Sci. Comput.
 /// 1998).
 ///
-/// `charts` receives a chart for every triangle, dense from 0; `axes` three floats a chart, the
-/// unit direction to project along, for at most as many charts as there are triangles.
+/// `charts` receives the chart index of every triangle, numbered consecutively from 0; `axes` three
+/// floats per chart: the unit projection direction. `axes` has room for as many charts as there are
+/// triangles.
 ck_status ck_cluster_faces(const ck_mesh* mesh, const ck_chart_options* options,
                            const ck_control* control, int32_t* charts, float* axes,
                            size_t* chart_count);
@@ -135,7 +136,8 @@ typedef struct {
   float offsets[9];
 } ck_paint;
 
-/// Adds a view's colours, times `gain` a channel. Without `rgb` the offsets alone are painted.
+/// Adds a view's colors, multiplied by `gain` per channel. If `rgb` is null, only the offsets are
+/// painted.
 ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rgb,
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control);

@@ -21,14 +21,14 @@ ck_status ck_five_point(const double* first, const double* second, double* matri
 ck_status ck_seven_point(const double* first, const double* second, double* matrices,
                          size_t* count);
 
-/// `count` matches as pairs of points, x and y each.
+/// Matches as pairs of points; each array holds `count` pairs x, y.
 typedef struct {
   const double* first;
   const double* second;
   size_t count;
 } ck_point_pairs;
 
-/// How the geometry of two views is searched for.
+/// Options of two-view geometry estimation.
 typedef struct {
   /// True to estimate an essential matrix, false for a fundamental matrix.
   bool is_calibrated;
@@ -64,22 +64,23 @@ typedef struct {
 /// MSAC score, sampling that prefers the first matches (after PROSAC, Chum and Matas, CVPR 2005),
 /// and refinement of the Sampson error.
 ///
-/// Matches are in order of quality, the best first. `inliers` holds a byte per match. Returns
-/// `ck_degenerate` when no model is found.
+/// Matches are sorted by quality, the best first. `inliers` holds one byte per match. Returns
+/// `ck_degenerate` if no model is found.
 ck_status ck_two_view_estimate(const ck_point_pairs* pairs, const ck_two_view_options* options,
                                const ck_control* control, ck_two_view_result* result,
                                uint8_t* inliers);
 
-/// How the focal length of a pair is scored.
+/// Options of the focal length cost.
 typedef struct {
-  /// The fundamental matrix of the matches, at which the search for the pose starts.
+  /// The fundamental matrix of the matches; initializes the search for the pose.
   double fundamental[9];
-  /// Limit of a match's Sampson error in units of the points.
+  /// Limit of a match's Sampson error, in units of the points.
   double maximum_error;
 } ck_focal_length_options;
 
-/// Scores focal lengths of a pair: for each factor the sum of min(Sampson error², limit²), in the
-/// units of the points, of the best pose at a focal length of `factor` times the assumed one.
+/// Cost of hypotheses about the focal length: for each factor, the sum of min(Sampson error²,
+/// limit²), in squared units of the points, of the best pose when the focal length is `factor`
+/// times the assumed one.
 ck_status ck_focal_length_costs(const ck_point_pairs* pairs, const double* factors,
                                 size_t factor_count, const ck_focal_length_options* options,
                                 const ck_control* control, double* costs);

@@ -18,13 +18,14 @@ namespace {
 using Face = CollapseMesh::Face;
 
 /// A new vertex is regularized toward the midpoint of its edge with this fraction of the weight of
-/// its planes, and is at most this many edge lengths from it: nearly parallel planes intersect far
+/// its planes, and is at most `kReach` edge lengths from it: nearly parallel planes intersect far
 /// away.
 constexpr double kPull = 1e-4, kReach = 2;
-/// Cosine of the largest angle by which a collapse may turn a triangle, in each of the passes; the
-/// last one accepts what the others left. Empirical.
+/// Cosine of the largest angle by which a collapse may rotate a triangle's normal, in each of the
+/// passes; the last one permits collapses that the others rejected. Empirical.
 constexpr double kTurnCosines[] = {0.2, 0.2, 0.0};
-/// The number of pieces is limited to one per this many triangles of the result. Empirical.
+/// The number of components is limited to one per this number of triangles of the result.
+/// Empirical.
 constexpr size_t kTrianglesPerPiece = 16;
 
 std::vector<Point> load_points(const InputMesh& input) {
@@ -313,7 +314,7 @@ class Simplifier {
   CollapseMesh mesh_;
   std::vector<Vertex> vertices_;
   std::vector<uint32_t> versions_;  ///< how often each vertex has changed
-  DisjointSets representatives_;    ///< which vertex each one went into
+  DisjointSets representatives_;    ///< the vertex that each was merged into
   CollapseQueue queue_;
   size_t alive_ = 0;
   double minimum_cosine_ = 0;
@@ -328,12 +329,13 @@ ck_status ck_simplify(ck_mutable_mesh* mesh, size_t maximum_triangles, const ck_
     ck::require(mesh && mesh->positions.data && mesh->triangles, "an argument is missing");
     ck::step(control, 0);
     ck::texture::Simplifier simplifier({mesh->positions, mesh->triangles, mesh->triangle_count});
-    // No closed piece has fewer than four triangles: many crumbs would take the budget.
+    // A closed component has at least four triangles: many tiny components would use up the budget.
     simplifier.drop_components(
         mesh->triangle_count,
         std::max<size_t>(1, maximum_triangles / ck::texture::kTrianglesPerPiece));
-    // What is refused in one pass may be allowed after its surroundings have changed. A limit on
-    // the triangles' shape does harm: it stops what would mend the slivers of the input.
+    // A collapse that is rejected in one pass may be permitted after its surroundings have changed.
+    // A limit on triangle shape is harmful: it prevents collapses that would repair slivers of the
+    // input.
     for (const double cosine : ck::texture::kTurnCosines)
       simplifier.run(maximum_triangles, cosine, control);
     simplifier.drop_components(maximum_triangles, maximum_triangles);

@@ -11,7 +11,7 @@
 
 namespace ck::texture {
 
-/// A mesh as the caller stores it.
+/// The caller's mesh.
 struct InputMesh {
   Strided<float> positions;
   const uint32_t* triangles;

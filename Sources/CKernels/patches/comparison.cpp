@@ -52,7 +52,7 @@ Comparison Pyramids::compare(int level, const InverseDepthRange& range, float ma
   c.luma = image.luma.data();
   c.bilateral_contrast = options.bilateral_contrast;
   c.is_fronto_parallel = options.is_fronto_parallel;
-  // Averaging 2 × 2 pixels halves the noise.
+  // Averaging 2 × 2 pixels halves the standard deviation of the noise.
   const double noise = reference_.noise * scale;
   c.noise_variance = static_cast<float>(noise * noise);
   c.minimum_w = range.lowest / margin;

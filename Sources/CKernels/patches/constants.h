@@ -2,70 +2,71 @@
 
 namespace ck::patches {
 
-// Constants of patch stereo that no option sets, for all levels and views. "Empirical" ones were
-// chosen by trial while the method was developed; where BENCHMARKS.md has a measurement, the
-// comment says so. A change of any of them changes results.
+// Constants of patch stereo that are not options, the same for all levels and views. Those marked
+// "empirical" were chosen by trial while the method was developed; the comment refers to the
+// measurement in BENCHMARKS.md if there is one. Changing any of them changes results.
 
-/// The least cost of a patch of weak texture, 1 − ZNCC: nothing grows from it into holes.
-/// Empirical.
+/// Lower bound of the cost (1 − ZNCC) of a weakly textured patch; patches of this cost are not
+/// propagated into holes. Empirical.
 constexpr float kWeakCost = 0.4f;
 
-/// Texture whose confidence is lower hardly stands out from noise: 0.95 is a deviation of about
-/// three times the noise. Empirical.
+/// Texture with a lower confidence is close to the noise level: 0.95 is a standard deviation of
+/// about three times the noise. Empirical.
 constexpr float kDistinctConfidence = 0.95f;
 
-/// Where texture is weak, the patch of the coarser level is kept if it costs less by this.
-/// Empirical.
+/// Where texture is weak, the patch of the coarser level is kept if its cost is lower by this
+/// margin. Empirical.
 constexpr float kInheritedCostMargin = 0.1f;
 
 /// Slope by which the costs below `kWeakCost` of kept coarser patches are mapped to those above it:
 /// 0…0.4 to 0.4…0.5, which is the default photometric threshold of the filter.
 constexpr float kWeakCostSlope = 0.25f;
 
-/// Pixels of a source. A proposed plane that moves the texels less is not scored, as Gauss–Newton
-/// gets there by itself. Empirical.
+/// In pixels of a source. A proposed plane that moves the texels by less is not scored, because
+/// Gauss–Newton converges to it anyway. Empirical.
 constexpr float kSamePlaneMotion = 0.4f;
 
-/// Pixels of a source. A Gauss–Newton step that moves the texels less is not scored again, which
-/// costs no accuracy (BENCHMARKS.md, boot at half resolution).
+/// In pixels of a source. After a Gauss–Newton step that moves the texels by less, the plane is not
+/// scored again, without loss of accuracy (BENCHMARKS.md, boot at half resolution).
 constexpr float kUnverifiedMotion = 0.2f;
 
-/// Range of the first random perturbation of a plane, which is halved in each round: of the inverse
-/// depth, relative, and of the slant, as a tangent. Empirical.
+/// Range of the first random perturbation of a plane, which is halved in each round: relative for
+/// the inverse depth, as a tangent for the slant. Empirical.
 constexpr float kPerturbedDepth = 0.02f, kPerturbedSlant = 0.7f;
 
-/// Pixels of a source that one pixel of the reference may cover: in less there is no detail, in
-/// more there is aliasing. Empirical.
+/// Bounds of the area of a reference pixel in pixels of a source: smaller areas contain no detail,
+/// larger ones cause aliasing. Empirical.
 constexpr float kSmallestFootprint = 0.1f, kLargestFootprint = 8.0f;
 
-/// A source takes part in a Gauss–Newton step if its cost is below `factor · best + offset`: one
-/// that sees the patch much worse than the best sees something in front of it. Weights by cost
-/// instead gave F 0.962 against 0.966 at 0.5 mm (BENCHMARKS.md, boot at half resolution).
-/// Empirical.
+/// A source takes part in a Gauss–Newton step if its cost is below `factor · best + offset`: a
+/// source with a much higher cost than the best one is occluded. Weights by cost instead gave an
+/// F-score of 0.962 at 0.5 mm, against 0.966 (BENCHMARKS.md, boot at half resolution). Empirical.
 constexpr float kVoterFactor = 1.5f, kVoterOffset = 0.05f;
 
 /// Cosine of the largest angle between a patch's normal and its viewing ray: 80°.
 constexpr float kGrazingCosine = 0.17f;
 
-/// Cost below which a coarse patch that the filter rejected is refined all the same; where none of
-/// those around is accepted or costs less, nothing is tried. Empirical.
+/// Cost below which a coarse patch is refined although the filter rejected it. A cell is skipped if
+/// none of the surrounding coarse patches is accepted or has a lower cost. Empirical.
 constexpr float kPromisingCost = 0.3f;
 
-/// Factors by which the range of inverse depths of the seeds, of coarse patches, and of patches and
-/// offers to be completed is extended. Empirical.
+/// Factors by which the range of inverse depths is extended: that of the seeds, of the coarse
+/// patches, and, for completion, of the patches and their proposals. Empirical.
 constexpr float kSeedRangeMargin = 2.0f, kRefinementRangeMargin = 1.5f,
                 kCompletionRangeMargin = 1.1f;
 
-/// Weight of a texel in completion of which it isn't known what surface it shows. Empirical.
+/// Weight in completion of a texel whose surface is unknown. Empirical.
 constexpr float kUnknownTexelWeight = 0.5f;
 
-/// Cost that a patch's weight in fusion adds, so that near-perfect patches weigh alike. Empirical.
+/// Offset added to the cost of a patch for its weight in fusion, so that near-perfect patches have
+/// similar weights. Empirical.
 constexpr float kFusionCostOffset = 0.05f;
 
-/// Relative difference of inverse depth between adjacent patches of one island. Empirical.
+/// Largest relative difference of inverse depth between adjacent patches of one connected
+/// component. Empirical.
 constexpr float kIslandDepthStep = 0.02f;
 
-/// Cosine below which a patch's footprint isn't enlarged any more by its slant. Empirical.
+/// Lower bound of the cosine in the footprint of a slanted patch. Empirical.
 constexpr float kLeastFootprintCosine = 0.1f;
 
 }  // namespace ck::patches

@@ -30,7 +30,7 @@ uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int
   const float normal = nx * nx + ny * ny + nz * nz;
   const float ray = dx * dx / (fx * fx) + dy * dy / (fy * fy) + 1;
   const float cosine = std::max(kLeastFootprintCosine, p.inverse_depth / std::sqrt(normal * ray));
-  // The side is 1 / (w · fx · sqrt(cosine)); four steps an octave, 1 in the middle.
+  // The side is 1 / (w · fx · sqrt(cosine)); four steps per octave, centered on 128.
   const float steps = -4 * std::log2(p.inverse_depth * fx) - 2 * std::log2(cosine);
   return static_cast<uint8_t>(std::clamp(std::floor(steps) + 128, 1.0f, 255.0f));
 }

@@ -53,7 +53,7 @@ struct Group {
   }
 };
 
-/// `cameraFromWorld` with the rotation by rows.
+/// `cameraFromWorld` with a row-major rotation.
 struct Frame {
   std::array<double, 9> rotation;
   double translation[3];

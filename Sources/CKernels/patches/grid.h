@@ -13,7 +13,7 @@ struct Plane {
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
-/// All sources, a bit each.
+/// Bit mask of all sources.
 constexpr uint8_t kAllSources = 0xff;
 
 /// Number of pixels optimized together: enough to hide memory latency, few enough for the

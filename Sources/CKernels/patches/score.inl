@@ -281,7 +281,8 @@ CK_INLINE void conclude(const Comparison& c, Trial& trial, int count, const Mome
   Samples& samples = *trial.samples;
   store(samples.mean, mean);
   store(samples.inverse_deviation, inverse_deviation);
-  // Those that see the patch much worse than the best one, for what is in front of it, don't vote.
+  // Sources with a much higher cost than the best one are occluded and do not contribute to the
+  // step.
   samples.visible_slots = mask(costs < std::min(1.0f, kVoterFactor * first + kVoterOffset));
   samples.group_count = (count + kSlots - 1) / kSlots;
 }

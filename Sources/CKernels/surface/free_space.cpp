@@ -92,7 +92,7 @@ class CrossedCells {
   std::vector<uint64_t> words_;
 };
 
-/// The points that each photo sees.
+/// The indices of the points that each photo sees.
 std::vector<std::vector<uint32_t>> points_of_photos(const ck_seen_points& seen,
                                                     size_t photo_count) {
   std::vector<std::vector<uint32_t>> points(photo_count);

@@ -60,7 +60,7 @@ struct RefinementView {
   /// Whether a point with this projection is at least `margin` pixels from the image border and not
   /// occluded.
   bool sees(Vec3 projected, float margin) const;
-  /// The length at a depth that a pixel shows.
+  /// The side of a pixel at a depth, in world units.
   float footprint(float depth) const { return depth / static_cast<float>(view.camera.fx); }
 
  private:

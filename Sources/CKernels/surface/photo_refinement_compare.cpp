@@ -13,9 +13,9 @@ using texture::dot;
 constexpr float kMinimumCosine = 0.25f;
 /// Correlation from which a window has full weight.
 constexpr float kGoodCorrelation = 0.9f;
-/// Share of a window that both photos must show. Empirical.
+/// Smallest fraction of a window that must be visible in both photos. Empirical.
 constexpr float kLeastCoverage = 0.5f;
-/// Differences beyond this, in standard deviations of the window, count less (Huber).
+/// Threshold of the Huber weights, in standard deviations of the window.
 constexpr float kLargeDifference = 1;
 /// Image border in pixels that interpolation needs around a position.
 constexpr float kMargin = 3;

@@ -31,7 +31,8 @@ std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const 
   return cells;
 }
 
-/// The distinct cells in order; `numbers` receives each finite point's.
+/// The distinct cells in lexicographic order; `numbers` receives the cell index of each finite
+/// point, −1 for others.
 std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cell>& cells,
                          int32_t* numbers, const ck_control* control) {
   std::vector<uint32_t> order;
@@ -51,7 +52,7 @@ std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cel
   return distinct;
 }
 
-/// Joins each cell with those of its 26 neighbors that come later in the order.
+/// Unites each cell with those of its 26 neighbors that come later in the order.
 ///
 /// For each of the rows (dx, dy) a cursor follows the sorted cells, so that no search is needed.
 std::vector<int32_t> join_cells(const std::vector<Cell>& cells, size_t* count,

@@ -7,13 +7,13 @@
 namespace ck::texture {
 namespace {
 
-/// Least component of a baked normal along the textured surface's: steeper ones are left flat.
-/// Empirical.
+/// Smallest component of a baked normal along the normal of the textured surface; texels with
+/// steeper ones stay flat. Empirical.
 constexpr float kSteepestNormal = 0.05f;
-/// Cosine between the two surfaces above which the dense one faces the same way. Empirical.
+/// Cosine between the normals of the two surfaces above which they face the same way. Empirical.
 constexpr float kFacingCosine = 0.1f;
 
-/// A unit vector as three bytes; flat (0, 0, 1) is 128, 128, 255.
+/// Encodes a unit vector as three bytes; the flat normal (0, 0, 1) is 128, 128, 255.
 void encode(Vec3 n, uint8_t* pixel) {
   const auto byte = [](float v) {
     return static_cast<uint8_t>(std::clamp(std::lround(127.5f * v + 127.5f), 0L, 255L));

@@ -12,10 +12,10 @@ constexpr float kStretchCost = 6;
 /// Largest number of rounds over the boundaries.
 constexpr int kPasses = 4;
 
-/// Cosine beyond which foreshortening isn't counted. Empirical.
+/// Lower bound of the cosine by which foreshortening is weighted. Empirical.
 constexpr float kLeastForeshortening = 0.05f;
 
-/// A cluster's area, the larger the more an axis foreshortens it.
+/// A cluster's area, weighted by its foreshortening along an axis.
 float stretched_area(const Cluster& c, Vec3 axis) {
   const float along = dot(c.normal_sum, axis);
   return c.area * (c.area / std::max(along, kLeastForeshortening * c.area));

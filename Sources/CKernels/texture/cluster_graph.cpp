@@ -36,12 +36,13 @@ ClusterGraph graph_of(const ChartMesh& mesh) {
 
 namespace {
 
-/// What goes into each cluster of a contracted graph: `list[starts[k]..<starts[k + 1]]`, the
-/// cluster that stays first.
+/// The clusters merged into each cluster of a contracted graph: `list[starts[k]..<starts[k + 1]]`,
+/// the target first.
 struct Members {
   std::vector<uint32_t> starts, list;
 
-  /// `targets` are clusters that stay, `ids` the numbers of these in the contracted graph.
+  /// `targets` holds the merge target of each cluster, `ids` the index of each target in the
+  /// contracted graph.
   Members(const std::vector<uint32_t>& targets, const std::vector<uint32_t>& ids, size_t kept)
       : starts(kept + 1, 0), list(targets.size()) {
     const auto count = static_cast<uint32_t>(targets.size());
@@ -86,7 +87,7 @@ void append(std::vector<Neighbor>& all, std::vector<Neighbor>& added) {
 ClusterGraph ClusterGraph::contracted(std::vector<uint32_t> targets, bool keeps_axes) {
   const auto count = static_cast<uint32_t>(clusters.size());
   ClusterGraph result;
-  // The clusters that stay keep their order.
+  // Targets keep their order.
   std::vector<uint32_t> ids(count);
   for (uint32_t i = 0; i < count; ++i) {
     if (targets[i] != i) continue;

@@ -14,11 +14,13 @@ namespace {
 constexpr float kFar = std::numeric_limits<float>::max();
 
 // Lengths in diagonals of the surface's bounding box; all empirical.
-/// Where a ray to the camera starts in front of the triangle, at most half way.
+/// Offset in front of the triangle at which a ray to the camera starts; at most halfway to the
+/// camera.
 constexpr float kRayOffset = 2e-4f;
-/// How far surfaces in front of or behind a triangle may be to count as its own.
+/// Largest depth difference at which a surface counts as that of the triangle, not as an occluder
+/// or background.
 constexpr float kDepthTolerance = 0.004f;
-/// Share of the way from a triangle's center to its corners at which rays start.
+/// Position between a triangle's centroid (0) and its corners (1) at which rays start.
 constexpr float kCornerShare = 0.95f;
 
 struct Corner {
@@ -193,14 +195,14 @@ class Observer {
   bool is_hidden(size_t t, Vec3 centroid, float distance) const {
     const float near = std::min(0.5f, kRayOffset * scene_.diagonal / distance);
     for (int i = 0; i < 4; ++i) {
-      // Corners are moved inwards, so that the neighbors' edges don't decide.
+      // Corners are moved inwards, so that adjacent triangles do not occlude them.
       const Vec3 p = i == 3 ? centroid : centroid + (scene_.corner(t, i) - centroid) * kCornerShare;
       if (is_occluded(scene_, p, projection_.center - p, near, 1)) return true;
     }
     return false;
   }
 
-  /// Sets `clearance` and `interior` from the depths and the mask around the corners.
+  /// Sets `is_clear` and `is_interior` from the depths and the mask around the corners.
   void check_surroundings(const std::array<Corner, 3>& corners, float cosine,
                           ck_face_observation* result) const {
     result->is_clear = result->is_interior = true;
@@ -208,7 +210,7 @@ class Observer {
     for (const Corner& c : corners) {
       const float pixel = c.depth / static_cast<float>(view_.camera.fx);
       const float reach = static_cast<float>((radius_ + 1) * DepthRange::kShrink) * pixel;
-      // The surface itself may rise and fall that much.
+      // Depth variation that the slope of the surface itself explains.
       const float tolerance = reach * (2 * slope + 2) + kDepthTolerance * scene_.diagonal;
       const size_t place = depths_.at(c.pixel);
       if (depths_.nearest[place] < c.depth - tolerance) result->is_clear = false;

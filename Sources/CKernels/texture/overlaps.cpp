@@ -10,8 +10,8 @@ namespace {
 
 /// Largest number of rounds of splitting overlapping charts.
 constexpr int kMaximumRounds = 6;
-/// Cosine between a triangle's normal and the axis of its chart below which the projection turns it
-/// over or stands it on its edge. Empirical.
+/// Cosine between a triangle's normal and the axis of its chart below which the triangle counts as
+/// back-facing or almost parallel to the axis. Empirical.
 constexpr float kLeaningCosine = 0.1f;
 
 /// The triangles of each chart, in ascending order.
@@ -113,7 +113,7 @@ class OverlapFinder {
   int width_ = 0, height_ = 0;
 };
 
-/// Splits charts into their connected components; a component keeps the axis of its chart.
+/// Splits charts into connected components; each keeps the axis of its chart.
 void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
                       std::vector<Vec3>* axes) {
   DisjointSets components(charts->size());

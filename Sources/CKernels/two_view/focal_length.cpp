@@ -11,7 +11,7 @@ namespace {
 /// Levenberg–Marquardt steps per factor.
 constexpr int kSteps = 15;
 
-/// The points as they would be with `factor` times the focal length.
+/// The points for `factor` times the focal length.
 Matches scaled(const ck_point_pairs& pairs, double factor) {
   const auto [first, second, count] = pairs;
   std::vector<double> a(first, first + 2 * count), b(second, second + 2 * count);

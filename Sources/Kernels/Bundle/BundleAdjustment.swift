@@ -125,9 +125,9 @@ package struct BundleAdjustment: Sendable {
       iterations: Int(summary.iterations), hasConverged: summary.converged)
   }
 
-  /// The reprojection error of one observation with its derivatives by rows: 2×6 by the pose
-  /// (rotation vector applied from the left, translation), 2×3 by the point, 2×7 by the camera
-  /// (fx with fy in proportion, cx, cy, k1, k2, p1, p2).
+  /// The reprojection error of one observation in pixels, with its derivatives in row-major order:
+  /// 2×6 with respect to the pose (left-multiplied rotation vector, translation), 2×3 to the point,
+  /// 2×7 to the camera (fx with fy in proportion, cx, cy, k1, k2, p1, p2).
   package static func jacobians(
     camera: Camera, cameraFromWorld: RigidTransform, point: SIMD3<Double>, pixel: SIMD2<Double>
   ) throws -> (residual: SIMD2<Double>, pose: [Double], point: [Double], camera: [Double]) {
@@ -165,7 +165,7 @@ extension BundleAdjustment.Options {
   }
 }
 
-/// A problem in the memory that the kernel works on.
+/// A copy of a problem in the memory layout of the kernel.
 private struct Scene {
   private let cameras: KernelArray<ck_camera>
   private let cameraFreedom: KernelArray<UInt32>
@@ -202,7 +202,7 @@ private struct Scene {
     return withExtendedLifetime(self) { ck_bundle_adjust(&bundle, &options, control, &summary) }
   }
 
-  /// Copies the adjusted values back; photos without a pose keep none.
+  /// Copies the adjusted values back; photos without a pose remain without one.
   func store(in problem: inout BundleAdjustment.Problem) {
     problem.points = Array(points.elements)
     for (index, pose) in poses.elements.enumerated() where problem.photos.poses[index] != nil {

@@ -16,7 +16,7 @@ package struct PosedPhotos: Sendable {
     self.cameraOfPhoto = cameraOfPhoto
   }
 
-  /// Calls `body` with the photos as kernels take them; they are valid during the call only.
+  /// Calls `body` with the C representation, valid only during the call.
   func withKernelValue<Result>(
     _ body: (UnsafePointer<ck_posed_photos>) throws -> Result
   ) rethrows -> Result {

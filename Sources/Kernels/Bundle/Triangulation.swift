@@ -23,7 +23,7 @@ package struct TrackObservations: Sendable {
     offsets.append(Int32(observations.count))
   }
 
-  /// Calls `body` with the tracks as kernels take them; they are valid during the call only.
+  /// Calls `body` with the C representation, valid only during the call.
   func withKernelValue<Result>(
     _ body: (UnsafePointer<ck_tracks>) throws -> Result
   ) rethrows -> Result {

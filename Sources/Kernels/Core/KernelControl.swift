@@ -5,8 +5,8 @@ import SceneModel
 
 /// Reports progress of kernels, and passes cancellation to them.
 ///
-/// Kernels call back from their own threads, where `Task.isCancelled` has no effect; hence the
-/// flag.
+/// Kernels call back from threads that they create, where `Task.isCancelled` has no effect; hence
+/// the flag.
 package final class KernelControl: Sendable {
   /// Receives the fraction done, 0…1, on any thread.
   package typealias ProgressHandler = @Sendable (Double) -> Void

@@ -1,9 +1,9 @@
 import CKernels
 import SceneModel
 
-/// Elements at a fixed address, for the structs of pointers that kernels take.
+/// Elements at a fixed address, for the pointers in C structs that are passed to kernels.
 ///
-/// Keep it alive during the call with `withExtendedLifetime`.
+/// Must be kept alive during the call with `withExtendedLifetime`.
 final class KernelArray<Element: BitwiseCopyable> {
   let elements: UnsafeMutableBufferPointer<Element>
 
@@ -22,7 +22,7 @@ final class KernelArray<Element: BitwiseCopyable> {
   }
 }
 
-/// Elements at a fixed address that nothing changes after `init`, so that threads may share them.
+/// Elements at a fixed address, immutable after `init`, so that threads may share them.
 final class FrozenArray<Element: BitwiseCopyable & Sendable>: Sendable {
   nonisolated(unsafe) let elements: UnsafeBufferPointer<Element>
 
@@ -49,7 +49,7 @@ final class FrozenArray<Element: BitwiseCopyable & Sendable>: Sendable {
   var base: UnsafePointer<Element>? { elements.baseAddress }
 }
 
-/// Elements at a fixed address with one owner, who may change them until they are frozen.
+/// Elements at a fixed address with a single owner, mutable until they are frozen.
 struct UniqueArray<Element: BitwiseCopyable & Sendable>: ~Copyable {
   let elements: UnsafeMutableBufferPointer<Element>
 
@@ -60,7 +60,7 @@ struct UniqueArray<Element: BitwiseCopyable & Sendable>: ~Copyable {
 
   deinit { elements.deallocate() }
 
-  /// Hands the memory over.
+  /// Transfers the memory without copying it.
   consuming func frozen() -> FrozenArray<Element> {
     let elements = elements
     discard self
@@ -69,7 +69,7 @@ struct UniqueArray<Element: BitwiseCopyable & Sendable>: ~Copyable {
 }
 
 extension Array where Element: BitwiseCopyable {
-  /// Calls `body` with the elements as a span; it is valid during the call only.
+  /// Calls `body` with the elements as a span, valid only during the call.
   func withSpan<Result>(_ body: (ck_span) throws -> Result) rethrows -> Result {
     try withUnsafeBytes {
       try body(
@@ -77,7 +77,7 @@ extension Array where Element: BitwiseCopyable {
     }
   }
 
-  /// Calls `body` with the elements as a span to write; it is valid during the call only.
+  /// Calls `body` with the elements as a writable span, valid only during the call.
   mutating func withMutableSpan<Result>(
     _ body: (ck_mutable_span) throws -> Result
   ) rethrows -> Result {
@@ -90,7 +90,7 @@ extension Array where Element: BitwiseCopyable {
   }
 }
 
-/// Calls `body` with the elements of two arrays as spans; they are valid during the call only.
+/// Calls `body` with the elements of two arrays as spans, valid only during the call.
 func withSpans<A: BitwiseCopyable, B: BitwiseCopyable, Result>(
   _ a: [A], _ b: [B], _ body: (ck_span, ck_span) throws -> Result
 ) rethrows -> Result {
@@ -98,7 +98,7 @@ func withSpans<A: BitwiseCopyable, B: BitwiseCopyable, Result>(
 }
 
 extension Mesh {
-  /// Calls `body` with the mesh's positions and triangles; they are valid during the call only.
+  /// Calls `body` with the mesh's positions and triangles, valid only during the call.
   func withKernelValue<Result>(
     _ body: (UnsafePointer<ck_mesh>) throws -> Result
   ) rethrows -> Result {
@@ -110,8 +110,7 @@ extension Mesh {
     }
   }
 
-  /// Calls `body` with the mesh's positions and triangles to write; they are valid during the call
-  /// only.
+  /// Calls `body` with the mesh's positions and triangles to modify, valid only during the call.
   mutating func withMutableKernelValue<Result>(
     _ body: (inout ck_mutable_mesh) throws -> Result
   ) rethrows -> Result {
@@ -127,7 +126,7 @@ extension Mesh {
 }
 
 extension RasterImage {
-  /// Calls `body` with the pixels; they are valid during the call only.
+  /// Calls `body` with the pixels, valid only during the call.
   package func withKernelPixels<Result>(
     _ body: (UnsafePointer<ck_pixels>) throws -> Result
   ) rethrows -> Result {
@@ -139,7 +138,7 @@ extension RasterImage {
     }
   }
 
-  /// Calls `body` with the pixels to write; they are valid during the call only.
+  /// Calls `body` with the writable pixels, valid only during the call.
   mutating func withMutableKernelPixels<Result>(
     _ body: (UnsafePointer<ck_mutable_pixels>) throws -> Result
   ) rethrows -> Result {

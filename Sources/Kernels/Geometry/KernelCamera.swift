@@ -10,7 +10,7 @@ extension ck_camera {
       height: Int32(camera.height))
   }
 
-  /// The camera with images of another size than it says.
+  /// The camera with an image size of `width` × `height`, and otherwise unchanged parameters.
   init(_ camera: Camera, width: Int, height: Int) {
     self.init(camera)
     (self.width, self.height) = (Int32(width), Int32(height))

@@ -7,7 +7,7 @@ package struct FaceObservation: Hashable, Sendable {
   package var face: Int32
   /// Index of the view, set by the caller.
   package var view: Int32 = 0
-  /// Pixels that the triangle covers.
+  /// Projected area in pixels.
   package var area: Float
   /// Cosine of the angle between the triangle's normal and the direction to the camera.
   package var cosine: Float

@@ -1,9 +1,11 @@
 import CKernels
 import SceneModel
 
-/// A sparse point in a view: pixel of the view and inverse depth.
+/// A sparse point in a view: pixel position and inverse depth.
 package struct PatchSeed: Hashable, Sendable {
+  /// Pixel coordinates, origin at the top-left corner of the view.
   package var pixel: SIMD2<Float>
+  /// 1 / z in the camera frame.
   package var inverseDepth: Float
 
   package init(pixel: SIMD2<Float>, inverseDepth: Float) {
@@ -12,12 +14,15 @@ package struct PatchSeed: Hashable, Sendable {
   }
 }
 
-/// The patch of one pixel: a plane as its inverse depth at the pixel's centre and the gradient of
-/// the inverse depth over the pixel grid. An inverse depth of 0 means that there is no patch.
+/// The patch of one pixel: a plane given by its inverse depth at the pixel's center and the
+/// gradient of the inverse depth over the pixel grid. An inverse depth of 0 means that there is no
+/// patch.
 package struct Patch: Hashable, Sendable {
+  /// 1 / z in the camera frame, at the pixel's center.
   package var inverseDepth: Float
+  /// Change of the inverse depth per pixel in x and y.
   package var gradient: SIMD2<Float>
-  /// 1 − ZNCC, the mean of the best two sources; 2 where there is no patch.
+  /// 1 − ZNCC, the mean of the best two sources; 2 without a patch.
   package var cost: Float
 
   package init(inverseDepth: Float, gradient: SIMD2<Float>, cost: Float) {

@@ -1,8 +1,8 @@
 import CKernels
 import SceneModel
 
-/// The patches of one view while they are made. One owner changes them; `finished()` hands the
-/// memory over to a map that threads may share.
+/// The patches of one view under construction, with a single owner. `finished()` transfers the
+/// memory to an immutable map that threads may share.
 package struct PatchMapBuilder: ~Copyable {
   package let view: PatchView
   private var memory: UniqueArray<ck_patch>
@@ -13,13 +13,13 @@ package struct PatchMapBuilder: ~Copyable {
     memory = UniqueArray(repeating: .none, count: view.width * view.height)
   }
 
-  /// The patches of a finished map, to be changed.
+  /// A mutable copy of the patches of a finished map.
   package init(copying map: PatchMap) {
     self.init(view: map.view)
     map.withPatchBytes { UnsafeMutableRawBufferPointer(patches).copyMemory(from: $0) }
   }
 
-  /// The finished map; its patches aren't filtered.
+  /// The immutable map; its patches are not filtered.
   package consuming func finished() -> PatchMap {
     let view = view
     return PatchMap(view: view, patches: memory.frozen())
@@ -34,7 +34,8 @@ package struct PatchMapBuilder: ~Copyable {
     set { memory.elements[y * view.width + x] = ck_patch(newValue) }
   }
 
-  /// Removes the patches of pixels that are below `least` in a mask, gray and of the view's size.
+  /// Removes the patches of pixels below `least` in a mask, gray and of the view's size. Throws
+  /// `KernelError.invalidArgument` for another mask.
   package mutating func removePatches(outside mask: RasterImage, least: UInt8 = 128) throws {
     guard (mask.width, mask.height, mask.channels) == (view.width, view.height, 1) else {
       throw KernelError.invalidArgument("the mask is not gray or not of the view's size")
@@ -42,7 +43,8 @@ package struct PatchMapBuilder: ~Copyable {
     for index in patches.indices where mask.pixels[index] < least { patches[index] = .none }
   }
 
-  /// Calls `body` with all patches as they are in memory, in the machine's byte order.
+  /// Calls `body` with all patches in memory layout and native byte order, valid only during the
+  /// call.
   package borrowing func withPatchBytes<Result>(
     _ body: (UnsafeRawBufferPointer) throws -> Result
   ) rethrows -> Result {
@@ -50,11 +52,11 @@ package struct PatchMapBuilder: ~Copyable {
   }
 }
 
-/// The patches of one view, and which of them were accepted. Immutable.
+/// The patches of one view, and which of them the filter accepted. Immutable.
 package final class PatchMap: Sendable {
   package let view: PatchView
   private let patches: FrozenArray<ck_patch>
-  /// Nil before the filter.
+  /// Nil for an unfiltered map.
   package let states: PatchStates?
 
   fileprivate init(
@@ -63,8 +65,7 @@ package final class PatchMap: Sendable {
     (self.view, self.patches, self.states) = (view, patches, states)
   }
 
-  /// A map whose patches `fill` writes into the buffer that it receives, as `withPatchBytes` has
-  /// them.
+  /// A map whose patches `fill` writes to the given buffer, in the layout of `withPatchBytes`.
   package convenience init(
     view: PatchView, states: PatchStates? = nil,
     fill: (UnsafeMutableRawBufferPointer) throws -> Void
@@ -75,7 +76,7 @@ package final class PatchMap: Sendable {
     self.init(view: view, patches: patches, states: states)
   }
 
-  /// The map with the result of a filter.
+  /// The map with the result of `PatchStereo.filter`.
   package func filtered(_ states: PatchStates) -> PatchMap {
     PatchMap(view: view, patches: patches, states: states)
   }
@@ -89,7 +90,8 @@ package final class PatchMap: Sendable {
       states: states?.states.base, visibility: states?.visibility?.base)
   }
 
-  /// Calls `body` with all patches as they are in memory, in the machine's byte order.
+  /// Calls `body` with all patches in memory layout and native byte order, valid only during the
+  /// call.
   package func withPatchBytes<Result>(
     _ body: (UnsafeRawBufferPointer) throws -> Result
   ) rethrows -> Result {
@@ -102,10 +104,10 @@ package final class PatchMap: Sendable {
   /// The patch at column `x`, row `y`.
   package subscript(x: Int, y: Int) -> Patch { Patch(patches.elements[y * view.width + x]) }
 
-  /// Patches that passed the filter; 0 before it.
+  /// Number of patches that passed the filter; 0 for an unfiltered map.
   package var acceptedCount: Int { states?.acceptedCount ?? 0 }
 
-  /// Whether the patch at column `x`, row `y` passed the filter; false before it.
+  /// Whether the filter accepted the patch at column `x`, row `y`; false for an unfiltered map.
   package func isAccepted(_ x: Int, _ y: Int) -> Bool {
     states.map { $0.states.elements[y * view.width + x] != 0 } ?? false
   }
@@ -114,14 +116,15 @@ package final class PatchMap: Sendable {
 /// The result of the filter for each patch of a view. Immutable.
 package struct PatchStates: Sendable {
   let states: FrozenArray<UInt8>
-  /// The neighbors that agree with each patch, a bit each in the filter's order; nil unless recorded.
+  /// Bit mask of the neighbors that confirm each patch, in the order given to the filter; nil
+  /// unless `filter` recorded it.
   let visibility: FrozenArray<UInt8>?
 
   init(states: FrozenArray<UInt8>, visibility: FrozenArray<UInt8>? = nil) {
     (self.states, self.visibility) = (states, visibility)
   }
 
-  /// States that `fill` writes into the buffer that it receives, as `withBytes` has them.
+  /// States that `fill` writes to the given buffer, in the layout of `withBytes`.
   package init(
     view: PatchView, fill: (UnsafeMutableRawBufferPointer) throws -> Void
   ) rethrows {
@@ -131,10 +134,11 @@ package struct PatchStates: Sendable {
     visibility = nil
   }
 
-  /// Patches that passed the filter.
+  /// Number of patches that passed the filter.
   package var acceptedCount: Int { states.elements.reduce(0) { $0 + ($1 != 0 ? 1 : 0) } }
 
-  /// Calls `body` with one byte per patch: 0, or the class of an accepted patch's footprint.
+  /// Calls `body` with one byte per patch, valid only during the call: 0 if rejected, otherwise the
+  /// footprint class.
   package func withBytes<Result>(
     _ body: (UnsafeRawBufferPointer) throws -> Result
   ) rethrows -> Result {

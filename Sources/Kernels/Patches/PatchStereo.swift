@@ -9,12 +9,12 @@ package enum PatchStereo {
     package var levelCount = 4
     /// Propagation sweeps at the coarsest level.
     package var coarseSweeps = 2
-    /// Random planes tried around the current one at the coarsest level.
+    /// Number of random perturbations of the current plane to test at the coarsest level.
     package var perturbations = 3
     /// Gauss–Newton steps.
     package var refinementSteps = 2
-    /// Gray levels at which the bilateral weight is one half. On boot at half resolution 6 gave
-    /// F 0.966 at 0.5 mm, 10 gave 0.965 (BENCHMARKS.md).
+    /// Gray-level difference at which the bilateral weight is one half. On boot at half resolution,
+    /// 6 gave an F-score of 0.966 at 0.5 mm, 10 gave 0.965 (BENCHMARKS.md).
     package var bilateralContrast: Float = 6
     /// Whether views propagate patches to each other.
     package var expandsAcrossViews = true
@@ -30,18 +30,18 @@ package enum PatchStereo {
 
   /// Parameters of filtering and fusing patches.
   package struct FilterOptions: Hashable, Codable, Sendable {
-    /// Largest cost (1 − ZNCC) of a patch that `minimumAgreeingViews` may confirm. Empirical; above
-    /// the literature's thresholds for ZNCC alone, as noise in weak texture raises this cost and
-    /// other views confirm each patch geometrically.
+    /// Maximum 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm. Empirical; higher than
+    /// the thresholds in the literature for ZNCC alone, because noise in weak texture raises this
+    /// cost and each patch is also confirmed geometrically by other views.
     package var photometricThreshold: Float = 0.5
-    /// Largest cost of a patch; between the two thresholds, where texture is weak, one more view must
-    /// agree. Empirical.
+    /// Maximum 1 − ZNCC of any patch; between the two thresholds, where texture is weak, one more
+    /// view must agree. Empirical.
     package var weakTextureThreshold: Float = 0.6
     /// Number of other views that must agree; with fewer views all but one, but at least one.
     package var minimumAgreeingViews = 2
-    /// Pixels of disparity between a patch and its confirmation, in the coarser view: what that means
-    /// for depth follows from the parallax. On boot at half resolution 0.8 and 1 gave F 0.964 and
-    /// 0.965 at 0.5 mm, 0.6 gave 0.966 (BENCHMARKS.md).
+    /// Maximum disparity in pixels between a patch and its confirmation, in the coarser view; the
+    /// parallax determines the corresponding depth difference. On boot at half resolution, 0.6 gave
+    /// an F-score of 0.966 at 0.5 mm, 0.8 gave 0.964 and 1 gave 0.965 (BENCHMARKS.md).
     package var reprojectionThreshold: Float = 0.6
     /// Maximum relative difference of depth, for small parallax.
     package var depthThreshold: Float = 0.01
@@ -92,8 +92,9 @@ package enum PatchStereo {
     }
   }
 
-  /// Makes the patches of `map`'s view from filtered ones at half the resolution, whose states record
-  /// visibility. `sources` are the views that those were filtered by, in the same order.
+  /// Computes the patches of `map`'s view from those at half the resolution, which must have been
+  /// filtered with `recordsVisibility`. `sources` must be in the same order as the neighbors of
+  /// that filter.
   package static func refine(
     _ map: inout PatchMapBuilder, from coarse: PatchMap, sources: [PatchView], options: Options,
     control: KernelControl
@@ -109,8 +110,9 @@ package enum PatchStereo {
     }
   }
 
-  /// Accepts the patches of `map` that enough of its neighbors confirm and no more contradict; for
-  /// `refine` it records which do.
+  /// Accepts the patches of `map` that enough of its neighbors confirm and not too many contradict
+  /// (geometric consistency). With `recordsVisibility`, also records which neighbors confirm each
+  /// patch, for `refine`.
   package static func filter(
     _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions,
     recordsVisibility: Bool = false, control: KernelControl
@@ -137,10 +139,10 @@ package enum PatchStereo {
     return PatchStates(states: states, visibility: visibility)
   }
 
-  /// Expands patches across views and into holes: `map` with better patches from its neighbors and
-  /// from adjacent cells where the filter rejected them; near edges of the surface they are estimated
-  /// again, from the texels on their side. The map and its neighbors are filtered; the result is to be
-  /// filtered again.
+  /// Expands patches across views and into holes: where the filter rejected patches of `map`, tries
+  /// those of its neighbor views and of adjacent pixels; near depth edges, patches are re-estimated
+  /// from the texels on their side. The map and all its neighbors must be filtered; the result must
+  /// be filtered again.
   package static func complete(
     _ map: PatchMap, neighbors: [PatchMap], options: Options, control: KernelControl
   ) throws -> PatchMapBuilder {
@@ -160,8 +162,9 @@ package enum PatchStereo {
   /// Fuses the accepted patches of `map` with the consistent ones of its neighbors, in the world
   /// frame.
   ///
-  /// The map and its neighbors are filtered. A piece of surface that several views show becomes a
-  /// point of the view that shows it at the smallest footprint, so that maps are fused in any order.
+  /// The map and all its neighbors must be filtered. A surface element that several views observe
+  /// becomes a point of the view with the smallest footprint there, so that maps can be fused in
+  /// any order.
   package static func fuse(
     _ map: PatchMap, neighbors: [PatchMap], options: FilterOptions, control: KernelControl
   ) throws -> PointCloud {

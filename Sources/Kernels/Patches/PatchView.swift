@@ -11,10 +11,10 @@ package final class PatchView: Sendable {
   /// Pixels.
   package let width: Int
   package let height: Int
-  /// Standard deviation of the luma's noise in gray levels.
+  /// Standard deviation of the luma noise in gray levels.
   package let noise: Float
   let luma: FrozenArray<UInt8>
-  /// Nil in a halved view: colors are taken from the whole one.
+  /// Nil in a halved view: colors are taken from the full one.
   let rgb: FrozenArray<UInt8>?
 
   /// A copy of an image in memory; `noise` is estimated if nil.
@@ -27,7 +27,7 @@ package final class PatchView: Sendable {
     }
   }
 
-  /// A view whose RGB pixels `fill` writes into the buffer that it receives.
+  /// A view whose RGB pixels `fill` writes to the given buffer.
   package init(
     photo: ID<Photo>, camera: Camera, cameraFromWorld: RigidTransform, width: Int, height: Int,
     noise: Float? = nil, fill: (UnsafeMutableRawBufferPointer) throws -> Void
@@ -62,7 +62,7 @@ package final class PatchView: Sendable {
     camera.focalLength *= 0.5
     camera.principalPoint *= 0.5
     self.camera = camera
-    // Averaging four pixels halves the noise.
+    // Averaging four pixels halves the standard deviation of the noise.
     noise = view.noise / 2
     rgb = nil
     luma = FrozenArray(count: width * height) {
@@ -70,7 +70,7 @@ package final class PatchView: Sendable {
     }
   }
 
-  /// The RGB pixels, none of a halved view; valid as long as this object lives.
+  /// The RGB pixels, empty for a halved view; valid as long as this object lives.
   package var rgbBytes: UnsafeRawBufferPointer {
     rgb.map { UnsafeRawBufferPointer($0.elements) } ?? UnsafeRawBufferPointer(start: nil, count: 0)
   }

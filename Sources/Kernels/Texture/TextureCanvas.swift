@@ -25,7 +25,7 @@ package struct FacePaint: Sendable {
 package final class TextureCanvas {
   /// Texels per side of the square texture.
   package let side: Int
-  /// The textured surface; the kernel reads it as long as the canvas lives.
+  /// The textured surface, which the kernel reads; kept alive as long as the canvas.
   private let scene: RayScene
   private let handle: OpaquePointer
 

@@ -99,7 +99,7 @@ package struct SparseLeastSquares: Sendable {
     var values = rightSides.flatMap { [$0.x, $0.y, $0.z] }
     let indices = 0..<UInt32(unknownCount)
     let (allRows, allColumns) = (KernelArray(rows + indices), KernelArray(columns + indices))
-    // A tiny weight keeps unknowns that no equation names at zero.
+    // A tiny weight keeps unknowns without equations at zero.
     let allEntries = KernelArray(entries + diagonal.map { max($0, 1e-12) })
     var options = ck_conjugate_gradient_options(
       tolerance: tolerance, maximum_iterations: iterations)

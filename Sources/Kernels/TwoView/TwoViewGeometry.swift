@@ -105,7 +105,7 @@ func withCoordinates<Result>(
   points.withUnsafeBytes { body($0.bindMemory(to: Double.self)) }
 }
 
-/// Matches as kernels take them; `body` may use them during the call only.
+/// Calls `body` with the C representation of matches, valid only during the call.
 func withPairs<Result>(
   _ first: [SIMD2<Double>], _ second: [SIMD2<Double>],
   _ body: (UnsafePointer<ck_point_pairs>) -> Result

@@ -20,7 +20,7 @@ struct PatchMasks: Sendable {
     (self.images, self.maximumPixels) = (images, maximumPixels)
   }
 
-  /// Removes the patches of view `index` that lie outside; `map` may have half the view's
+  /// Removes the patches of view `index` outside its mask; `map` may have half the view's
   /// resolution.
   func apply(to map: inout PatchMapBuilder, _ index: Int) throws {
     let view = views.views[index]

@@ -3,9 +3,10 @@ import Foundation
 extension SimilarityTransform {
   /// The similarity that maps `source` to `target` with the least sum of squared distances.
   ///
-  /// Rotation by Horn's unit quaternion method (JOSA A 1987), which never yields a reflection, scale
-  /// by the formula of Umeyama (PAMI 1991). Nil with fewer than three pairs or if all points
-  /// coincide; with `requiresUniqueRotation`, also for collinear points, which determine no rotation.
+  /// Rotation by Horn's unit quaternion method (JOSA A 1987), which never yields a reflection,
+  /// scale by the formula of Umeyama (PAMI 1991). Nil with fewer than three pairs or if all points
+  /// coincide; with `requiresUniqueRotation`, also for collinear points, which determine no
+  /// rotation.
   package static func fitting(
     _ source: [SIMD3<Double>], to target: [SIMD3<Double>], requiresUniqueRotation: Bool = false
   ) -> SimilarityTransform? {
@@ -34,7 +35,7 @@ extension SimilarityTransform {
       translation: targetMean - scale * (rotation * sourceMean))
   }
 
-  /// The rotation that maximizes Σ q·(R p) for `s[i][j] = Σ p_i q_j`, and whether no other one does.
+  /// The rotation that maximizes Σ q·(R p) for `s[i][j] = Σ p_i q_j`, and whether it is unique.
   private static func hornRotation(
     _ s: [SIMD3<Double>]
   ) -> (rotation: Quaternion, isUnique: Bool) {

@@ -3,7 +3,7 @@ import Kernels
 import SceneModel
 import Testing
 
-/// Kernels run in programs of others: they change no setting of the process.
+/// Kernels run in the processes of client programs and do not change settings of the process.
 @Suite struct HostProcessTests {
   @Test func kernelsLeaveLoggingAlone() throws {
     let image = RasterImage(width: 64, height: 48, channels: 3)

@@ -2,7 +2,8 @@ import CKernels
 import Kernels
 import Testing
 
-/// The loop that the C++ kernels share, on a system that creates only some of the requested threads.
+/// The parallel loop of the C++ kernels on a system that creates only some of the requested
+/// threads.
 @Suite struct ParallelForTests {
   private func visits(
     count: Int, threads: Int, available: Int, failing: Int = .max

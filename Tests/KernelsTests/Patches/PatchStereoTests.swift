@@ -247,7 +247,7 @@ import Testing
 
   @Test func floatersAreRemoved() throws {
     var maps = try Self.maps(Self.scene)
-    // A confident patch of 20 × 20 pixels half way to the ball, in one view only and in two.
+    // A confident patch of 20 × 20 pixels halfway to the ball, in one view only and in two.
     let region = (60..<80, 50..<70)
     for view in [2, 3] {
       var changed = PatchMapBuilder(copying: maps[view])
@@ -271,7 +271,7 @@ import Testing
     options.isUniform = true
     let scene = RaycastScene(options)
     let cloud = try Self.fused(Self.maps(scene))
-    #expect(cloud.count < 200)  // The outline of the ball against the floor is all there is.
+    #expect(cloud.count < 200)  // Only the outline of the ball against the floor has texture.
   }
 
   @Test func cancellationStops() throws {
