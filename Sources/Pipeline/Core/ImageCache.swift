@@ -35,15 +35,13 @@ final class ImageCache: Sendable {
     }
   }
 
-  /// Adds an image; drops those that were not used the longest, unless `evicts` is false: then the
-  /// image is kept only where there is room.
-  func keep(_ image: RasterImage, _ content: Content, of photo: ID<Photo>, evicts: Bool = true) {
+  /// Adds an image and drops the least recently used ones that exceed the budget.
+  func keep(_ image: RasterImage, _ content: Content, of photo: ID<Photo>) {
     let size = image.pixels.count
     let key = Key(photo: photo, content: content)
     guard size <= byteBudget else { return }
     state.withLock { state in
       guard state.images[key] == nil else { return }
-      guard evicts || state.byteCount + size <= byteBudget else { return }
       while state.byteCount + size > byteBudget,
         let oldest = state.images.min(by: { $0.value.lastUse < $1.value.lastUse })
       {

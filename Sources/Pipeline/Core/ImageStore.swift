@@ -9,8 +9,9 @@ package final class ImageStore: Sendable {
   private let processingPixels: Int?
   private let usesMasks: Bool
   private let cache: ImageCache
-  /// Whether all photos fit into the budget at full size: then each is decoded at full size once.
-  private let keepsWholePhotos: Bool
+  /// The photos at full size, if all of them fit into the budget: then each is decoded at full size
+  /// once. `cache` has what remains of the budget.
+  private let wholePhotos: ImageCache?
   private let decodes: Locked<Int>
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
@@ -21,8 +22,9 @@ package final class ImageStore: Sendable {
     self.source = source
     self.processingPixels = processingPixels
     usesMasks = true
-    cache = ImageCache(byteBudget: byteBudget)
-    keepsWholePhotos = source.byteCount <= byteBudget
+    let wholeBytes = source.byteCount <= byteBudget ? source.byteCount : 0
+    cache = ImageCache(byteBudget: byteBudget - wholeBytes)
+    wholePhotos = wholeBytes > 0 ? ImageCache(byteBudget: wholeBytes) : nil
     decodes = Locked(0)
   }
 
@@ -32,7 +34,7 @@ package final class ImageStore: Sendable {
     processingPixels = other.processingPixels
     usesMasks = false
     cache = other.cache
-    keepsWholePhotos = other.keepsWholePhotos
+    wholePhotos = other.wholePhotos
     decodes = other.decodes
   }
 
@@ -71,7 +73,7 @@ package final class ImageStore: Sendable {
     let decoded = try decoded(id, reducedBy: reduction, for: size)
     guard decoded.width != size.width || decoded.height != size.height else { return decoded }
     let image = try decoded.resized(width: size.width, height: size.height)
-    cache.keep(image, content, of: id, evicts: !keepsWholePhotos)
+    cache.keep(image, content, of: id)
     return image
   }
 
@@ -81,11 +83,12 @@ package final class ImageStore: Sendable {
     _ id: ID<Photo>, reducedBy reduction: Int, for size: (width: Int, height: Int)
   ) throws -> RasterImage {
     let content = ImageCache.Content.decoded(reduction: reduction)
+    let cache = reduction == 1 ? wholePhotos ?? cache : cache
     if let kept = cache.image(content, of: id) { return kept }
     let image = try source.decoded(id, reducedBy: reduction)
     decodes.withLock { $0 += 1 }
     let isResult = image.width == size.width && image.height == size.height
-    if isResult || (keepsWholePhotos && reduction == 1) { cache.keep(image, content, of: id) }
+    if isResult || cache === wholePhotos { cache.keep(image, content, of: id) }
     return image
   }
 

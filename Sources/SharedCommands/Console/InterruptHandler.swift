@@ -26,9 +26,11 @@ package final class InterruptHandler: Sendable {
   package init(untilInputEnds: Bool = false, _ onFirst: @escaping @Sendable () -> Void) {
     let requests = Requests()
     self.requests = requests
+    // A serial queue has a thread even while the work occupies the global queues.
+    let queue = DispatchQueue(label: "photogrammetry.interrupts", qos: .userInteractive)
     sources = [SIGINT, SIGTERM].map { number in
       signal(number, SIG_IGN)
-      let source = DispatchSource.makeSignalSource(signal: number, queue: .global())
+      let source = DispatchSource.makeSignalSource(signal: number, queue: queue)
       source.setEventHandler { Self.received(requests, onFirst) }
       source.resume()
       return source

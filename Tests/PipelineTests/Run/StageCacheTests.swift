@@ -71,7 +71,9 @@ import Testing
     let folder = try TemporaryFolder()
     let caches = (0..<2).map { _ in cache(folder.url, access: .shared) }
     for cache in caches { try cache.lockDirectory() }
-    #expect(throws: CheckpointError.self) { try self.cache(folder.url).lockDirectory() }
+    withExtendedLifetime(caches) {
+      #expect(throws: CheckpointError.self) { try self.cache(folder.url).lockDirectory() }
+    }
   }
 
   @Test func withoutADirectoryThereIsNothingToLock() throws {
