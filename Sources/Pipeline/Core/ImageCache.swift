@@ -35,8 +35,8 @@ final class ImageCache: Sendable {
     }
   }
 
-  /// Adds an image; drops those that were not used the longest, unless `evicts` is false: then the
-  /// image is kept only where there is room.
+  /// Adds an image and evicts the least recently used ones. If `evicts` is false, the image is kept
+  /// only if there is room.
   func keep(_ image: RasterImage, _ content: Content, of photo: ID<Photo>, evicts: Bool = true) {
     let size = image.pixels.count
     let key = Key(photo: photo, content: content)

@@ -64,7 +64,7 @@ private struct FinishedRun {
     try data.write(to: file(name))
   }
 
-  /// Replaces a text in a file of the checkpoint.
+  /// Replaces text in a file of the checkpoint.
   func replace(_ text: String, by other: String, in name: String) throws {
     try change(name) { data in
       let content = String(decoding: data, as: UTF8.self)
@@ -228,7 +228,7 @@ private struct FinishedRun {
     for text in ["{\"format\": 1}", "{}", "[", ""] {
       try run.change("mesh/surface.json") { $0 = Data(text.utf8) }
       guard case .damaged(path, _) = run.fault() else {
-        Issue.record("\(text) is taken")
+        Issue.record("\(text) was accepted")
         continue
       }
     }
@@ -256,7 +256,7 @@ private struct FinishedRun {
     for (index, data) in faults.enumerated() {
       try data.write(to: file)
       guard case .damaged(file.path, let reason) = run.fault() else {
-        Issue.record("fault \(index) is taken")
+        Issue.record("fault \(index) was accepted")
         continue
       }
       #expect(!reason.isEmpty)
