@@ -1,6 +1,6 @@
 # Sourced by scripts/test-client and scripts/test-examples: makes this package a dependency by git
-# URL and version, and builds packages that depend on it. All of them share one scratch folder, where
-# the engine is built once.
+# URL and version, and builds packages that depend on it. They share a scratch folder, in which the
+# engine is built once.
 # shellcheck shell=bash
 
 clients=$PWD/.build/clients
@@ -15,7 +15,7 @@ publish() {
   url=file://$repository
   version=$(grep -oE '[0-9]+\.[0-9]+\.[0-9]+' Sources/SceneModel/ProgramVersion.swift | head -n 1)
 
-  # SwiftPM takes a tag to be immutable and records its revision in the security folder.
+  # SwiftPM assumes that tags are immutable and records their revisions in the security folder.
   rm -rf "$repository" "$clients/security"
   git init --quiet --bare "$repository"
   "${git[@]}" add --all
@@ -29,8 +29,8 @@ publish() {
   }
 }
 
-# Builds the package in the folder $1, with the mirrors that scripts/setup has written. Everything
-# that is kept is in .build.
+# Builds the package in the folder $1, with the mirrors that scripts/setup has written. All files
+# that persist are in .build.
 build_client() {
   swift build -c release --package-path "$1" --scratch-path "$scratch" \
     --config-path .swiftpm/configuration --security-path "$clients/security" \

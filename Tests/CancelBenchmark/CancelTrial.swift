@@ -93,7 +93,10 @@ struct CancelTrial {
     if value == .canceled {
       cancels.append(Cancel(stage: stage, seconds: seconds(since: start)))
       print(
-        "\(count): after \(format(pause)) s, in \(stage), ended \(format(seconds(since: start))) s later"
+        """
+        \(count): after \(format(pause)) s, in \(stage), ended \
+        \(format(seconds(since: start))) s later
+        """
       )
     }
     return value

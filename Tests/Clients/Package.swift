@@ -2,8 +2,8 @@
 import Foundation
 import PackageDescription
 
-// Programs as they are written for macOS, each a target of its own, and the examples. All of them
-// are built in the language mode of CLIENT_LANGUAGE_MODE, 5 or 6.
+// Programs as written for macOS, each as a separate target, and the examples. All of them are built
+// in the language mode of CLIENT_LANGUAGE_MODE, 5 or 6.
 let environment = ProcessInfo.processInfo.environment
 let languageModes: [SwiftLanguageMode] = environment["CLIENT_LANGUAGE_MODE"] == "5" ? [.v5] : [.v6]
 

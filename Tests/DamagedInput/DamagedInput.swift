@@ -13,8 +13,9 @@ package struct DamagedInput: Sendable {
     stride(from: 0, to: bytes.count, by: step).lazy.map { Array(bytes.prefix($0)) }
   }
 
-  /// `count` copies of which 1 to 6 bytes are replaced, inserted or removed. Half of the changes hit
-  /// the first `header` bytes; new values are often extreme, because lengths and counts fail there.
+  /// `count` copies of which 1 to 6 bytes are replaced, inserted or removed. Half of the changes
+  /// hit the first `header` bytes; new values are often extreme, because lengths and counts fail
+  /// there.
   package func mutations(_ count: Int, seed: UInt64, header: Int = 64) -> some Sequence<[UInt8]> {
     (0..<count).lazy.map { index in
       var random = SplitMix64(seed: seed &+ UInt64(index) &* 0x9E37_79B9_7F4A_7C15)

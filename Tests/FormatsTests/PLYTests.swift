@@ -96,8 +96,11 @@ import Testing
 
   @Test func bigEndian() throws {
     var bytes = Array(
-      "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty short z\nend_header\n"
-        .utf8)
+      """
+      ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+      property short z\nend_header\n
+      """
+      .utf8)
     bytes += [0x3F, 0x80, 0, 0, 0xC0, 0, 0, 0, 0xFF, 0xFE]
     let cloud = try read(bytes, PLY.readPointCloud)
     #expect(cloud.positions == [SIMD3<Float>(1, -2, -2)])
@@ -109,14 +112,38 @@ import Testing
     "ply\nformat ascii 1.0\nelement vertex -1\nend_header\n",
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n",
     "ply\nformat ascii 1.0\nelement vertex 9999999999999999999999\nend_header\n",
-    "ply\nformat binary_little_endian 1.0\nelement vertex 9223372036854775807\nproperty double x\nproperty double y\nproperty double z\nend_header\n",
-    "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\nabc",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 two 3\n",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n2000000000 0 0 0\n",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list float float vertex_indices\nend_header\n0 0 0\nnan 0 0 1\n",
-    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\ninf 0 0\n",
+    """
+    ply\nformat binary_little_endian 1.0\nelement vertex 9223372036854775807\nproperty double x\n\
+    property double y\nproperty double z\nend_header\n
+    """,
+    """
+    ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n\
+    property float y\nproperty float z\nend_header\nabc
+    """,
+    """
+    ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+    end_header\n1 two 3\n
+    """,
+    """
+    ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n-3 0 0 0\n
+    """,
+    """
+    ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n2000000000 0 0 0\n
+    """,
+    """
+    ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n3 0 0 1\n
+    """,
+    """
+    ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+    element face 1\nproperty list float float vertex_indices\nend_header\n0 0 0\nnan 0 0 1\n
+    """,
+    """
+    ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n\
+    end_header\ninf 0 0\n
+    """,
   ])
   func damagedFilesAreErrors(_ text: String) throws {
     #expect(throws: FormatError.self) { try read(Array(text.utf8), PLY.readMesh) }

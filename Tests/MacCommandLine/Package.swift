@@ -1,11 +1,11 @@
 // swift-tools-version: 6.2
 import PackageDescription
 
-// The command line as macOS compiles it: the same sources with Apple's engine chosen, in a package of
-// its own, which sees nothing but the public API of the modules that stand in for Apple's.
+// The command line as compiled on macOS: the same sources with Apple's engine, in a separate
+// package, which has access only to the public API of the modules that replace Apple's.
 
-/// The platform-independent modules are compiled again under these names: a module of the engine's
-/// package would show its `package` declarations to nobody else.
+/// The platform-independent modules are compiled again, with aliases: the `package` declarations of
+/// the engine's package are not accessible from here.
 let modules = ["SceneModel", "Formats", "Evaluation", "SharedCommands"]
 let settings: [SwiftSetting] = [
   .define("APPLE_ENGINE"), .treatAllWarnings(as: .error),

@@ -6,7 +6,7 @@ import Testing
 @testable import RealityFoundation
 
 @Suite struct ModelEntityTests {
-  /// Two unit squares at x = 0…1 and 2…3, each with a texture of its own; a texture seam separates
+  /// Two unit squares at x = 0…1 and 2…3, each with a separate texture; a texture seam separates
   /// the triangles of the first.
   private let textured: TexturedMesh = {
     var mesh = Mesh()

@@ -119,7 +119,7 @@ import Testing
       #expect(
         reported == reported.sorted() && reported.count >= 3 && reported.allSatisfy { 0...1 ~= $0 })
     }
-    // The model has far to go when the poses are almost complete.
+    // Most of the model's work remains when the poses are almost complete.
     #expect(try #require(fractions[.poses]?.last) > 0.9)
     #expect(try #require(fractions[Self.model]?.last) < 0.6)
     // A later stage does not affect the poses.

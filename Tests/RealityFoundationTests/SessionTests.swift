@@ -171,7 +171,7 @@ import Testing
       weak let reference = session
       let outputs = try #require(session?.outputs)
       try session?.process(requests: [.poses])
-      // The work is completed although nothing refers to the session any more.
+      // The work is completed although nothing refers to the session anymore.
       session = nil
       var names: [String] = []
       for try await output in outputs { names.append(name(of: output)) }

@@ -1,13 +1,13 @@
 import Foundation
 
-/// Runs a body with an empty folder that is removed afterwards.
+/// Runs a body with an empty folder that is removed afterward.
 func withTemporaryFolder<T>(_ body: (URL) throws -> T) throws -> T {
   let url = try makeTemporaryFolder()
   defer { try? FileManager.default.removeItem(at: url) }
   return try body(url)
 }
 
-/// Runs a body with an empty folder that is removed afterwards.
+/// Runs a body with an empty folder that is removed afterward.
 func withTemporaryFolder<T>(
   isolation: isolated (any Actor)? = #isolation, _ body: (URL) async throws -> T
 ) async throws -> T {

@@ -40,8 +40,8 @@ public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendabl
 
   private let state = State()
 
-  /// Creates a future and runs `attemptToFulfill` immediately. Only the first call of the promise has
-  /// an effect.
+  /// Creates a future and runs `attemptToFulfill` immediately. Only the first call of the promise
+  /// has an effect.
   public init(_ attemptToFulfill: @escaping (@escaping Promise) -> Void) {
     let state = state
     attemptToFulfill { result in
@@ -86,8 +86,8 @@ public final class Future<Output, Failure: Error>: Publisher, @unchecked Sendabl
   }
 }
 
-/// Delivers one value and the completion once both the value and a demand for it exist, or a failure
-/// without demand.
+/// Delivers one value and the completion once both the value and a demand for it exist, or a
+/// failure without demand.
 private final class SingleValueSubscription<Output, Failure: Error>: Subscription,
   @unchecked Sendable
 {

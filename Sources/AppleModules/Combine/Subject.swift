@@ -124,8 +124,8 @@ private final class SubscriptionList<Output, Failure: Error>: @unchecked Sendabl
   }
 }
 
-/// One subscriber of a subject with its remaining demand. A value without demand is dropped, or kept
-/// until the next request if the subscriber receives the latest value.
+/// One subscriber of a subject with its remaining demand. A value without demand is dropped, or
+/// kept until the next request if the subscriber receives the latest value.
 private final class SubjectSubscription<Output, Failure: Error>: Subscription, @unchecked Sendable {
   private let lock = NSRecursiveLock()
   private var demand = Subscribers.Demand.none

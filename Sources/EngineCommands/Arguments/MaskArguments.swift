@@ -27,7 +27,7 @@ struct MaskArguments: ParsableArguments {
       valueName: "folder"), completion: .directory)
   var masks: String?
 
-  /// The folder; nil where none is named. Throws a `CommandFailure` if it can't be read or is empty.
+  /// The folder; nil if none is named. Throws a `CommandFailure` if it can't be read or is empty.
   var folder: URL? {
     get throws { try masks.map { try PhotoFolderArgument($0, holding: "masks").url } }
   }

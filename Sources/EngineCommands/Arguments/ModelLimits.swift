@@ -15,7 +15,7 @@ extension DetailArgument {
 }
 
 extension DetailChoice {
-  /// Memory that a run usually takes at most, in bytes: twice what runs of some 50 photos took.
+  /// The usual upper bound of a run's memory in bytes: twice that of runs with about 50 photos.
   var expectedMemoryBytes: Int {
     switch self {
     case .level(.preview), .level(.reduced): Machine.neededMemoryBytes

@@ -12,8 +12,8 @@ extension ThreadArguments {
 }
 
 extension MaskArguments {
-  /// With `areIgnored` photos are used entirely; otherwise throws a `CommandFailure` if the folder of
-  /// the masks can't be read.
+  /// With `areIgnored` photos are used entirely; otherwise throws a `CommandFailure` if the folder
+  /// of the masks can't be read.
   func apply(to configuration: inout PipelineConfiguration, areIgnored: Bool = false) throws {
     configuration.isObjectMaskingEnabled = !areIgnored
     configuration.ingestion.maskFolder = try folder

@@ -11,7 +11,7 @@ struct PreviewArguments: ParsableArguments {
     completion: .file(extensions: ["png"]))
   var preview: String?
 
-  /// The file to write; throws a `CommandFailure` where it can't be written.
+  /// The file to write; throws a `CommandFailure` if it can't be written.
   func file() throws -> URL? {
     guard let preview else { return nil }
     guard (preview as NSString).pathExtension.lowercased() == "png" else {

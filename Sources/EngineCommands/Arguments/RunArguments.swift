@@ -34,7 +34,7 @@ struct RunArguments: ParsableArguments {
 
   @OptionGroup var threading: ThreadArguments
 
-  /// The file of the report; throws a `CommandFailure` where it can't be written.
+  /// The file of the report; throws a `CommandFailure` if it can't be written.
   func reportFile() throws -> URL? {
     let url = report.map { URL(fileURLWithPath: $0, isDirectory: false) }
     if let url { try ModelOutput.checkWritable(url) }

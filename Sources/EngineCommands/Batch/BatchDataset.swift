@@ -8,7 +8,7 @@ struct BatchDataset: Equatable, Sendable {
   let name: String
   /// The folder of the photos: the dataset's folder, or `images/` in it.
   let photos: URL
-  /// The folder of masks next to `images/`; nil where masks are in the photos' folder.
+  /// The folder of masks next to `images/`; nil if masks are in the photos' folder.
   let masks: URL?
   /// Distances measured on the object: a file for `--measurements`.
   let measurements: URL?

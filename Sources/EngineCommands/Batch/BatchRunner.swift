@@ -81,8 +81,8 @@ final class BatchRunner: Sendable {
     runs.forEach { $0.stop() }
   }
 
-  /// Processes all datasets. Those whose failure may be transient are tried again at the end, one at
-  /// a time.
+  /// Processes all datasets. Those whose failure may be transient are tried again at the end, one
+  /// at a time.
   func run() async throws {
     try save()
     let open = summary.datasets.count { $0.status != .skipped }

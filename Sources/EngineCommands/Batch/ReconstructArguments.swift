@@ -1,8 +1,8 @@
 import RealityFoundation
 import SharedCommands
 
-// Options as the arguments that give them: for the process of a dataset, and to find out whether a
-// model was made with the same options.
+// Options as command-line arguments, for the process of a dataset and to determine whether a model
+// was made with the same options.
 
 extension DetailArguments {
   var arguments: [String] {

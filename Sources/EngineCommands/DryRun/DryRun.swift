@@ -10,12 +10,12 @@ struct DryRun {
   /// The model that would be written.
   let output: ModelOutput
   let limits: DetailSpecification
-  /// Usual duration of the run, in seconds.
+  /// The usual duration of the run in seconds.
   let expectedSeconds: Double
   let threadCount: Int
-  /// Memory that the run usually takes at most, and that is free, in bytes.
+  /// The usual peak memory of the run and the free memory, in bytes.
   let memory: (needed: Int, free: Int)
-  /// Disk space that the model takes at most, and that is free, in bytes.
+  /// The maximum disk space of the model and the free disk space, in bytes.
   let space: (needed: Int, free: Int?)
 
   /// Reads and checks all photos and masks.
@@ -46,7 +46,7 @@ struct DryRun {
     )
   }
 
-  /// Why the run could not succeed, in sentences with a remedy.
+  /// The reasons why the run could not succeed, as sentences with a remedy.
   var faults: [String] {
     var faults = Machine.current.shortfalls
     do { try report.checkCount() } catch { faults.append(CommandFailure(error).sentence) }
@@ -90,7 +90,7 @@ struct DryRun {
 }
 
 extension DetailSpecification {
-  /// Size of a model at most, in bytes: barely compressed textures, and vertices with all their
+  /// The maximum size of a model in bytes: barely compressed textures, and vertices with all
   /// attributes.
   func modelBytes(in format: ModelFormat) -> Int {
     let mesh = maximumTriangles * 60

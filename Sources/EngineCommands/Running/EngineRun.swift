@@ -11,14 +11,14 @@ struct EngineRun {
   private let reportFile: URL?
   private let flag: CancellationFlag
 
-  /// The kind of run that a command makes.
+  /// The stages and parameters of a command's run.
   struct Plan {
     var source: RunSource
     /// In the order of work.
     var stages: [PipelineStage]
     /// The limits that the first stages work for.
     var limits: DetailSpecification
-    /// How cameras and sparse points are found; for the estimate of the time left.
+    /// How cameras and sparse points are obtained, for the estimate of the remaining time.
     var alignment = StageDurationModel.AlignmentWork.search
     /// The share of the views that the dense stage processes.
     var job: PointCloudGeneration.Share?

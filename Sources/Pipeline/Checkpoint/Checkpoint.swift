@@ -3,17 +3,17 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The intermediate results of a run as files that other tools read, in the model's frame.
+/// The intermediate results of a run as files that other tools can read, in the model's frame.
 ///
 /// ```
 /// sparse/{cameras,images,points3D}.txt    COLMAP text
-/// dense/points.ply                        oriented, coloured patches
-/// dense/views/                            what the dense stage has made of each view, to go on with
+/// dense/points.ply                        oriented, colored patches
+/// dense/views/                            patches of each view, to resume the dense stage
 /// mesh/surface.ply                        before simplification
-/// mesh/surface.json                       what it was made of
+/// mesh/surface.json                       the inputs of the surface
 /// report.json
 /// ```
-/// Every file is written whole or not at all.
+/// Every file is written atomically.
 struct Checkpoint {
   let directory: URL
 
@@ -32,12 +32,12 @@ struct Checkpoint {
   /// The folder of `PatchWorkspace`.
   var views: URL { directory.appendingPathComponent("dense/views", isDirectory: true) }
 
-  /// Where COLMAP's text files are.
+  /// The folder of COLMAP's text files.
   var sparse: URL { directory.appendingPathComponent("sparse", isDirectory: true) }
   var surface: URL { directory.appendingPathComponent("mesh/surface.ply") }
   var record: URL { directory.appendingPathComponent("mesh/surface.json") }
 
-  /// Tells whether cameras and poses are the same; nil where there are none.
+  /// A hash of the cameras and poses, to detect changes; nil if there are none.
   var sparseHash: String? {
     var fingerprint = Fingerprint()
     for name in ["cameras.txt", "images.txt"] {
@@ -53,13 +53,13 @@ struct Checkpoint {
     try PLY.write(mesh, to: surface)
   }
 
-  /// Writes what the surface was made of; after the surface, so that one without is of a run that was
-  /// stopped.
+  /// Writes the record of the surface. Call it after the surface is written, so that a surface
+  /// without a record indicates an interrupted run.
   func write(_ content: SurfaceRecord) throws {
     try AtomicFile.write(try content.encoded(), to: record)
   }
 
-  /// Takes the record away before its surface changes.
+  /// Removes the record; call it before the surface changes.
   func removeRecord() { try? FileManager.default.removeItem(at: record) }
 
   func write(_ report: RunReport) throws {
@@ -68,7 +68,7 @@ struct Checkpoint {
       try report.encoded(), to: directory.appendingPathComponent("report.json"))
   }
 
-  /// Removes what runs that were killed had not finished.
+  /// Removes the unfinished files of runs that were killed.
   func removeRemains() {
     for name in ["", "sparse", "dense", "mesh", "stages"] {
       UnfinishedFiles.remove(from: directory.appendingPathComponent(name, isDirectory: true))

@@ -4,12 +4,13 @@ import SceneModel
 
 /// Fingerprints of everything that the results of a run depend on.
 struct RunInputs: Sendable {
-  /// Of everything that alignment depends on.
+  /// The fingerprint of everything that alignment depends on.
   let alignment: UInt64
-  /// Of everything that the surface depends on.
+  /// The fingerprint of everything that the surface depends on.
   let surface: UInt64
 
-  /// `configuration` is that of the models to come, with the resolution of the dense stage.
+  /// `configuration` is specialized for the planned models, including the resolution of the dense
+  /// stage.
   init(_ photos: PhotoSet, _ configuration: PipelineConfiguration) throws {
     var fingerprint = Fingerprint()
     fingerprint.add(ProgramIdentity.fingerprint)
@@ -18,7 +19,7 @@ struct RunInputs: Sendable {
       fingerprint.add(photo.name.utf8)
       fingerprint.add(photo.sampleID)
       fingerprint.add(hash)
-      // Masks count by content, wherever their files are.
+      // Masks are identified by content, regardless of the location of their files.
       fingerprint.add(photo.mask == nil ? 0 : 1)
       fingerprint.add(photo.mask?.contentHash ?? 0)
       fingerprint.add(photos.readings[photo.sampleID] ?? SensorReading())

@@ -1,7 +1,7 @@
 import Foundation
 import SceneModel
 
-/// What a run did, stage by stage and photo by photo: the content of `report.json`.
+/// A record of a run by stage and by photo: the content of `report.json`.
 package struct RunReport: Codable, Sendable {
   package struct Stage: Codable, Sendable {
     package var name: String
@@ -15,7 +15,7 @@ package struct RunReport: Codable, Sendable {
   package struct PhotoEntry: Codable, Sendable {
     package enum Status: String, Codable, Sendable {
       case registered, refused, notRegistered
-      /// A camera was given for a photo that isn't there.
+      /// A camera was given, but its photo is missing.
       case missing
     }
 
@@ -30,7 +30,7 @@ package struct RunReport: Codable, Sendable {
   package var photos: [PhotoEntry] = []
   package var meanReprojectionError: Double?
   package var worldFrame: WorldFrame?
-  /// Why the run failed, or parts of it: sentences.
+  /// The reasons why the run, or a part of it, failed, as sentences.
   package var errors: [String] = []
   package var warnings: [String] = []
   package var details: [String] = []
@@ -39,11 +39,11 @@ package struct RunReport: Codable, Sendable {
     self.configuration = configuration
   }
 
-  /// Adds why something failed, once.
+  /// Adds the description of an error, unless it is present already.
   mutating func note(_ error: any Error) {
     let sentence =
       error is CancellationError
-      ? "The run was cancelled."
+      ? "The run was canceled."
       : (error as? any LocalizedError)?.errorDescription ?? String(describing: error)
     if !errors.contains(sentence) { errors.append(sentence) }
   }

@@ -3,7 +3,7 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Reads the photos of an earlier run again: those that have a pose, unchanged.
+/// Rereads the registered photos of an earlier run and checks that they are unchanged.
 struct SavedPhotos: Sendable {
   /// Returns photos with the IDs of the run's reconstruction. Throws `SavedRunError.changedPhotos`
   /// if the content of a file has changed.
@@ -57,7 +57,7 @@ extension SavedRun {
     return photoFolder.appendingPathComponent(String(path.dropFirst(folder.count)))
   }
 
-  /// The saved reconstruction with the photos that were read again.
+  /// The saved reconstruction with the reread photos.
   func reconstruction(of photos: IngestedPhotos) -> Reconstruction {
     var result = reconstruction
     result.worldFrame = record.worldFrame

@@ -2,18 +2,19 @@ import Formats
 import Foundation
 import SceneModel
 
-/// What an earlier run left in its checkpoint directory: enough for more models of the same surface.
+/// The checkpoint of an earlier run, sufficient to make further models of the same surface.
 ///
-/// Numbers come back from the files bit for bit, so that a model of the same level is the same.
+/// Numbers are restored bit for bit, so a model of the same detail level is identical.
 package struct SavedRun: Sendable {
-  /// Its photos have names, sizes and cameras; the files are still to be looked at.
+  /// Its photos have names, sizes and cameras; their files have not been read yet.
   package let reconstruction: Reconstruction
   package let surface: Mesh
   package let record: SurfaceRecord
-  /// Where the photos are now.
+  /// The current folder of the photos.
   package let photoFolder: URL
 
-  /// Reads the directory; `photos` names their folder where they have moved. Throws `SavedRunError`.
+  /// Reads a checkpoint directory. `photos` is the folder of the photos if they were moved. Throws
+  /// `SavedRunError`.
   package init(checkpoint directory: URL, photos: URL? = nil) throws {
     let checkpoint = Checkpoint(directory: directory)
     try Self.checkPresence(checkpoint)
@@ -63,7 +64,7 @@ package struct SavedRun: Sendable {
       throw SavedRunError.damaged(path: path, reason: "it can't be read")
     }
     guard let version = try? JSONDecoder().decode(Version.self, from: data) else {
-      throw SavedRunError.damaged(path: path, reason: "it is no JSON of ours")
+      throw SavedRunError.damaged(path: path, reason: "it is not a record of this program")
     }
     guard version.format == SurfaceRecord.currentFormat else {
       throw SavedRunError.otherVersion(path: path, format: version.format)
@@ -98,14 +99,14 @@ package struct SavedRun: Sendable {
   }
 }
 
-/// Why no more models can be made from a checkpoint directory: a sentence and a remedy.
+/// The reason why no models can be made from a checkpoint directory: a sentence and a remedy.
 package enum SavedRunError: LocalizedError, Equatable, Sendable {
   case noDirectory(path: String)
   case noCheckpoint(directory: String)
   case unfinished(directory: String)
   case noRecord(path: String)
   case otherVersion(path: String, format: Int)
-  /// The cameras and the surface are not of one run.
+  /// The cameras and the surface come from different runs.
   case mixed(directory: String)
   case damaged(path: String, reason: String)
   case noPhotos(folder: String)
@@ -117,11 +118,11 @@ package enum SavedRunError: LocalizedError, Equatable, Sendable {
     case .noDirectory(let path):
       "The folder \(path) does not exist."
     case .noCheckpoint(let directory):
-      "\(directory) holds no checkpoint: there is no sparse/images.txt in it."
+      "\(directory) holds no checkpoint: sparse/images.txt is missing."
     case .unfinished(let directory):
-      "The run in \(directory) has not come to its surface: there is no mesh/surface.ply."
+      "The run in \(directory) has no finished surface: mesh/surface.ply is missing."
     case .noRecord(let path):
-      "\(path) is missing: the run was stopped, or made by an earlier version of this program."
+      "\(path) is missing: the run was interrupted, or made by an earlier version of this program."
     case .otherVersion(let path, let format):
       "\(path) was written by another version of this program: its format is \(format), not "
         + "\(SurfaceRecord.currentFormat)."
@@ -141,16 +142,16 @@ package enum SavedRunError: LocalizedError, Equatable, Sendable {
   package var recoverySuggestion: String? {
     switch self {
     case .noDirectory, .noCheckpoint:
-      "Name the folder that a run was given as --checkpoint-directory."
+      "Specify the folder that was the --checkpoint-directory of a run."
     case .unfinished:
-      "Run the photos again with the same --checkpoint-directory; the dense stage goes on where it "
+      "Repeat the run with the same --checkpoint-directory; the dense stage resumes where it "
         + "stopped."
     case .noRecord, .otherVersion, .mixed, .damaged:
-      "Run the photos again with the same --checkpoint-directory."
+      "Repeat the run with the same --checkpoint-directory."
     case .noPhotos, .missingPhotos:
-      "Name the folder that they are in now with --photos."
+      "Specify their current folder with --photos."
     case .changedPhotos:
-      "Name the folder with the originals with --photos, or run the photos again."
+      "Specify the folder of the originals with --photos, or repeat the run."
     }
   }
 

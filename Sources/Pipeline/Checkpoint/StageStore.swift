@@ -3,10 +3,11 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// What stages of an earlier run have found, for one with the same photos and options to go on with.
+/// The results of finished stages, which a later run with the same photos and options reuses.
 ///
-/// `stages/alignment` and `stages/surface` in the checkpoint directory, each sealed with the
-/// fingerprint of all that it depends on. The dense stage keeps its own, see `PatchWorkspace`.
+/// Stored as `stages/alignment` and `stages/surface` in the checkpoint directory, each sealed with
+/// the fingerprint of everything that it depends on. For the results of the dense stage, see
+/// `PatchWorkspace`.
 struct StageStore {
   let checkpoint: Checkpoint
   let inputs: RunInputs
@@ -30,7 +31,7 @@ struct StageStore {
 
 // MARK: - Alignment
 
-/// What alignment found, but for the photos themselves.
+/// The result of alignment without the photos.
 private struct AlignmentRecord: Codable {
   var cameras: [Camera]
   var cameraOfPhoto: [ID<Camera>]
@@ -42,7 +43,7 @@ private struct AlignmentRecord: Codable {
 }
 
 extension StageStore {
-  /// Keeps what alignment found, with the notes that it left.
+  /// Saves the result of alignment with its notes.
   func save(_ reconstruction: Reconstruction, _ notes: StageNotes) throws {
     let record = AlignmentRecord(
       cameras: reconstruction.cameras, cameraOfPhoto: reconstruction.photos.map(\.camera),
@@ -52,8 +53,8 @@ extension StageStore {
     try write(record, "alignment", madeFrom: inputs.alignment)
   }
 
-  /// What an earlier run found for the same photos, whose notes are added to `notes`; nil where there
-  /// is nothing of use.
+  /// The alignment of the same photos by an earlier run; nil if there is none that can be reused.
+  /// Its notes are added to `notes`.
   func reconstruction(of photos: [Photo], _ notes: StageNotes) -> Reconstruction? {
     guard let record: AlignmentRecord = read("alignment", madeFrom: inputs.alignment),
       record.cameraOfPhoto.count == photos.count, record.poses.count == photos.count
@@ -69,16 +70,16 @@ extension StageStore {
 
 // MARK: - Surface
 
-/// Tells that `mesh/surface.ply` is whole and what was noted while it was made.
+/// Certifies that `mesh/surface.ply` is complete, with the notes of the stages that made it.
 private struct SurfaceSeal: Codable {
   var contentHash: UInt64
   var notes: SavedNotes
-  /// Of the dense stage, which does not run where the surface is taken up.
+  /// The notes of the dense stage, which does not run if the surface is reused.
   var denseNotes: SavedNotes
 }
 
 extension StageStore {
-  /// Seals the surface in the checkpoint with what it was made from.
+  /// Seals the surface in the checkpoint with the fingerprint of its inputs.
   func sealSurface(_ notes: StageNotes, denseNotes: StageNotes) throws {
     guard let hash = surfaceHash() else { return }
     let seal = SurfaceSeal(
@@ -86,8 +87,8 @@ extension StageStore {
     try write(seal, "surface", madeFrom: inputs.surface)
   }
 
-  /// The surface that an earlier run made of the same photos with the same options; nil where there is
-  /// none of use. The notes of its stages are added to `notes`.
+  /// The surface that an earlier run made from the same photos with the same options; nil if there
+  /// is none that can be reused. The notes of its stages are added to `notes`.
   func surface(_ notes: StageNotes) -> Mesh? {
     guard let seal: SurfaceSeal = read("surface", madeFrom: inputs.surface),
       seal.contentHash == surfaceHash(), let mesh = try? PLY.readMesh(checkpoint.surface)
@@ -105,7 +106,7 @@ extension StageStore {
 
 // MARK: - Notes
 
-/// A stage's notes as they are kept.
+/// The notes of a stage in stored form.
 private struct SavedNotes: Codable {
   var counts: [String: Double]
   var warnings: [String]
@@ -115,7 +116,7 @@ private struct SavedNotes: Codable {
     (counts, warnings, details) = (notes.counts, notes.warnings, notes.details)
   }
 
-  /// Without the figures, which are another stage's.
+  /// The notes without the counts, which belong to another stage.
   var sentencesOnly: SavedNotes {
     var result = self
     result.counts = [:]

@@ -2,31 +2,31 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// What a surface was made of: the content of `mesh/surface.json`, which tells whether more models can
-/// be made of the surface.
+/// The inputs of a surface: the content of `mesh/surface.json`, which determines whether further
+/// models can be made from the surface.
 package struct SurfaceRecord: Codable, Equatable, Sendable {
   package struct PhotoFile: Codable, Equatable, Sendable {
     package var name: String
-    /// Of the file's bytes.
+    /// The hash of the file's bytes.
     package var contentHash: String
-    /// What the run took the object from; nil where it used no mask.
+    /// The mask that the run used; nil if it used none.
     package var mask: PhotoMask?
   }
 
-  /// Changes when a program that knows the one can't use the other.
+  /// The version of the file format; incremented by incompatible changes.
   package static let currentFormat = 1
 
   package var format = Self.currentFormat
   /// Absolute.
   package var photoFolder: String
-  /// Those with a pose, in the order of `sparse/images.txt`.
+  /// The registered photos, in the order of `sparse/images.txt`.
   package var photos: [PhotoFile]
-  /// Pixels of a view in the dense stage.
+  /// The number of pixels per view in the dense stage.
   package var viewPixels: Int
-  /// Most pixels of a photo that stages work on.
+  /// The maximum number of pixels of a photo in all stages.
   package var processingPixels: Int
   package var worldFrame: WorldFrame
-  /// Of the cameras and poses in `sparse/`.
+  /// The hash of the cameras and poses in `sparse/`.
   package var sparseHash: String
 
   init(
@@ -46,7 +46,7 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     self.sparseHash = sparseHash
   }
 
-  /// A hash as JSON keeps it: numbers of 64 bits are rounded by some readers.
+  /// A hash as 16 hexadecimal digits, since some JSON readers round 64-bit numbers.
   static func text(_ hash: UInt64) -> String {
     let digits = String(hash, radix: 16)
     return String(repeating: "0", count: 16 - digits.count) + digits

@@ -3,8 +3,8 @@ import Kernels
 
 /// The part of a configuration that the result of a stage depends on, as bytes.
 ///
-/// That is the whole encoded configuration, but for the options of later stages and a list of
-/// exclusions: an option that is added counts unless it is listed here.
+/// This is the whole encoded configuration without the options of later stages and a list of
+/// exclusions: a new option counts unless it is listed here.
 enum ConfigurationFingerprint {
   /// A member of the encoded configuration, and why no sealed result depends on it.
   struct Exclusion: Sendable {
@@ -39,7 +39,7 @@ enum ConfigurationFingerprint {
     "meshPrimitive": .optimization,
   ]
 
-  /// What the result of `stage` depends on; equal bytes for equal options.
+  /// Everything that the result of `stage` depends on; equal bytes for equal options.
   static func content(
     of configuration: PipelineConfiguration, through stage: PipelineStage
   ) throws -> Data {

@@ -1,15 +1,15 @@
 import Foundation
 
-/// The memory and the processor that a run has.
+/// The memory and the processor that are available to a run.
 package struct Machine: Hashable, Sendable {
   /// Memory limit of the process, in bytes: the machine's memory or its container's limit.
   package var totalMemoryBytes: Int
   /// The part of it that is free or can be reclaimed.
   package var availableMemoryBytes: Int
-  /// The processor's features by the kernel's names; nil where the kernel lists none.
+  /// The processor's features by the kernel's names; nil if the kernel lists none.
   package var processorFeatures: Set<String>?
 
-  /// Least memory, in bytes, that a reconstruction needs.
+  /// The minimum memory of a reconstruction, in bytes.
   package static let neededMemoryBytes = 2 << 30
   /// The instruction sets that the numeric libraries are built for, on x86-64.
   static let neededFeatures = ["sse4_1", "sse4_2", "popcnt"]
@@ -63,12 +63,13 @@ package struct Machine: Hashable, Sendable {
       })
   }
 
-  /// Why a reconstruction can't run here: sentences with a remedy, none where it can.
+  /// The reasons why a reconstruction can't run on this machine, as sentences with a remedy; empty
+  /// if it can.
   package var shortfalls: [String] {
     var sentences: [String] = []
     if availableMemoryBytes < Self.neededMemoryBytes {
       sentences.append(
-        "Only \(availableMemoryBytes >> 20) MB of memory are available and a reconstruction needs "
+        "Only \(availableMemoryBytes >> 20) MB of memory is available and a reconstruction needs "
           + "\(Self.neededMemoryBytes >> 20) MB; close other programs or add memory.")
     }
     if let processorFeatures {
@@ -85,8 +86,8 @@ package struct Machine: Hashable, Sendable {
 
 // MARK: - Limits
 
-/// The limits that a machine's memory sets to a run. They depend on its total memory, not on what is
-/// free, so that runs do not differ.
+/// The limits of a run that follow from a machine's memory. They depend on the total memory, not on
+/// the free memory, so that runs do not differ.
 package struct MemoryLimits: Hashable, Sendable {
   /// Photos beyond this number are refused.
   package var maximumPhotos: Int
@@ -97,7 +98,7 @@ package struct MemoryLimits: Hashable, Sendable {
 }
 
 extension Machine {
-  /// 1000 photos of at most 16384 pixels a side from 7.5 GiB of memory on.
+  /// With 7.5 GiB of memory or more: 1000 photos of at most 16384 pixels per side.
   package var limits: MemoryLimits {
     let gibibytes = Double(totalMemoryBytes) / Double(1 << 30)
     return MemoryLimits(

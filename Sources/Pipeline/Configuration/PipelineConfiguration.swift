@@ -1,34 +1,34 @@
 import Foundation
 import SceneModel
 
-/// Configuration of a run: the options of each stage, and where and how it works.
+/// The configuration of a run: the options of each stage, the output files and the threads.
 ///
-/// Options that follow the detail level of a model have no meaning here until `specialized(for:)`
-/// sets them.
+/// Options that depend on the detail level of a model are undefined until
+/// `specialized(for:viewPixels:)` sets them.
 package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var ingestion = PhotoIngestion.Options()
   package var alignment = ImageAlignment.Options()
   package var pointCloudGeneration = PointCloudGeneration.Options()
   package var meshGeneration = MeshGeneration.Options()
-  /// Fits the surface to the photos at a finer resolution than the dense stage's; nil leaves it as
-  /// meshing returns it.
+  /// Fits the surface to the photos at a higher resolution than the dense stage's; nil keeps the
+  /// surface as meshing returns it.
   package var photoRefinement: PhotoRefinement.Options?
   package var simplification = Simplification.Options()
   package var textureMapping = TextureMapping.Options()
   package var export = ModelExport.Options()
   package var preview = ModelPreview.Options()
 
-  /// The faces of model files, where the format has a choice.
+  /// The mesh primitive in model files, if the format supports several.
   package var meshPrimitive = MeshPrimitive.triangle
   /// Folder for intermediate results; nil writes none.
   package var checkpointDirectory: URL?
-  /// A PNG file that shows each model from several sides; nil draws none.
+  /// The PNG file of a preview that shows each model from several sides; nil renders none.
   package var previewFile: URL?
-  /// Threads of all stages. Results do not depend on it.
+  /// The number of threads of all stages; does not affect the results.
   package var threadCount: Int = ProcessInfo.processInfo.activeProcessorCount
 
-  /// The defaults, within the limits of a machine: every configuration of a session and of a command
-  /// begins here.
+  /// The defaults, within the limits of a machine: every configuration of a session or a command
+  /// starts from them.
   package init(machine: Machine = .current) {
     let limits = machine.limits
     ingestion.maximumPhotos = limits.maximumPhotos
@@ -38,7 +38,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
 }
 
 extension PipelineConfiguration {
-  /// Isolates the object from its support and background, by the photos' masks where there are some.
+  /// Whether to isolate the object from its support and background, using the photos' masks if
+  /// there are any.
   package var isObjectMaskingEnabled: Bool {
     get { meshGeneration.isolatesObject }
     set {
@@ -51,7 +52,7 @@ extension PipelineConfiguration {
   package var imageMemory: Int { ingestion.memoryBudget }
 
   /// The options for a model of `specification`, whose surface is made from views of `viewPixels`
-  /// pixels: at least the specification's, more where a finer model shares the surface.
+  /// pixels: at least the specification's, more if a finer model shares the surface.
   package func specialized(
     for specification: DetailSpecification, viewPixels: Int
   ) -> PipelineConfiguration {

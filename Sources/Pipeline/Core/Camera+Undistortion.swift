@@ -1,11 +1,11 @@
 import SceneModel
 
 extension Camera {
-  /// The camera without distortion that sees the largest rectangle around the principal point which
-  /// this camera's photo fills, with the same focal length where `maximumPixels` allows it.
+  /// The camera without distortion whose image is the largest rectangle around the principal point
+  /// that this camera's photo fills, with the same focal length if `maximumPixels` allows it.
   package func undistortedPinhole(maximumPixels: Int) -> Camera {
     var (low, high) = innerRectangle()
-    // Where border samples were too far apart for the truth, give in a little.
+    // Shrink slightly if the border samples were too sparse.
     for _ in 0..<200 where !isFilled(low, high) {
       low *= 0.995
       high *= 0.995
@@ -39,14 +39,14 @@ extension Camera {
     return (low, high)
   }
 
-  /// The distortion is increasing at the ray, so that it can be inverted there.
+  /// Whether the distortion is increasing at the ray, so that it can be inverted there.
   private func isRegular(_ p: SIMD2<Double>) -> Bool {
     let r2 = p.squaredLength
     let slope = 1 + r2 * (3 * distortion.x + r2 * 5 * distortion.y)
     return r2.isFinite && slope > 0.05
   }
 
-  /// All rays on the rectangle's border meet the photo.
+  /// Whether all rays on the rectangle's border hit the photo.
   private func isFilled(_ low: SIMD2<Double>, _ high: SIMD2<Double>) -> Bool {
     let samples = 64
     return (0...samples).allSatisfy { index in

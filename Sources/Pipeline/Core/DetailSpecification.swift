@@ -8,11 +8,11 @@ package enum DetailLevel: String, CaseIterable, Codable, Sendable {
 /// How texture images are stored.
 package enum TextureFormat: Hashable, Codable, Sendable {
   case png
-  /// `quality` runs from 0 to 1, best.
+  /// `quality` ranges from 0 to 1 (best).
   case jpeg(quality: Float)
 }
 
-/// What a model may have at most: the budgets of a detail level, or of a custom one.
+/// The upper bounds of a model: the budgets of a detail level, or custom ones.
 package struct DetailSpecification: Hashable, Codable, Sendable {
   /// Upper bound of the number of triangles.
   package var maximumTriangles: Int
@@ -21,7 +21,7 @@ package struct DetailSpecification: Hashable, Codable, Sendable {
   package var maximumAtlases: Int
   package var maps: Set<TextureMap>
   package var textureFormat: TextureFormat
-  /// Pixels of a view in the dense stage: resolution follows the product.
+  /// The number of pixels per view in the dense stage, matched to the detail of the model.
   package var viewPixels: Int
 
   package init(
@@ -60,7 +60,7 @@ package struct DetailSpecification: Hashable, Codable, Sendable {
     }
   }
 
-  /// Half the pixels of a view, and half the side of a texture.
+  /// The specification with half the pixels per view and half the texture side.
   package var halved: DetailSpecification {
     var halved = self
     halved.viewPixels /= 2

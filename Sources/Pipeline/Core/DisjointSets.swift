@@ -1,4 +1,4 @@
-/// Numbers joined into sets (union–find); the lowest of a set stands for it.
+/// Disjoint sets of numbers (union–find); the lowest number represents its set.
 struct DisjointSets: Sendable {
   private var parents: [Int]
 
@@ -13,7 +13,7 @@ struct DisjointSets: Sendable {
     return number
   }
 
-  /// False when the two are in one set already.
+  /// Returns false if the two are in the same set already.
   @discardableResult
   mutating func join(_ a: Int, _ b: Int) -> Bool {
     let (a, b) = (root(a), root(b))

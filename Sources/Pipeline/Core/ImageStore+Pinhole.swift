@@ -16,7 +16,7 @@ extension ImageStore {
   ///
   /// Every pixel has a source in the photo: the view is the largest rectangle around the principal
   /// point that the undistorted photo fills, so it may show a little less than the photo. Its focal
-  /// length is the photo's, scaled; without distortion it is the whole photo.
+  /// length is the photo's, scaled; without distortion the view is the whole photo.
   package func pinholeView(
     _ id: ID<Photo>, of reconstruction: Reconstruction, maximumPixels: Int
   ) throws -> PinholeView {

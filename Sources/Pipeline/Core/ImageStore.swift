@@ -1,17 +1,22 @@
 import Kernels
 import SceneModel
 
-/// Decodes photos on demand and keeps the latest within a byte budget.
+/// Decodes photos on demand and keeps the most recently used ones within a byte budget.
 ///
-/// Thread-safe. What it returns depends on the arguments only, never on what is kept.
+/// Thread-safe. Results depend on the arguments only, never on the cached images.
 package final class ImageStore: Sendable {
   private let source: any PhotoPixels
   private let processingPixels: Int?
   private let usesMasks: Bool
   private let cache: ImageCache
+<<<<<<< HEAD
   /// The photos at full size, if all of them fit into the budget: then each is decoded at full size
   /// once. `cache` has what remains of the budget.
   private let wholePhotos: ImageCache?
+=======
+  /// Whether all photos fit into the budget at full size; if so, each is decoded once at full size.
+  private let keepsWholePhotos: Bool
+>>>>>>> 935d1c8c789d09cd266153ed6c7663a64eea8af2
   private let decodes: Locked<Int>
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
@@ -38,8 +43,8 @@ package final class ImageStore: Sendable {
     decodes = other.decodes
   }
 
-  /// A store of photos in files. `contentHashes`, by photo id, save reading files again where they
-  /// are known.
+  /// A store of photos in files. `contentHashes`, by photo id, avoid rereading files if they are
+  /// known.
   package convenience init(
     photos: [Photo], byteBudget: Int = 1 << 30, processingPixels: Int? = nil,
     contentHashes: [UInt64] = []
@@ -49,7 +54,7 @@ package final class ImageStore: Sendable {
       processingPixels: processingPixels)
   }
 
-  /// The largest size of at most `maximumPixels` with the aspect of `width` × `height`; never
+  /// The largest size of at most `maximumPixels` with the aspect ratio of `width` × `height`; never
   /// larger than that.
   package static func size(
     width: Int, height: Int, maximumPixels: Int?
@@ -59,7 +64,7 @@ package final class ImageStore: Sendable {
     return (max(1, Int(Double(width) * scale)), max(1, Int(Double(height) * scale)))
   }
 
-  /// Photos decoded so far; a photo counts each time that it is decoded.
+  /// The number of photos decoded so far; a photo counts each time it is decoded.
   package var decodeCount: Int { decodes.withLock { $0 } }
 
   /// The photo in RGB, upright, reduced by area averaging to at most `maximumPixels`.
@@ -77,8 +82,8 @@ package final class ImageStore: Sendable {
     return image
   }
 
-  /// The photo as it is decoded for an image of some size. It is kept where it has that size, or
-  /// where all photos fit into the budget at full size.
+  /// The photo as decoded for an image of a given size. It is cached if it has that size, or if all
+  /// photos fit into the budget at full size.
   private func decoded(
     _ id: ID<Photo>, reducedBy reduction: Int, for size: (width: Int, height: Int)
   ) throws -> RasterImage {
@@ -92,8 +97,9 @@ package final class ImageStore: Sendable {
     return image
   }
 
-  /// Where the photo shows the object: gray, of the size of `image(id, maximumPixels:)`, 255 on the
-  /// object and 0 elsewhere, in between at a boundary that was reduced. Nil without a mask.
+  /// The mask of the object: gray, of the size of `image(id, maximumPixels:)`, 255 on the object
+  /// and 0 elsewhere, with intermediate values at boundaries after downsampling. Nil without a
+  /// mask.
   package func mask(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage? {
     let size = try size(of: id, maximumPixels: maximumPixels)
     guard usesMasks else { return nil }
@@ -115,7 +121,7 @@ package final class ImageStore: Sendable {
     return Self.size(width: full.width, height: full.height, maximumPixels: pixels)
   }
 
-  /// A number that changes with the photo's content, its mask, and with how they are decoded.
+  /// A number that changes with the photo's content, with its mask and with how they are decoded.
   package func fingerprint(of id: ID<Photo>) throws -> UInt64 {
     var fingerprint = Fingerprint()
     fingerprint.add(try source.fingerprint(of: id))

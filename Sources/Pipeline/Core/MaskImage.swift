@@ -2,12 +2,12 @@ import ImageFiles
 import Kernels
 import SceneModel
 
-/// Decodes masks: gray images, as stored, with 255 where the object is and 0 beside it.
+/// Decodes masks: gray images, as stored, with 255 on the object and 0 elsewhere.
 enum MaskImage {
-  /// The mask in a file of its own: what is black, or transparent, is not of the object.
+  /// The mask in a separate file: black or transparent pixels are not part of the object.
   ///
-  /// JPEG blurs the edge between black and white and leaves traces in what was black; what is darker
-  /// than half counts as black there.
+  /// JPEG blurs the edge between black and white and leaves artifacts in black areas, so pixels
+  /// darker than half count as black.
   static func decode(_ bytes: [UInt8]) throws(ImageError) -> RasterImage {
     let colors = try ImageCodec.decode(bytes)
     let least: UInt8 = try ImageHeader(bytes).format == .jpeg ? 128 : 1
@@ -23,8 +23,9 @@ enum MaskImage {
     return mask
   }
 
-  /// The mask that a photo's alpha channel is: what is less than half opaque is not of the object,
-  /// since programs that cut objects out leave traces around them. Nil without such a channel.
+  /// The mask in a photo's alpha channel: pixels that are less than half opaque are not part of the
+  /// object, since programs that cut out objects leave traces around them. Nil without an alpha
+  /// channel.
   static func alpha(_ bytes: [UInt8]) throws(ImageError) -> RasterImage? {
     guard var mask = try ImageCodec.decodeAlpha(bytes) else { return nil }
     for index in mask.pixels.indices { mask.pixels[index] = mask.pixels[index] < 128 ? 0 : 255 }
@@ -33,7 +34,7 @@ enum MaskImage {
 }
 
 extension RasterImage {
-  /// Whether a pixel of a mask, by a place in it, is of the object; one beside the mask is not.
+  /// Whether the mask marks the pixel at `place`, in pixels, as object; false outside the mask.
   func isMarked(at place: SIMD2<Double>) -> Bool {
     guard place.x >= 0, place.y >= 0, place.x < Double(width), place.y < Double(height) else {
       return false

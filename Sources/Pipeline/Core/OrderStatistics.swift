@@ -1,7 +1,7 @@
 import SceneModel
 
 extension PointCloud {
-  /// The median of the positive, finite footprints; nil where there are none.
+  /// The median of the positive, finite footprints; nil if there are none.
   var medianFootprint: Float? { footprints.filter { $0 > 0 && $0.isFinite }.upperMedian }
 }
 

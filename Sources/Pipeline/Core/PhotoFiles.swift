@@ -6,7 +6,7 @@ import SceneModel
 /// Photos in files.
 struct PhotoFiles: PhotoPixels {
   let photos: [Photo]
-  /// By photo id; empty where they are not known, so that files are read for fingerprints.
+  /// By photo id; empty if unknown, in which case files are read for fingerprints.
   let contentHashes: [UInt64]
 
   var hasMasks: Bool { photos.contains { $0.mask != nil } }
@@ -17,7 +17,7 @@ struct PhotoFiles: PhotoPixels {
     return (photo.width, photo.height)
   }
 
-  /// Only divisors without remainder: pixels at the border must have the weight of all others.
+  /// Only exact divisors of both sides, so that border pixels have the same weight as all others.
   func reduction(of id: ID<Photo>, atLeast size: (width: Int, height: Int)) throws -> Int {
     let photo = try photo(id)
     return ImageCodec.reductions.last {
@@ -71,7 +71,7 @@ struct PhotoFiles: PhotoPixels {
     return photos[id.index]
   }
 
-  /// The mask as it is stored.
+  /// The mask as stored, not turned upright.
   private func decoded(_ mask: PhotoMask, of photo: Photo) throws -> RasterImage {
     do throws(ImageError) {
       let bytes = try ImageCodec.contents(of: mask.file ?? photo.url)

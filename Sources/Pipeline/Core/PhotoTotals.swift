@@ -1,6 +1,6 @@
 import SceneModel
 
-/// The size of a set of photos: what the duration of a run depends on.
+/// The size of a set of photos, which determines the duration of a run.
 package struct PhotoTotals: Hashable, Sendable {
   package var count: Int
   /// Sum over all photos.
@@ -10,7 +10,7 @@ package struct PhotoTotals: Hashable, Sendable {
     (self.count, self.megapixels) = (count, megapixels)
   }
 
-  /// Photos of a common size, 6 megapixels: for photos that are not read yet.
+  /// Assumes a common size, 6 megapixels, for photos that have not been read yet.
   package init(count: Int) { self.init(count: count, megapixels: 6 * Double(count)) }
 
   package init(_ photos: [Photo]) {

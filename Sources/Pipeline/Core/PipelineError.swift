@@ -1,6 +1,6 @@
 import Foundation
 
-/// Why a run can't continue: a sentence and a remedy.
+/// The reason why a run can't continue: a sentence and a remedy.
 package enum PipelineError: LocalizedError, Equatable, Sendable {
   case unreadableFolder(path: String, reason: String)
   case noPhotos(folder: String, refused: Int)
@@ -22,7 +22,7 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .tooFewPhotos(let found, let needed):
       "Only \(found) usable photos; a reconstruction needs at least \(needed)."
     case .tooFewCameras(let count, let needed, let photos, let cameras):
-      "Only \(count) of the \(photos) photos can use one of the \(cameras) cameras that were given; "
+      "Only \(count) of the \(photos) photos match one of the \(cameras) given cameras; "
         + "\(needed) are needed."
     case .camerasDontFit(let reason):
       "The cameras don't fit the photos: \(reason)"
@@ -31,7 +31,7 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .noSurface(let reason):
       "No surface could be made: \(reason)"
     case .emptyCrop:
-      "Nothing of the surface is inside the bounds that were given."
+      "No part of the surface is inside the given bounds."
     }
   }
 
@@ -44,24 +44,24 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .tooFewPhotos:
       "Take 20 or more photos all around the object, each overlapping its neighbors by 70 %."
     case .tooFewCameras:
-      "Cameras are given to photos by file name, and must be for the whole photo in its upright "
-        + "position; name the folder with the photos that they were made for."
+      "Cameras are matched to photos by file name, and must be for the whole photo in its upright "
+        + "orientation; specify the folder of the photos that they were estimated from."
     case .camerasDontFit:
       "Check that they are the cameras of these photos, with poses from the world to the camera (x "
-        + "right, y down, z forward), angles and units alike, and focal lengths in pixels."
+        + "right, y down, z forward), consistent angles and units, and focal lengths in pixels."
     case .alignmentFailed:
       "Take sharp photos of a textured object that overlap by 70 % or more, "
         + "or try high feature sensitivity."
     case .noSurface:
       "Take more photos from more directions, or turn object masking off."
     case .emptyCrop:
-      "Give bounds in the model's frame, where those of the whole model are."
+      "Specify bounds in the model's frame, like the bounds of the whole model."
     }
   }
 }
 
 extension PipelineError {
-  /// Least photos of a reconstruction: two have a relative pose, but give no usable surface.
+  /// The minimum number of photos: two have a relative pose, but give no usable surface.
   package static let minimumPhotos = 3
 
   /// Throws `tooFewPhotos` for fewer than `needed`.

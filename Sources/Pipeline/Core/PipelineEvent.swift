@@ -1,16 +1,16 @@
 import SceneModel
 
-/// What a run tells while it works.
+/// What a run reports while it works.
 package enum PipelineEvent: Sendable {
   case progress(PipelineStage, fraction: Double)
-  /// Validation is over; these photos are used.
+  /// Validation has ended; these photos are used.
   case ingested(PhotoTotals)
-  /// A photo is not used, and why: refused by validation or not registered by alignment.
+  /// A photo is not used, with the reason: refused by validation or not registered by alignment.
   case refused(RefusedPhoto)
-  /// Photos are processed at a lower resolution than they have, to fit the memory.
+  /// Photos are downsampled to fit into memory.
   case downsampled
   case stitchingIncomplete(registered: Int, of: Int)
   case warning(String)
-  /// Something for the user who wants to know more.
+  /// Additional information for verbose logs, as a sentence.
   case detail(String)
 }

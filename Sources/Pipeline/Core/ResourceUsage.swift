@@ -1,12 +1,12 @@
 import Foundation
 
-/// What the process has used so far.
+/// The resources that the process has used so far.
 package struct ResourceUsage {
-  /// Monotonic clock.
+  /// The time of a monotonic clock.
   package var seconds: Double
   /// User and system time of all threads.
   package var cpuSeconds: Double
-  /// The highest resident memory so far.
+  /// The peak resident memory so far.
   package var peakMemoryBytes: Int
 
   package static var now: ResourceUsage {

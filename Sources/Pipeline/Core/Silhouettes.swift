@@ -1,20 +1,21 @@
 import Kernels
 import SceneModel
 
-/// The outlines of the object in the photos that have masks: what several of them leave out is not of
-/// the object (the visual hull: Laurentini, PAMI 1994).
+/// The silhouettes of the object in the photos that have masks: a point outside several of them is
+/// not part of the object (visual hull; Laurentini, PAMI 1994).
 ///
-/// One photo alone doesn't rule, since masks have faults, and may leave out a hand before the object.
+/// A single photo is not sufficient, since masks contain errors and may exclude a hand in front of
+/// the object.
 package struct Silhouettes: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Pixels of a mask.
+    /// The maximum number of pixels of a mask.
     package var maximumPixels = 500_000
-    /// How far beyond its masks an object may reach, as a fraction of a photo's longer side: what poses
-    /// and hand-made outlines may be wrong by.
+    /// The margin around masks, as a fraction of a photo's longer side: the tolerance for errors of
+    /// poses and of hand-drawn outlines.
     package var margin = 0.003
-    /// Photos that must leave a point out for it not to be of the object.
+    /// The minimum number of photos whose masks must exclude a point to reject it.
     package var minimumPhotos = 2
-    /// The same as a share of the photos with masks that have the point in their frame.
+    /// The same, as a share of the photos with masks that contain the point in their frame.
     package var minimumShare = 0.15
 
     package init() {}
@@ -24,7 +25,7 @@ package struct Silhouettes: Sendable {
     var rotation: Matrix3
     var translation: SIMD3<Double>
     var camera: Camera
-    /// Widened by the margin.
+    /// Dilated by the margin.
     var mask: RasterImage
   }
 
@@ -33,7 +34,7 @@ package struct Silhouettes: Sendable {
   private let options: Options
   private let views: [View]
 
-  /// Nil where no registered photo has a mask.
+  /// Nil if no registered photo has a mask.
   package init?(
     _ reconstruction: Reconstruction, images: ImageStore, options: Options = Options()
   ) throws {
@@ -56,7 +57,7 @@ package struct Silhouettes: Sendable {
     self.options = options
   }
 
-  /// Whether a point may be of the object.
+  /// Whether a point may be part of the object.
   func isInside(_ point: SIMD3<Double>) -> Bool {
     var (seen, outside) = (0, 0)
     for view in views {
@@ -73,7 +74,7 @@ package struct Silhouettes: Sendable {
       || Double(outside) < options.minimumShare * Double(seen)
   }
 
-  /// Whether each of some points may be of the object.
+  /// For each point, whether it may be part of the object.
   func areInside(_ points: [SIMD3<Float>], _ control: KernelControl) throws -> [Bool] {
     let chunk = 8192
     let parts = try control.parallelMap((points.count + chunk - 1) / chunk) { part in

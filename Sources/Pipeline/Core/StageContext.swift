@@ -1,7 +1,7 @@
 import Kernels
 import SceneModel
 
-/// What a stage needs besides its input: threads, progress, cancellation and a place for its report.
+/// What a stage needs besides its input: threads, progress, cancellation and notes for the report.
 package struct StageContext: Sendable {
   package let control: KernelControl
   package let notes: StageNotes
@@ -11,7 +11,8 @@ package struct StageContext: Sendable {
     self.notes = notes
   }
 
-  /// Reports that unit `index` of `count` begins; throws `CancellationError` when the run stops.
+  /// Reports that unit `index` of `count` begins; throws `CancellationError` if the run was
+  /// canceled.
   package func step(_ index: Int, of count: Int) throws {
     try control.step(Double(index) / Double(max(1, count)))
   }
@@ -22,7 +23,7 @@ package struct StageContext: Sendable {
   }
 }
 
-/// Figures and warnings that a stage leaves for `report.json`.
+/// Counts, warnings and details that a stage records for `report.json`.
 package final class StageNotes: Sendable {
   private struct State {
     var counts: [String: Double] = [:]
@@ -34,22 +35,22 @@ package final class StageNotes: Sendable {
 
   package init() {}
 
-  /// Records a figure, for instance `points` or `meanReprojectionError`.
+  /// Records a number, for instance `points` or `meanReprojectionError`.
   package func record(_ name: String, _ value: Double) {
     state.withLock { $0.counts[name] = value }
   }
 
-  /// Records a sentence for the user about something that did not go as wished.
+  /// Records a warning for the user, as a sentence.
   package func warn(_ sentence: String) {
     state.withLock { $0.warnings.append(sentence) }
   }
 
-  /// Records a sentence for the user who wants to know more.
+  /// Records additional information for verbose logs, as a sentence.
   package func log(_ sentence: String) {
     state.withLock { $0.details.append(sentence) }
   }
 
-  /// Takes over what another part of the stage has left.
+  /// Adds the notes of another part of the stage.
   func add(_ other: StageNotes) {
     let (counts, warnings, details) = (other.counts, other.warnings, other.details)
     state.withLock { state in

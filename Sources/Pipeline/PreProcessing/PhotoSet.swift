@@ -8,8 +8,8 @@ struct PhotoSet: Sendable {
   let images: ImageStore
   private let byteBudget: Int
 
-  /// `readings` replace those of files next to the photos. `byteBudget` bounds the decoded photos that
-  /// are kept.
+  /// `readings` replace those of files next to the photos. `byteBudget` bounds the decoded photos
+  /// that are kept.
   init(_ ingested: IngestedPhotos, readings: [Int: SensorReading], byteBudget: Int) {
     self.ingested = ingested
     self.readings = ingested.readings.merging(readings) { _, given in given }

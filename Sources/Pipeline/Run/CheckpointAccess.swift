@@ -1,6 +1,6 @@
 /// How a run uses its checkpoint directory.
 package enum CheckpointAccess: Sendable {
   case exclusive
-  /// Together with other jobs of the same dense stage.
+  /// Shared with other jobs of the same dense stage.
   case shared
 }

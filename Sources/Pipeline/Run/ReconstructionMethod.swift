@@ -2,10 +2,10 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The method: from photos to a model file, for one detail level.
+/// The method, from photos to a model file, for one detail level.
 ///
-/// Each step takes the results of those before it and returns its own. The recorder measures it, and
-/// the cache returns the result of an earlier call or run where there is one.
+/// Each step takes the results of the preceding steps and returns a new result. The recorder
+/// measures it, and the cache returns the result of an earlier call or run if there is one.
 struct ReconstructionMethod {
   let source: RunSource
   /// Specialized for the detail level.
@@ -13,11 +13,11 @@ struct ReconstructionMethod {
   let cache: StageCache
   let recorder: RunRecorder
 
-  /// Pixels of a view in the dense stage.
+  /// The number of pixels per view in the dense stage.
   var viewPixels: Int { configuration.pointCloudGeneration.maximumPixelsPerView }
 
-  /// Photos to file. A model takes the part of the surface inside the crop box, and is moved by the
-  /// transform.
+  /// Runs all steps, from the photos to the file. The model contains the part of the surface inside
+  /// the crop box, moved by the transform.
   func writeModel(in geometry: ModelGeometry, to url: URL) throws {
     let photos = try ingest()
     let reconstruction = try align(photos)
@@ -38,18 +38,18 @@ struct ReconstructionMethod {
     }
   }
 
-  /// Finds cameras, poses and sparse points, in the frame that all results share.
+  /// Estimates cameras, poses and sparse points in the frame that all results share.
   func align(_ photos: PhotoSet) throws -> Reconstruction {
     try cache.reconstruction {
       let result = try source.cameras(of: photos, configuration, cache, recorder)
       recorder.record(result)
-      // Cameras that are given may have been read from the checkpoint.
+      // Given cameras may have been read from the checkpoint.
       if source.isPhotosOnly { try cache.checkpoint?.write(result) }
       return result
     }
   }
 
-  /// Makes the oriented, colored cloud.
+  /// Makes the oriented, colored point cloud.
   func densify(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> PointCloud {
     try cache.cloud(viewPixels: viewPixels) {
       let cloud = try recorder.run(.pointCloudGeneration, images: photos.images) { context in
@@ -63,7 +63,7 @@ struct ReconstructionMethod {
     }
   }
 
-  /// Makes the surface of the object, or of the whole scene where masking is off, unsimplified.
+  /// Makes the unsimplified surface of the object, or of the whole scene if masking is off.
   func surface(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> Mesh {
     try cache.surface(viewPixels: viewPixels) {
       if case .savedRun(let saved) = source { return saved.surface(viewPixels, recorder) }
@@ -109,7 +109,7 @@ struct ReconstructionMethod {
     }
   }
 
-  /// Writes the model in the format that the URL names, and draws it where a preview is configured.
+  /// Writes the model in the format of the URL's extension, and renders a preview if configured.
   func export(
     _ model: TexturedMesh, _ reconstruction: Reconstruction, movedBy transform: AffineMap,
     to url: URL
@@ -124,7 +124,7 @@ struct ReconstructionMethod {
       try ModelExport(options: configuration.export)
         .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
       guard let preview = configuration.previewFile else { return }
-      // In the frame of the cameras.
+      // The preview is rendered in the frame of the cameras.
       try ModelPreview(configuration.preview).write(
         model, cameras: reconstruction.poses.compactMap { $0 }, to: preview,
         context.part(from: end, to: 1))

@@ -3,11 +3,11 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// From photos to textured models: what a session or a command holds.
+/// From photos to textured models: the pipeline behind a session or a command.
 ///
-/// Use it from one thread. Stages run when their result is first requested, and later requests share
-/// it: five models of one session align once and make the dense cloud once, at the finest level that
-/// `plan(for:)` named. The steps are those of `ReconstructionMethod`.
+/// Use it from a single thread. A stage runs when its result is first requested, and later requests
+/// share the result: five models of one session need one alignment and one dense cloud, at the
+/// finest level passed to `plan(for:)`. The steps are those of `ReconstructionMethod`.
 package final class ReconstructionPipeline {
   package let configuration: PipelineConfiguration
   private let source: RunSource
@@ -29,44 +29,46 @@ package final class ReconstructionPipeline {
       sealsStages: source.isPhotosOnly, recorder: recorder)
   }
 
-  /// What was done so far.
+  /// The report of the run so far.
   package var report: RunReport { recorder.report }
 
-  /// Announces the models to come, so that shared stages work at the finest resolution needed.
+  /// Announces the models that will be requested, so that shared stages work at the highest
+  /// resolution needed.
   package func plan(for specifications: [DetailSpecification]) {
     let requested = max(finestViewPixels, specifications.map(\.viewPixels).max() ?? 0)
     finestViewPixels = min(requested, maximumViewPixels)
   }
 
-  /// Drops results that can be made again, and caps the view resolution: for a retry after an
+  /// Drops results that can be recomputed, and limits the view resolution, for a retry after an
   /// out-of-memory error.
   package func limitResolution(to viewPixels: Int) {
     maximumViewPixels = max(1, min(maximumViewPixels, viewPixels))
     finestViewPixels = min(finestViewPixels, maximumViewPixels)
     cache.dropReproducible()
     recorder.warn(
-      "Memory ran out: from here on views of \(megapixelText(maximumViewPixels)) at most are used. "
+      "Memory ran out: from now on, views have at most \(megapixelText(maximumViewPixels)). "
         + "Close other programs, or choose a lower detail level.")
   }
 
   /// Reads and validates the photos.
   package func ingest() throws -> IngestedPhotos { try method().ingest().ingested }
 
-  /// Finds cameras, poses and sparse points, or takes those of the source.
+  /// Estimates cameras, poses and sparse points, or returns those of the source.
   package func align() throws -> Reconstruction {
     let method = method()
     return try method.align(try method.ingest())
   }
 
-  /// Makes the oriented, colored cloud at the resolution of `specification` or the finest planned.
+  /// Makes the oriented, colored point cloud at the resolution of the finest planned model, at
+  /// least that of `specification`.
   package func densify(for specification: DetailSpecification) throws -> PointCloud {
     let method = method(for: specification)
     let photos = try method.ingest()
     return try method.densify(photos, try method.align(photos))
   }
 
-  /// Makes the patches of a share of the views and leaves them in the checkpoint directory, which is
-  /// required, for a later `densify(for:)`.
+  /// Makes the patches of a share of the views and stores them in the checkpoint directory, which
+  /// is required, for a later `densify(for:)`.
   package func makePatches(
     _ share: PointCloudGeneration.Share, for specification: DetailSpecification
   ) throws {
@@ -82,7 +84,7 @@ package final class ReconstructionPipeline {
     }
   }
 
-  /// Makes the surface of the object, or of the whole scene where masking is off, unsimplified.
+  /// Makes the unsimplified surface of the object, or of the whole scene if masking is off.
   package func surface(for specification: DetailSpecification) throws -> Mesh {
     let method = method(for: specification)
     let photos = try method.ingest()
@@ -101,8 +103,8 @@ package final class ReconstructionPipeline {
       .transformed(by: geometry.transform)
   }
 
-  /// Makes a model and writes it in the format that the URL names, with the maps that the format has a
-  /// place for; and draws it, where the configuration names a preview.
+  /// Makes a model and writes it in the format of the URL's extension, with the maps that the
+  /// format supports. Renders a preview if the configuration names a file for it.
   package func writeModel(
     _ specification: DetailSpecification, in geometry: ModelGeometry = ModelGeometry(), to url: URL
   ) throws {
@@ -112,10 +114,10 @@ package final class ReconstructionPipeline {
     try writeReport()
   }
 
-  /// Writes `report.json` into the checkpoint directory where there is one.
+  /// Writes `report.json` into the checkpoint directory if there is one.
   package func writeReport() throws { try cache.writeReport() }
 
-  /// Lets other runs use the checkpoint directory until this one is used again.
+  /// Unlocks the checkpoint directory for other runs until this pipeline is used again.
   package func releaseCheckpoint() { cache.unlock() }
 
   private func method(for specification: DetailSpecification) -> ReconstructionMethod {

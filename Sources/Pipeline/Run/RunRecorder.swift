@@ -4,10 +4,10 @@ import SceneModel
 
 /// Records what a run does: sends its events, measures its stages and fills its report.
 ///
-/// Used on the run's thread only; `onEvent` is called from any.
+/// Used on the run's thread only; `onEvent` may be called from any thread.
 final class RunRecorder {
   private(set) var report: RunReport
-  /// What the latest run of each stage recorded.
+  /// The notes of the latest execution of each stage.
   private(set) var notes: [PipelineStage: StageNotes] = [:]
 
   private let threadCount: Int
@@ -26,13 +26,13 @@ final class RunRecorder {
 
   func send(_ event: PipelineEvent) { onEvent(event) }
 
-  /// Adds a sentence that concerns no single stage.
+  /// Records a warning that concerns no particular stage, as a sentence.
   func warn(_ sentence: String) {
     report.warnings.append(sentence)
     onEvent(.warning(sentence))
   }
 
-  /// Adds the reason to the report where `body` fails.
+  /// Adds the error to the report if `body` throws.
   func recordingErrors<Value>(_ body: () throws -> Value) throws -> Value {
     do {
       return try body()
@@ -42,8 +42,8 @@ final class RunRecorder {
     }
   }
 
-  /// Runs one stage with its own progress and notes, and adds its cost to the report. `images` is the
-  /// store that the stage decodes photos with.
+  /// Runs a stage with separate progress and notes, and adds its cost to the report. `images` is
+  /// the store that the stage decodes photos with.
   func run<Value>(
     _ stage: PipelineStage, images: ImageStore? = nil, _ body: (StageContext) throws -> Value
   ) throws -> Value {
@@ -85,7 +85,7 @@ final class RunRecorder {
 // MARK: - Photos
 
 extension RunRecorder {
-  /// Records which photos of a folder are used; throws where there are fewer than `minimumPhotos`.
+  /// Records which photos of a folder are used; throws if there are fewer than `minimumPhotos`.
   func record(_ ingested: IngestedPhotos, folder: URL, minimumPhotos: Int) throws {
     report.photos += ingested.refused.map {
       .init(name: $0.name, status: .refused, reason: $0.reason)
@@ -106,7 +106,7 @@ extension RunRecorder {
     report.photos += names.map { .init(name: $0, status: .missing, reason: nil) }
   }
 
-  /// Records which photos have a pose, and how accurate it is.
+  /// Records which photos are registered, and the mean reprojection error.
   func record(_ reconstruction: Reconstruction) {
     report.photos += reconstruction.registered.map {
       .init(name: reconstruction.photos[$0.index].name, status: .registered, reason: nil)

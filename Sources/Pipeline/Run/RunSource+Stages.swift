@@ -2,10 +2,10 @@ import Foundation
 import Kernels
 import SceneModel
 
-// How each kind of source gives photos, cameras and a surface.
+// How each kind of source provides photos, cameras and a surface.
 
 extension RunSource {
-  /// Gravity and depth by sample id, from the caller.
+  /// Gravity and depth by sample id, as passed by the caller.
   var readings: [Int: SensorReading] {
     if case .photos(_, let readings) = self { readings } else { [:] }
   }
@@ -20,7 +20,7 @@ extension RunSource {
     }
   }
 
-  /// Cameras, poses and sparse points: found, given or saved.
+  /// Cameras, poses and sparse points: estimated, given or saved.
   func cameras(
     of photos: PhotoSet, _ configuration: PipelineConfiguration, _ cache: StageCache,
     _ recorder: RunRecorder
@@ -53,8 +53,8 @@ extension RunSource {
       .run(photos.ingested, images: photos.images, context)
   }
 
-  /// Assigns cameras to the photos, and finds sparse points where none came with them. Also returns
-  /// the names of cameras without a photo.
+  /// Assigns given cameras to the photos, and triangulates sparse points if none were given. Also
+  /// returns the names of cameras without a photo.
   private static func assign(
     _ known: KnownCameras, to photos: PhotoSet, _ context: StageContext
   ) throws -> (Reconstruction, missing: [String]) {
@@ -67,13 +67,13 @@ extension RunSource {
 }
 
 extension SavedRun {
-  /// The surface; with a warning where it was made from smaller views.
+  /// The saved surface; warns if it was made from views of lower resolution.
   func surface(_ viewPixels: Int, _ recorder: RunRecorder) -> Mesh {
     if record.viewPixels < viewPixels {
       recorder.warn(
         "The surface was made from views of \(megapixelText(record.viewPixels)), not "
-          + "\(megapixelText(viewPixels)) as for this level, and has no more detail than that. Run the "
-          + "photos again at this level for more.")
+          + "\(megapixelText(viewPixels)) as at this level, and has no more detail. Repeat the run "
+          + "at this level for more.")
     }
     return surface
   }

@@ -1,14 +1,14 @@
 import Foundation
 import SceneModel
 
-/// What a run begins with.
+/// The input of a run.
 package enum RunSource: Sendable {
-  /// A folder of photos, which are aligned. `readings` are by sample id, and come before those in
-  /// files next to the photos.
+  /// A folder of photos, which are aligned. `readings` are by sample id, and take precedence over
+  /// those in files next to the photos.
   case photos(in: URL, readings: [Int: SensorReading] = [:])
-  /// A folder of photos with cameras, poses and maybe points, which are used unmoved.
+  /// A folder of photos with cameras, poses and optionally points, which are used unchanged.
   case photosWithCameras(in: URL, KnownCameras)
-  /// The cameras and the surface of a finished run: nothing before the model is made again.
+  /// The cameras and the surface of a finished run: stages before the model are not repeated.
   case savedRun(SavedRun)
 
   /// The folder of the photos.
@@ -19,7 +19,7 @@ package enum RunSource: Sendable {
     }
   }
 
-  /// Whether cameras and surface are found from the photos alone.
+  /// Whether cameras and surface are determined from the photos alone.
   var isPhotosOnly: Bool {
     if case .photos = self { true } else { false }
   }

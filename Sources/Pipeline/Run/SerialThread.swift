@@ -3,8 +3,8 @@ import SceneModel
 
 /// A thread that runs jobs one after another on a value that never leaves it.
 ///
-/// Begins with the first job and ends after `stop()`. The numeric stages block for minutes, which
-/// threads of Swift's cooperative pool must not.
+/// Starts with the first job and ends after `stop()`. The numeric stages block for minutes, which
+/// is not allowed on threads of Swift's cooperative pool.
 package final class SerialThread<Local>: Sendable {
   package typealias Job = @Sendable (inout Local) -> Void
 
@@ -58,7 +58,7 @@ package final class SerialThread<Local>: Sendable {
     condition.unlock()
   }
 
-  /// Waits for a job; nil when there is none and the thread ends.
+  /// Waits for a job; nil after `stop()` when no job is pending.
   private func next() -> Job? {
     condition.lock()
     defer { condition.unlock() }

@@ -2,14 +2,14 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The results of a run's stages. Each is made once; alignment and surface are taken from the
-/// checkpoint directory where an earlier run with the same photos and options sealed them there.
+/// The results of a run's stages. Each is made once; alignment and surface are read from the
+/// checkpoint directory if an earlier run with the same photos and options sealed them there.
 ///
-/// Holds the lock of the checkpoint directory, and writes results there for other tools. Used on the
-/// run's thread only.
+/// Holds the lock of the checkpoint directory, and writes results there for other tools. Used on
+/// the run's thread only.
 final class StageCache {
   private struct AtResolution<Value> {
-    /// Pixels of a view in the dense stage.
+    /// The number of pixels per view in the dense stage.
     var viewPixels: Int
     var value: Value
   }
@@ -45,10 +45,10 @@ final class StageCache {
     checkpoint.removeRemains()
   }
 
-  /// Lets other runs use the checkpoint directory until this one continues.
+  /// Unlocks the checkpoint directory for other runs until this one continues.
   func unlock() { lock = nil }
 
-  /// Writes the report; unless the directory is not locked, and may be another run's.
+  /// Writes the report, unless the directory is not locked and may be in use by another run.
   func writeReport() throws {
     guard lock != nil else { return }
     try checkpoint?.write(recorder.report)
@@ -56,7 +56,7 @@ final class StageCache {
 
   // MARK: - Results
 
-  /// Drops decoded photos and the cloud, which can be made again.
+  /// Drops decoded photos and the cloud, which can be recomputed.
   func dropReproducible() {
     cloud = nil
     photos = photos?.emptied
@@ -96,7 +96,7 @@ final class StageCache {
 // MARK: - Sealed stages
 
 extension StageCache {
-  /// The alignment that an earlier run sealed, or that `make` finds; then it is sealed.
+  /// The alignment that an earlier run sealed, or else the result of `make`, which is then sealed.
   func sealedAlignment(
     of photos: PhotoSet, _ configuration: PipelineConfiguration, _ notes: StageNotes,
     _ make: () throws -> Reconstruction
@@ -108,7 +108,7 @@ extension StageCache {
     return result
   }
 
-  /// The surface that an earlier run sealed, or that `make` makes; then it is sealed.
+  /// The surface that an earlier run sealed, or else the result of `make`, which is then sealed.
   func sealedSurface(
     of photos: PhotoSet, _ configuration: PipelineConfiguration, _ make: () throws -> Mesh
   ) throws -> Mesh {
@@ -122,7 +122,7 @@ extension StageCache {
       }
     }
     let mesh = try make()
-    // Remembered first: it serves later requests even where it can't be written.
+    // Cached first, so that it serves later requests even if it can't be written.
     surface = AtResolution(
       viewPixels: configuration.pointCloudGeneration.maximumPixelsPerView, value: mesh)
     checkpoint?.removeRecord()
@@ -142,7 +142,8 @@ extension StageCache {
     }
   }
 
-  /// Writes what the surface in the checkpoint is made of, for models from it later.
+  /// Writes the record of the surface in the checkpoint, from which further models can be made
+  /// later.
   func writeSurfaceRecord(
     of photos: PhotoSet, _ reconstruction: Reconstruction, in folder: URL, viewPixels: Int
   ) throws {

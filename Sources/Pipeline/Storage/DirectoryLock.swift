@@ -1,14 +1,14 @@
 import Foundation
 
-/// Keeps two runs from using one checkpoint directory at once, until it goes away.
+/// Prevents two runs from using a checkpoint directory at the same time, until it is deallocated.
 ///
-/// An advisory lock (`flock`) on the file `.lock` in the directory: it ends with the process, however
-/// that ends. Where the file system knows no locks there is none.
+/// An advisory lock (`flock`) on the file `.lock` in the directory, which is released when the
+/// process ends in any way. On file systems without locks it has no effect.
 package final class DirectoryLock {
   private let descriptor: Int32
 
-  /// Takes the lock, alone or together with others who share it. Makes the directory where it is
-  /// missing. Throws `CheckpointError`.
+  /// Acquires the lock, exclusively or shared. Creates the directory if it is missing. Throws
+  /// `CheckpointError`.
   package init(_ directory: URL, isShared: Bool) throws {
     do {
       try FileManager.default.createDirectory(at: directory, withIntermediateDirectories: true)
@@ -22,11 +22,11 @@ package final class DirectoryLock {
       close(file)
       throw CheckpointError.inUse(directory: directory.path)
     }
-    // Not before: an object that is complete closes it, also when its initialiser throws.
+    // Assigned last: a fully initialized object closes it, even if its initializer throws.
     descriptor = file
   }
 
-  /// False where another one has the lock.
+  /// Returns false if another process holds the lock.
   private static func lock(_ file: Int32, isShared: Bool) -> Bool {
     while flock(file, (isShared ? LOCK_SH : LOCK_EX) | LOCK_NB) != 0 {
       if errno != EINTR { return errno != EWOULDBLOCK }

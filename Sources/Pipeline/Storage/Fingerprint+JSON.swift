@@ -2,7 +2,7 @@ import Foundation
 import Kernels
 
 extension Fingerprint {
-  /// A value as bytes that are the same whenever the value is.
+  /// The canonical encoding of a value: equal values give equal bytes.
   static func content(of value: some Encodable) throws -> Data {
     let encoder = JSONEncoder()
     encoder.outputFormatting = .sortedKeys

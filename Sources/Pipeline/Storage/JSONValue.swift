@@ -9,7 +9,7 @@ enum JSONValue: Hashable, Codable, Sendable {
   case bool(Bool)
   case null
 
-  /// The document that a value is encoded as.
+  /// Encodes a value as a document.
   init(encoding value: some Encodable) throws {
     self = try JSONDecoder().decode(JSONValue.self, from: try JSONEncoder().encode(value))
   }
@@ -43,7 +43,7 @@ enum JSONValue: Hashable, Codable, Sendable {
     }
   }
 
-  /// Removes the member at a path of keys, where there is one.
+  /// Removes the member at a path of keys, if there is one.
   mutating func remove(_ path: some Collection<String>) {
     guard case .object(var members) = self, let key = path.first else { return }
     if path.count == 1 {

@@ -1,9 +1,9 @@
 import Foundation
 import Kernels
 
-/// Tells programs apart whose steps may give other results.
+/// Distinguishes builds of the program whose results may differ.
 enum ProgramIdentity {
-  /// Of the program file's content: any change of the code counts.
+  /// The hash of the executable's content, so that any change of the code counts.
   static let fingerprint: UInt64 = {
     let path = Bundle.main.executablePath ?? "/proc/self/exe"
     let content = try? Data(contentsOf: URL(fileURLWithPath: path), options: .alwaysMapped)

@@ -2,16 +2,17 @@ import Formats
 import Foundation
 import Kernels
 
-/// A file that holds its checksum and the fingerprint of all that it was made from.
+/// A file with a checksum and the fingerprint of everything that it was made from.
 ///
-/// One that is cut off, damaged, or made from something else counts as missing. Numbers are in
-/// little-endian order.
+/// A file that is truncated, damaged or made from other input counts as missing. Numbers are
+/// little-endian.
 enum SealedFile {
-  /// "STAGES01" in ASCII, the fingerprint, the bytes that follow, their checksum.
+  /// "STAGES01" in ASCII. The header is this number, the fingerprint, the byte count and the
+  /// checksum of the payload.
   private static let magic: UInt64 = 0x3130_5345_4741_5453
   private static let headerCount = 4 * MemoryLayout<UInt64>.size
 
-  /// Writes the file whole or not at all; throws `OutputError`.
+  /// Writes the file atomically; throws `OutputError`.
   static func write(_ payload: Data, madeFrom fingerprint: UInt64, to url: URL) throws {
     var data = Data(capacity: headerCount + payload.count)
     for word in [magic, fingerprint, UInt64(payload.count), checksum(payload, fingerprint)] {
@@ -21,7 +22,7 @@ enum SealedFile {
     try AtomicFile.write(data, to: url)
   }
 
-  /// The content; nil where the file is of no use.
+  /// The payload; nil if the file is missing, damaged or made from other input.
   static func read(_ url: URL, madeFrom fingerprint: UInt64) -> Data? {
     guard let data = FileManager.default.contents(atPath: url.path), data.count >= headerCount
     else { return nil }

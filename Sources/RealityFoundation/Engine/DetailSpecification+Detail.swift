@@ -2,7 +2,7 @@ import Pipeline
 import SceneModel
 
 extension DetailLevel {
-  /// Apple's level; nil for `custom`, which has budgets of its own.
+  /// Apple's level; nil for `custom`, which has separate budgets.
   package init?(_ detail: PhotogrammetrySession.Request.Detail) {
     switch detail {
     case .preview: self = .preview
@@ -16,7 +16,7 @@ extension DetailLevel {
 }
 
 extension DetailSpecification {
-  /// The budgets of a detail level; those of `custom` where the level is.
+  /// The budgets of a detail level; for the level `custom`, those of the specification `custom`.
   package init(
     _ detail: PhotogrammetrySession.Request.Detail,
     custom: PhotogrammetrySession.Configuration.CustomDetailSpecification
@@ -24,8 +24,8 @@ extension DetailSpecification {
     if let level = DetailLevel(detail) { self.init(level) } else { self.init(custom) }
   }
 
-  /// The budgets of a custom specification, with the view resolution of the lowest level that has as
-  /// many triangles.
+  /// The budgets of a custom specification, with the view resolution of the lowest level that
+  /// allows as many triangles.
   init(_ custom: PhotogrammetrySession.Configuration.CustomDetailSpecification) {
     let triangles = Int(clamping: custom.maximumPolygonCount)
     let levels = DetailLevel.allCases.map { DetailSpecification($0) }

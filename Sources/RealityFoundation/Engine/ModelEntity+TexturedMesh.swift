@@ -15,7 +15,7 @@ extension ModelEntity {
     name = Self.shapeName
   }
 
-  /// As files name the model.
+  /// The name of the model in files.
   private static let shapeName = "baked_mesh"
 }
 
@@ -35,7 +35,7 @@ extension MeshResource.Part {
 }
 
 extension PhysicallyBasedMaterial {
-  /// The maps that a material has a place for.
+  /// The maps that a material supports.
   static let maps: Set<TextureMap> = [.diffuseColor, .normal, .roughness, .ambientOcclusion]
 
   fileprivate init(_ maps: [TextureMap: RasterImage]) {
@@ -46,7 +46,7 @@ extension PhysicallyBasedMaterial {
     baseColor.texture = texture(.diffuseColor, .color)
     normal.texture = texture(.normal, .normal)
     roughness.texture = texture(.roughness, .raw)
-    // What files without a map of roughness say, too.
+    // The value in files without a roughness map.
     if roughness.texture == nil { roughness.scale = 0.9 }
     ambientOcclusion.texture = texture(.ambientOcclusion, .raw)
   }

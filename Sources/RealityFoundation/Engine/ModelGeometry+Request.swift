@@ -1,7 +1,8 @@
 import SceneModel
 
 extension ModelGeometry {
-  /// A request's geometry: bounds in the frame of `Request.bounds`, and a transform of what is left.
+  /// The geometry of a request: bounds in the frame of `Request.bounds`, and a transform of the
+  /// cropped model.
   package init(_ geometry: PhotogrammetrySession.Request.Geometry) {
     let matrix = geometry.transform.matrix
     func column(_ index: Int) -> SIMD3<Float> {
@@ -16,11 +17,11 @@ extension ModelGeometry {
 }
 
 extension OrientedBox {
-  /// A box of a request; nil for an empty one, which keeps everything.
+  /// The crop box of a request; nil for an empty one, which keeps everything.
   init?(_ box: OrientedBoundingBox) {
     guard !box.boundingBox.isEmpty else { return nil }
     let q = box.orientation.vector
-    // Some programs leave a side open with the largest numbers there are.
+    // Some programs use the largest finite numbers for unbounded sides.
     let far = SIMD3<Float>(repeating: 1e6)
     let low = box.boundingBox.min.clamped(lowerBound: -far, upperBound: far)
     let high = box.boundingBox.max.clamped(lowerBound: -far, upperBound: far)

@@ -7,11 +7,11 @@ extension PhotogrammetrySession {
     self.init(.folder(input), configuration: configuration)
   }
 
-  /// Creates a session for a sequence of samples, which is iterated once, sample by sample as they are
-  /// read.
+  /// Creates a session for a sequence of samples, which is iterated once, as the samples are read.
   ///
-  /// That happens on a thread of the session, after `process` was called. A lazy sequence of closures
-  /// must not belong to the main actor, as closures in a program's `main` do in Swift 6.
+  /// Iteration happens on a thread of the session after `process` is called. The closures of a lazy
+  /// sequence must not be isolated to the main actor, as closures in a program's `main` are in
+  /// Swift 6.
   public convenience init<S>(
     input: S, configuration: Configuration = Configuration()
   ) throws where S: Sequence, S.Element == PhotogrammetrySample {

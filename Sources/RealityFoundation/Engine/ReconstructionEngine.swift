@@ -2,12 +2,12 @@ import Kernels
 import Pipeline
 import SceneModel
 
-/// The engine of this package behind a session: photos from a folder or from samples, and the
-/// pipeline's results in the session's types.
+/// This package's engine behind a session: runs the pipeline on a folder or on samples, and
+/// converts its results to the session's types.
 final class ReconstructionEngine: SessionEngine {
   private let pipeline: ReconstructionPipeline
   private let samples: SampleFolder?
-  /// An alignment that failed would fail again, only later.
+  /// The error of a failed alignment, which would only fail again.
   private var alignmentError: (any Swift.Error)?
 
   static let make: SessionCore.EngineFactory = { task, flag, onEvent in
@@ -123,7 +123,7 @@ extension FeatureSensitivity {
 }
 
 extension SampleFolder {
-  /// An event about files as one about samples.
+  /// Converts an event about files to one about samples.
   fileprivate func translated(_ event: PipelineEvent) -> PipelineEvent {
     if case .refused(let photo) = event { .refused(translated(photo)) } else { event }
   }

@@ -1,9 +1,9 @@
-/// What `process` checks before any work begins.
+/// The checks of `process` before any work begins.
 struct RequestValidation {
   let input: SessionInput
   let configuration: PhotogrammetrySession.Configuration
   let options: EngineOptions
-  /// Free bytes of the disk that holds a URL; nil where that can't be told.
+  /// The free bytes of the disk that holds a URL; nil if unknown.
   var freeBytes: (URL) -> Int64? = Self.freeBytes
 
   func check(_ requests: [PhotogrammetrySession.Request]) throws {
@@ -23,7 +23,7 @@ struct RequestValidation {
       }
       guard paths.insert(url.standardizedFileURL.path).inserted else {
         throw ProcessingError.invalidRequest(
-          "Two requests write to \(url.path).", remedy: "Give each its own file.")
+          "Two requests write to \(url.path).", remedy: "Specify a different file for each.")
       }
       let required = detail.expectedBytes
       if let free = freeBytes(url), free < required {
@@ -36,20 +36,20 @@ struct RequestValidation {
     let matrix = geometry.transform.matrix
     guard abs(matrix.determinant) > 1e-20, matrix.determinant.isFinite else {
       throw ProcessingError.invalidRequest(
-        "A request's transform leaves nothing of the model.",
-        remedy: "Give it numbers that are finite and scales that are not 0.")
+        "The transform of a request is not invertible.",
+        remedy: "Use finite numbers and nonzero scales.")
     }
     let orientation = geometry.orientedBounds.orientation
     guard orientation.length > 1e-6, orientation.length.isFinite else {
       throw ProcessingError.invalidRequest(
-        "The orientation of a request's bounds is no rotation.",
-        remedy: "Give a quaternion of unit length.")
+        "The orientation of a request's bounds is not a rotation.",
+        remedy: "Pass a unit quaternion.")
     }
     let bounds = geometry.bounds
     guard all(bounds.min .<= bounds.max) || all(bounds.min .> bounds.max) else {
       throw ProcessingError.invalidRequest(
-        "A request's bounds are upside down.",
-        remedy: "Give the smallest coordinates as min, the largest as max.")
+        "The bounds of a request are inverted.",
+        remedy: "Pass the smallest coordinates as min and the largest as max.")
     }
   }
 
@@ -73,7 +73,7 @@ struct RequestValidation {
 }
 
 extension PhotogrammetrySession.Request {
-  /// What part of the model is asked for, and where; nil where nothing is said, or no model asked for.
+  /// The geometry of the requested model; nil if none is specified or no model is requested.
   fileprivate var geometry: Geometry? {
     switch self {
     case .modelFile(_, _, let geometry), .modelEntity(_, let geometry): geometry
@@ -83,7 +83,7 @@ extension PhotogrammetrySession.Request {
 }
 
 extension PhotogrammetrySession.Request.Detail {
-  /// The size that an output of the level usually stays below.
+  /// The usual upper bound of the size of an output at this level.
   fileprivate var expectedBytes: Int64 {
     switch self {
     case .preview: 5_000_000

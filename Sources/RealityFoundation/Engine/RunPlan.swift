@@ -1,23 +1,23 @@
 import Pipeline
 import SceneModel
 
-/// The requests of a run in the order that they are worked on, and what each needs.
+/// The requests of a run in the order of processing, and the work that each needs.
 ///
-/// What needs least comes first, then models from coarse to fine.
+/// Requests that need the least work come first, then models from coarse to fine.
 struct RunPlan: Sendable {
-  /// A request and what has to be done for it.
+  /// A request and the work that it needs.
   struct Entry: Sendable {
     var request: PhotogrammetrySession.Request
     /// In the order of the stages.
     var units: [WorkUnit]
-    /// What the model is to be like; nil where no model is asked for.
+    /// The budgets of the model; nil if no model is requested.
     var specification: DetailSpecification?
   }
 
   let entries: [Entry]
-  /// The requests as they were given, without repetitions.
+  /// The requests in the given order, without duplicates.
   let requests: [PhotogrammetrySession.Request]
-  /// What the shared stages are done for: the finest of all levels.
+  /// The specification that shared stages work for: the finest of all.
   let finest: DetailSpecification
 
   init(
@@ -40,12 +40,12 @@ struct RunPlan: Sendable {
       .map(\.element)
   }
 
-  /// What the models are to be like, and the finest of all.
+  /// The budgets of all models, and the finest ones for a point cloud.
   var specifications: [DetailSpecification] {
     entries.compactMap(\.specification) + (requests.contains(.pointCloud) ? [finest] : [])
   }
 
-  /// All units in the order that they are worked on.
+  /// All units in the order of processing.
   var units: [WorkUnit] {
     var seen: Set<WorkUnit> = []
     return entries.flatMap(\.units).filter { seen.insert($0).inserted }
@@ -75,7 +75,7 @@ extension RunPlan.Entry {
       }
   }
 
-  /// Sorts by how much of the pipeline is needed, then by how fine it is to be.
+  /// Orders requests by the number of stages that they need, then by view resolution.
   fileprivate var rank: Int {
     switch request {
     case .poses, .pointCloud, .bounds: units.count
@@ -85,7 +85,7 @@ extension RunPlan.Entry {
 }
 
 extension PhotogrammetrySession.Request {
-  /// The budgets of the requested model; nil where none is requested.
+  /// The budgets of the requested model; nil if none is requested.
   fileprivate func specification(
     _ configuration: PhotogrammetrySession.Configuration
   ) -> DetailSpecification? {

@@ -5,12 +5,12 @@ import SceneModel
 
 /// Writes a sequence of samples to a folder, one after another, for the pipeline to read.
 ///
-/// The sequence is gone through once, when its photos are needed; what was written stays until the
-/// session goes away. Used on the session's thread only, hence unchecked.
+/// The sequence is iterated once, when its photos are needed; the files are kept until the session
+/// is deallocated. Used on the session's thread only, hence `@unchecked`.
 final class SampleFolder: @unchecked Sendable {
   /// The sample ids in the order of the files.
   private(set) var ids: [Int] = []
-  /// Gravity and depth by the number of the file.
+  /// Gravity and depth by file number.
   private(set) var readings: [Int: SensorReading] = [:]
 
   private let next: () -> PhotogrammetrySample?
@@ -29,7 +29,7 @@ final class SampleFolder: @unchecked Sendable {
 
   deinit { if let folder { try? FileManager.default.removeItem(at: folder) } }
 
-  /// Writes what is still missing and returns the folder.
+  /// Writes the remaining samples and returns the folder.
   func write(
     flag: CancellationFlag, onEvent: (PipelineEvent) -> Void
   ) throws -> URL {
@@ -64,7 +64,7 @@ final class SampleFolder: @unchecked Sendable {
     guard (0...Int(Int32.max)).contains(sample.id) else {
       return refuse("its id is not between 0 and \(Int32.max)")
     }
-    guard seen.insert(sample.id).inserted else { return refuse("its id was there before") }
+    guard seen.insert(sample.id).inserted else { return refuse("its id is a duplicate") }
     guard let image = sample.image.image else {
       return refuse("its image is neither 32BGRA nor 32ARGB")
     }
@@ -76,7 +76,7 @@ final class SampleFolder: @unchecked Sendable {
     ids.append(sample.id)
   }
 
-  /// Writes a mask beside its photo, where the pipeline looks for it, in the same orientation.
+  /// Writes a mask next to its photo, where the pipeline searches for it, in the same orientation.
   private func write(
     _ mask: CVPixelBuffer, of sample: PhotogrammetrySample, to folder: URL,
     _ onEvent: (PipelineEvent) -> Void
@@ -89,7 +89,7 @@ final class SampleFolder: @unchecked Sendable {
     guard (mask.width, mask.height) == (sample.image.width, sample.image.height) else {
       return refuse("its size differs from the image's")
     }
-    guard image.pixels.contains(where: { $0 > 0 }) else { return refuse("all of it is zero") }
+    guard image.pixels.contains(where: { $0 > 0 }) else { return refuse("all its pixels are zero") }
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.maskName(ids.count)))
   }
@@ -101,19 +101,19 @@ final class SampleFolder: @unchecked Sendable {
     guard let depth = sample.uprightDepth else {
       onEvent(
         .warning(
-          "The depth map of sample \(sample.id) is not used: it is not of depths or disparities."))
+          "The depth map of sample \(sample.id) is not used: it has no depths or disparities."))
       return nil
     }
     return depth
   }
 
-  /// The file of the sample that came as number `index`.
+  /// The file name of the sample with number `index` in the sequence.
   static func name(_ index: Int) -> String { "sample\(index).png" }
 
-  /// The file of that sample's mask.
+  /// The file name of that sample's mask.
   static func maskName(_ index: Int) -> String { "sample\(index)_mask.png" }
 
-  /// The refusal of a file as that of its sample.
+  /// Converts the refusal of a file to that of its sample.
   func translated(_ photo: RefusedPhoto) -> RefusedPhoto {
     guard ids.indices.contains(photo.sampleID) else { return photo }
     var result = photo

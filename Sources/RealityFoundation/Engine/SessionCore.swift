@@ -2,7 +2,7 @@ import Kernels
 import Pipeline
 import SceneModel
 
-/// Joins the state of a session, its outputs and the thread that does the work.
+/// Combines the state of a session, its outputs and the thread that does the work.
 final class SessionCore: SessionWorker {
   typealias EventHandler = @Sendable (PipelineEvent) -> Void
   typealias EngineFactory =
@@ -63,7 +63,7 @@ final class SessionCore: SessionWorker {
       try shared.state.begin(
         task.plan, photoCount: task.input.fileCount, threadCount: task.options.threadCount,
         at: now())
-      // A flag can't be reset: after a cancellation there is another, and another engine.
+      // A flag can't be reset: after a cancellation, a new flag and a new engine are made.
       if shared.flag.isCancelled {
         shared.flag = CancellationFlag()
         shared.state.forgetWork()
@@ -135,7 +135,7 @@ final class SessionCore: SessionWorker {
     }
   }
 
-  /// Does the work for a request; once more, at half the resolution, where memory runs out.
+  /// Processes a request; retries once, at half the resolution, if memory runs out.
   private func result(
     for entry: RunPlan.Entry, of plan: RunPlan, _ engine: any SessionEngine
   ) throws -> PhotogrammetrySession.Result {
@@ -169,7 +169,7 @@ final class SessionCore: SessionWorker {
     }
   }
 
-  /// Changes the state and adds what follows to the outputs, in this order for all threads.
+  /// Changes the state and appends the resulting outputs, in the same order for all threads.
   private func emit(_ change: (inout SessionState) -> [PhotogrammetrySession.Output]) {
     shared.withLock { for output in change(&$0.state) { outputs.append(output) } }
   }
@@ -184,7 +184,8 @@ private func log(_ event: PipelineEvent) {
     sessionLogger.notice("Photos are used at a lower resolution to fit the memory.")
   case .stitchingIncomplete(let registered, let count):
     sessionLogger.warning(
-      "Only \(registered) of \(count) photos could be put together.", source: sessionOutputSource)
+      "Only \(registered) of \(count) photos could be registered together.",
+      source: sessionOutputSource)
   case .warning(let sentence):
     sessionLogger.warning("\(sentence)")
   case .detail(let sentence):
@@ -194,10 +195,10 @@ private func log(_ event: PipelineEvent) {
   }
 }
 
-/// Seconds of a clock that does not go back.
+/// Seconds of a monotonic clock.
 private func now() -> Double { ProcessInfo.processInfo.systemUptime }
 
-/// Holds an object of any type while a job runs; nothing but its lifetime is touched.
+/// Retains an object of any type while a job runs; only its lifetime is affected.
 private struct KeepAlive: @unchecked Sendable {
   private let object: AnyObject
 

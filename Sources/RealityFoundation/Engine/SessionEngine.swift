@@ -1,11 +1,12 @@
 import Kernels
 import Pipeline
 
-/// What a session asks of the engine behind it; used on one thread.
+/// The engine behind a session; used on a single thread.
 protocol SessionEngine: AnyObject {
-  /// Announces the models to come, so that shared stages work as finely as needed.
+  /// Announces the models that will be requested, so that shared stages work at the highest
+  /// resolution needed.
   func plan(for specifications: [DetailSpecification])
-  /// Reads all photos and tells which are used.
+  /// Reads all photos and returns the totals of those that are used.
   func ingest() throws -> PhotoTotals
   func poses() throws -> PhotogrammetrySession.Poses
   func pointCloud(_ specification: DetailSpecification) throws -> PhotogrammetrySession.PointCloud
@@ -17,15 +18,16 @@ protocol SessionEngine: AnyObject {
     _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
     to url: URL
   ) throws
-  /// Leaves what the run's files need at the end of a task, the report for one.
+  /// Completes the run's files at the end of a task, for instance the report.
   func finishTask() throws
-  /// Lets go of what can be made again, and uses at most so many pixels of a view from now on.
+  /// Drops results that can be recomputed, and uses at most `viewPixels` pixels per view from now
+  /// on.
   func limitResolution(to viewPixels: Int)
-  /// What was done so far.
+  /// The report of the run so far.
   var report: RunReport? { get }
 }
 
-/// One call of `process`: everything that the engine needs to know.
+/// One call of `process`, with everything that the engine needs.
 struct EngineTask: Sendable {
   var input: SessionInput
   var configuration: PhotogrammetrySession.Configuration
@@ -34,7 +36,7 @@ struct EngineTask: Sendable {
 }
 
 extension SessionEngine {
-  /// Does the work for one request of a plan.
+  /// Processes one request of a plan.
   func result(
     for entry: RunPlan.Entry, of plan: RunPlan
   ) throws -> PhotogrammetrySession.Result {

@@ -1,4 +1,4 @@
-/// Where a session's photos come from.
+/// The source of a session's photos.
 enum SessionInput: Sendable {
   case folder(URL)
   case samples(SampleFolder)

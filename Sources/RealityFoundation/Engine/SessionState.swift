@@ -1,39 +1,39 @@
 import Pipeline
 import SceneModel
 
-/// What a session is doing, as a value: events go in, outputs come out.
+/// The state of a session as a value: takes events and returns outputs.
 ///
-/// Knows nothing of threads and files. Times are seconds of any clock that does not go back.
+/// Independent of threads and files. Times are in seconds of any monotonic clock.
 struct SessionState: Sendable {
   typealias Request = PhotogrammetrySession.Request
   typealias Output = PhotogrammetrySession.Output
 
-  /// Where the session is in its life.
+  /// The phase of a session.
   enum Phase: Hashable, Sendable { case idle, ingesting, processing, cancelling }
 
   private(set) var phase = Phase.idle
-  /// What was asked for and has not ended.
+  /// The requests that have not ended.
   private(set) var activeRequests: [Request] = []
-  /// All photos were read in this or an earlier call.
+  /// Whether all photos have been read, in this or an earlier call.
   private(set) var hasIngested = false
 
   private var plan: RunPlan?
-  /// Known once they were read.
+  /// Nil until the photos have been read.
   private var photos: PhotoTotals?
   private var durations: StageDurationModel?
   private var estimator: ProgressEstimator?
   private var specification: DetailSpecification?
-  /// Units that an earlier call has done.
+  /// The units of work that earlier calls have completed.
   private var known: Set<WorkUnit> = []
-  private var toldSamples: Set<Int> = []
+  private var reportedSamples: Set<Int> = []
   private var hasDownsampled = false
-  private var hasToldOfStitching = false
-  private var told: [Request: (fraction: Double, stage: PipelineStage)] = [:]
+  private var hasReportedStitching = false
+  private var lastReported: [Request: (fraction: Double, stage: PipelineStage)] = [:]
 
-  /// Whether requests are being worked on.
+  /// Whether requests are being processed.
   var isProcessing: Bool { phase != .idle }
 
-  /// Begins with a plan for about so many photos.
+  /// Begins a plan for approximately `photoCount` photos.
   mutating func begin(
     _ plan: RunPlan, photoCount: Int, threadCount: Int, at time: Double
   ) throws(ProcessingError) {
@@ -41,7 +41,7 @@ struct SessionState: Sendable {
     phase = hasIngested ? .processing : .ingesting
     self.plan = plan
     activeRequests = plan.requests
-    told = [:]
+    lastReported = [:]
     specification = nil
     let durations = StageDurationModel(
       photos: photos ?? .init(count: photoCount), finest: plan.finest, threadCount: threadCount)
@@ -51,14 +51,14 @@ struct SessionState: Sendable {
     }
   }
 
-  /// Asks to stop; says whether there is something to stop.
+  /// Requests a stop; returns whether there is work to stop.
   mutating func cancel() -> Bool {
     guard phase == .ingesting || phase == .processing else { return false }
     phase = .cancelling
     return true
   }
 
-  /// All photos were read; these are used.
+  /// All photos have been read; these are used.
   mutating func ingested(_ photos: PhotoTotals) -> [Output] {
     guard phase == .ingesting else { return [] }
     phase = .processing
@@ -74,7 +74,7 @@ struct SessionState: Sendable {
 
   /// A photo is not used.
   mutating func refused(_ photo: RefusedPhoto) -> [Output] {
-    guard isWorking, toldSamples.insert(photo.sampleID).inserted else { return [] }
+    guard isWorking, reportedSamples.insert(photo.sampleID).inserted else { return [] }
     return photo.fault == .notRegistered
       ? [.skippedSample(id: photo.sampleID)]
       : [.invalidSample(id: photo.sampleID, reason: photo.reason)]
@@ -87,17 +87,17 @@ struct SessionState: Sendable {
     return [.automaticDownsampling]
   }
 
-  /// Only some of the photos could be put together.
+  /// Only some of the photos could be registered together.
   mutating func stitchingIncomplete() -> [Output] {
-    guard isWorking, !hasToldOfStitching else { return [] }
-    hasToldOfStitching = true
+    guard isWorking, !hasReportedStitching else { return [] }
+    hasReportedStitching = true
     return [.stitchingIncomplete]
   }
 
   /// The work for one of the requests begins.
   mutating func began(_ entry: RunPlan.Entry) { specification = entry.specification }
 
-  /// A stage of the current request has come to a fraction.
+  /// A stage of the current request has reached a fraction of its work.
   mutating func progressed(
     _ stage: PipelineStage, fraction: Double, at time: Double
   ) -> [Output] {
@@ -107,7 +107,7 @@ struct SessionState: Sendable {
     return entries(needing: unit).flatMap { progress(of: $0, in: stage) }
   }
 
-  /// A request was met.
+  /// A request was completed.
   mutating func completed(
     _ entry: RunPlan.Entry, _ result: PhotogrammetrySession.Result, at time: Double
   )
@@ -122,7 +122,7 @@ struct SessionState: Sendable {
     ]
   }
 
-  /// A request can't be met.
+  /// A request failed.
   mutating func failed(_ entry: RunPlan.Entry, _ error: any Swift.Error) -> [Output] {
     guard isWorking, activeRequests.contains(entry.request) else { return [] }
     activeRequests.removeAll { $0 == entry.request }
@@ -143,10 +143,10 @@ struct SessionState: Sendable {
     return [output]
   }
 
-  /// The engine was given up, so that nothing is known of earlier calls' work.
+  /// Forgets the work of earlier calls, because their engine was discarded.
   mutating func forgetWork() {
     known = []
-    hasToldOfStitching = false
+    hasReportedStitching = false
   }
 
   private var isWorking: Bool { phase == .ingesting || phase == .processing }
@@ -155,14 +155,14 @@ struct SessionState: Sendable {
     plan?.entries.filter { $0.units.contains(unit) && activeRequests.contains($0.request) } ?? []
   }
 
-  /// Tells the progress of a request if it has moved by a thousandth or to another stage.
+  /// Reports the progress of a request if it has advanced by a thousandth or to another stage.
   private mutating func progress(of entry: RunPlan.Entry, in stage: PipelineStage) -> [Output] {
     guard let estimator else { return [] }
-    let last = told[entry.request]
-    // 1 is for a request that is complete.
+    let last = lastReported[entry.request]
+    // 1 is reserved for completed requests.
     let fraction = max(last?.fraction ?? 0, min(estimator.fraction(of: entry.units), 0.999))
     if let last, fraction - last.fraction < 0.001, last.stage == stage { return [] }
-    told[entry.request] = (fraction, stage)
+    lastReported[entry.request] = (fraction, stage)
     let info = Output.ProgressInfo(
       estimatedRemainingTime: estimator.remainingSeconds(of: entry.units),
       processingStage: Output.ProcessingStage(stage))

@@ -19,7 +19,7 @@ struct InputFolder {
     return visibleNames.isEmpty ? "The folder \(url.path) is empty." : nil
   }
 
-  /// The names in the folder that don't begin with a dot; nil where it can't be read.
+  /// The names in the folder that don't begin with a dot; nil if it can't be read.
   var visibleNames: [String]? {
     try? FileManager.default.contentsOfDirectory(atPath: url.path).filter { !$0.hasPrefix(".") }
   }

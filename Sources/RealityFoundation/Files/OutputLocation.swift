@@ -6,13 +6,13 @@ enum OutputLocation: Hashable {
   case folder(URL)
 
   /// Interprets a URL as Apple's session does: a file by the suffix `usdz`, or else a folder. The
-  /// suffixes of `additionalFormats` count as `usdz` does. Nil where nothing can be written there.
+  /// suffixes of `additionalFormats` are treated like `usdz`. Nil if nothing can be written there.
   init?(_ url: URL, additionalFormats: Set<ModelFormat> = []) {
     guard Self.fault(of: url, additionalFormats: additionalFormats) == nil else { return nil }
     self = Self.namesFile(url, additionalFormats) ? .file(url) : .folder(url)
   }
 
-  /// Why nothing can be written to a URL, in a sentence; nil where it can.
+  /// Why nothing can be written to a URL, in a sentence; nil if it can.
   static func fault(of url: URL, additionalFormats: Set<ModelFormat> = []) -> String? {
     guard url.isFileURL else { return "\(url.absoluteString) is not on a disk of this machine." }
     guard namesFile(url, additionalFormats) else {
@@ -33,7 +33,7 @@ enum OutputLocation: Hashable {
     }
   }
 
-  /// A folder may have to be created, in the nearest folder above that exists.
+  /// A folder that does not exist is created, which needs a writable nearest existing ancestor.
   private static func folderFault(of url: URL) -> String? {
     var existing = url.standardizedFileURL
     while !FileManager.default.fileExists(atPath: existing.path), existing.path != "/" {
@@ -49,7 +49,7 @@ enum OutputLocation: Hashable {
       && isDirectory.boolValue
   }
 
-  /// Writes a file to find out: permissions alone don't show read-only and special file systems.
+  /// Tests by writing a file: permissions alone don't reveal read-only and special file systems.
   private static func isWritable(_ folder: URL) -> Bool {
     guard FileManager.default.isWritableFile(atPath: folder.path) else { return false }
     let probe = folder.appendingPathComponent(".\(UUID().uuidString)")

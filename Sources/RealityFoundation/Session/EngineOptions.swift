@@ -3,18 +3,18 @@ import Pipeline
 
 /// Options of this engine beyond Apple's configuration.
 package struct EngineOptions: Equatable, Sendable {
-  /// Threads of all stages. Results do not depend on it.
+  /// The number of threads of all stages; does not affect the results.
   package var threadCount = ProcessInfo.processInfo.activeProcessorCount
-  /// Closes what no photo shows of an isolated object.
+  /// Whether to close the surface of an isolated object where no photo shows it.
   package var closesObject = true
-  /// Fits the finished surface to the photos at a finer resolution.
+  /// Whether to fit the finished surface to the photos at a higher resolution.
   package var refinesSurface = false
   /// Measured distances in the scene, which give the scale. Photos are named by their files.
   package var knownDistances: [KnownDistance] = []
-  /// A PNG file that shows the model from several sides; nil draws none.
+  /// The PNG file of a preview that shows the model from several sides; nil renders none.
   package var previewFile: URL?
   /// Formats of model files that are accepted in addition to USDZ. None by default: a program
-  /// written for Apple's engine gets `Error.invalidOutput` where it would there.
+  /// written for Apple's engine gets `Error.invalidOutput` in the same cases.
   package var additionalFileFormats: Set<ModelFormat> = []
   /// A folder with the photos' masks; nil searches the folder of photos.
   package var maskFolder: URL?

@@ -2,7 +2,7 @@ import SceneModel
 
 /// Keeps a session's outputs until they are read.
 ///
-/// Each cursor sees everything from where it began; a new one begins where the farthest has been.
+/// Each cursor reads all outputs from its start; a new cursor starts at the most advanced position.
 final class OutputBuffer: Sendable {
   typealias Output = PhotogrammetrySession.Output
 
@@ -13,10 +13,10 @@ final class OutputBuffer: Sendable {
   }
 
   private struct State {
-    /// What someone may still read; the first is output number `offset`.
+    /// The outputs that a cursor may still read; the first is output number `offset`.
     var kept: [Output] = []
     var offset = 0
-    /// The number of the output after the last that anyone has read.
+    /// The number of the first output that no cursor has read.
     var farthest = 0
     var positions: [Int: Int] = [:]
     var waiters: [Waiter] = []
@@ -28,7 +28,7 @@ final class OutputBuffer: Sendable {
       return lastID
     }
 
-    /// Moves a cursor over the next output; nil where there is none yet.
+    /// Advances a cursor past the next output; nil if there is none yet.
     mutating func take(_ cursor: Int) -> Output? {
       guard let position = positions[cursor], position - offset < kept.count else { return nil }
       let output = kept[position - offset]
@@ -68,7 +68,7 @@ final class OutputBuffer: Sendable {
     for (waiter, output) in ready { waiter.continuation.resume(returning: output) }
   }
 
-  /// Ends all iterations once they have read what is there.
+  /// Ends all iterations after they have read the buffered outputs.
   func finish() {
     let waiters = state.withLock { state -> [Waiter] in
       state.isFinished = true
@@ -78,7 +78,7 @@ final class OutputBuffer: Sendable {
     for waiter in waiters { waiter.continuation.resume(returning: nil) }
   }
 
-  /// A place in the outputs that moves forward.
+  /// A position in the outputs, which only advances.
   final class Cursor: Sendable {
     private let buffer: OutputBuffer
     private let id: Int
@@ -99,7 +99,7 @@ final class OutputBuffer: Sendable {
       }
     }
 
-    /// Waits for the next output; nil at the end or when the task is cancelled.
+    /// Waits for the next output; nil at the end or if the task is canceled.
     func next() async -> Output? {
       let waiter = buffer.state.withLock { $0.nextID() }
       return await withTaskCancellationHandler {
@@ -114,7 +114,7 @@ final class OutputBuffer: Sendable {
 
   private func wait(_ waiter: Waiter) {
     let (answer, output) = state.withLock { state -> (Bool, Output?) in
-      // The handler of a cancellation waits for the lock, so that none is missed.
+      // The cancellation handler waits for the lock, so that no cancellation is missed.
       if Task.isCancelled { return (true, nil) }
       if let output = state.take(waiter.cursor) { return (true, output) }
       if state.isFinished { return (true, nil) }

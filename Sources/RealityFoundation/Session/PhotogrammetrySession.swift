@@ -6,17 +6,18 @@ import SceneModel
 /// Create a session with the photos' folder, pass it requests and follow `outputs`:
 ///
 /// ```swift
-/// let session = try PhotogrammetrySession(input: URL(fileURLWithPath: "photos", isDirectory: true))
+/// let photos = URL(fileURLWithPath: "photos", isDirectory: true)
+/// let session = try PhotogrammetrySession(input: photos)
 /// try session.process(requests: [.modelFile(url: URL(fileURLWithPath: "model.usdz"))])
 /// for try await output in session.outputs {
 ///   if case .processingComplete = output { break }
 /// }
 /// ```
 ///
-/// The work is done on a thread of the session. The session stays alive while it works, even when
+/// The work is done on a thread of the session. The session stays alive while it works, even if
 /// nothing refers to it. It may be used from any thread.
 public class PhotogrammetrySession: @unchecked Sendable {
-  /// How the session treats its photos.
+  /// How the session processes its photos.
   public let configuration: Configuration
 
   /// Options of this engine beyond the configuration; set them before the first `process`.
@@ -53,10 +54,10 @@ public class PhotogrammetrySession: @unchecked Sendable {
   /// The requests that are being processed.
   public var activeRequests: [Request] { worker.activeRequests }
 
-  /// Begins to process requests and returns at once; results come as `outputs`.
+  /// Starts to process requests and returns immediately; results are delivered by `outputs`.
   ///
-  /// Throws when the session is processing already, the photos are gone, or the output of a request
-  /// can't be written. A later call reuses the results of earlier ones.
+  /// Throws if the session is already processing, the photos no longer exist, or the output of a
+  /// request can't be written. A later call reuses the results of earlier ones.
   public func process(requests: [Request]) throws {
     try worker.process(requests, options: engineOptions, keepingAlive: self)
   }
@@ -65,7 +66,7 @@ public class PhotogrammetrySession: @unchecked Sendable {
   /// being processed.
   public func cancel() { worker.cancel() }
 
-  /// The run so far, stage by stage and photo by photo; nil before the first request ends.
+  /// The report of the run so far; nil before the first request ends.
   package var report: RunReport? { worker.report }
 }
 

@@ -31,7 +31,7 @@ package struct ModelOutput: Equatable, Sendable {
     _ path: String, _ name: URL, _ formats: [ModelFormat]
   ) -> String? {
     if path.isEmpty { return "The output has no name." }
-    // What "$name.usdz" becomes where the variable is empty.
+    // What "$name.usdz" becomes if the variable is empty.
     let isBareExtension = ModelFormat.files.contains { name.lastPathComponent == ".\($0.rawValue)" }
     if isBareExtension { return "\(path) has no name before its extension." }
     if name.pathExtension.isEmpty || isFolder(path) || path.hasSuffix("/") { return nil }

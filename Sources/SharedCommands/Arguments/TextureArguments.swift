@@ -32,7 +32,7 @@ package struct TextureMapsArgument: ExpressibleByArgument {
   package init?(argument: String) {
     for name in argument.split(separator: ",", omittingEmptySubsequences: false) {
       switch name.trimmingCharacters(in: .whitespaces) {
-      case "color", "colour": outputs.insert(.diffuseColor)
+      case "color", "colour": outputs.insert(.diffuseColor)  // lint-language: allow
       case "normal": outputs.insert(.normal)
       case "roughness": outputs.insert(.roughness)
       case "displacement": outputs.insert(.displacement)

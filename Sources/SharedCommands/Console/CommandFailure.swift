@@ -1,6 +1,6 @@
 import Foundation
 
-/// Why a command ends without its result: a sentence for the user, and an exit code.
+/// The reason why a command ends without its result: a sentence for the user, and an exit code.
 package struct CommandFailure: Error, Equatable {
   /// Exit code of a run that failed.
   package static let runCode: Int32 = 1
@@ -9,7 +9,7 @@ package struct CommandFailure: Error, Equatable {
   /// Exit code after an interrupt, as shells report SIGINT.
   package static let interruptedCode: Int32 = 130
 
-  /// The cause, and the remedy where there is one.
+  /// The cause, and the remedy if there is one.
   package var sentence: String
   package var exitCode: Int32
   /// Whether another attempt may succeed.
@@ -36,7 +36,7 @@ package struct CommandFailure: Error, Equatable {
 
 extension CommandFailure {
   /// The failure of a run by `error`: its description and recovery suggestion. A `CommandFailure`
-  /// stays as it is.
+  /// is returned unchanged.
   package init(_ error: any Error, isTransient: Bool = false) {
     self =
       error as? CommandFailure

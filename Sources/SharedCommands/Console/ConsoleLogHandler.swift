@@ -12,8 +12,8 @@ struct ConsoleLogHandler: LogHandler {
   let label: String
   var logLevel: Logger.Level
   var metadata: Logger.Metadata = [:]
-  /// The source of log messages that repeat outputs of the session, which are JSON events of their
-  /// own; nil where the session logs no outputs.
+  /// The source of log messages that repeat outputs of the session, which are written as separate
+  /// JSON events; nil if the session logs no outputs.
   var sessionOutputSource: String?
 
   subscript(metadataKey key: String) -> Logger.Metadata.Value? {

@@ -12,7 +12,7 @@ package struct LoggingOptions: ParsableArguments {
   package init() {}
 
   package func validate() throws {
-    if quiet, verbose { throw ValidationError("--quiet and --verbose exclude each other.") }
+    if quiet, verbose { throw ValidationError("--quiet and --verbose are mutually exclusive.") }
   }
 
   /// Sends all logging to stderr. Call once per process.

@@ -58,7 +58,7 @@ package struct RunEvent: Codable, Equatable, Sendable {
 }
 
 extension RunEvent {
-  /// Parses a line; nil where it is no event.
+  /// Parses a line; nil if it is not an event.
   package init?(line: some Collection<UInt8>) {
     guard let event = try? JSONDecoder().decode(Self.self, from: Data(line)) else { return nil }
     self = event

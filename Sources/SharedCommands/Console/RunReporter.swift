@@ -47,7 +47,7 @@ package struct RunReporter: Sendable {
     (shown, shownAt) = (progress, Date())
   }
 
-  /// A new stage is due at once, everything else at intervals.
+  /// A new stage is due immediately, everything else at intervals.
   private func isDue(_ progress: RunProgress, seconds: Double) -> Bool {
     progress.stage != shown.stage || Date().timeIntervalSince(shownAt) >= seconds
   }

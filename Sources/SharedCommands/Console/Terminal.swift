@@ -18,7 +18,7 @@ package final class Terminal: Sendable {
     usesColor = isInteractive && environment["NO_COLOR"] == nil
   }
 
-  /// Columns of the terminal; 80 where stderr is none.
+  /// Columns of the terminal; 80 if stderr is not a terminal.
   package var width: Int {
     var size = winsize()
     guard ioctl(STDERR_FILENO, UInt(TIOCGWINSZ), &size) == 0, size.ws_col > 0 else { return 80 }

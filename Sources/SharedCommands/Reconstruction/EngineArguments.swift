@@ -4,15 +4,15 @@ import RealityKit
 
 /// Options of `reconstruct` that only one engine has.
 package protocol EngineArguments: ParsableArguments {
-  /// Whether to check and print the plan only.
+  /// Whether to only check the input and print the plan.
   var isDryRun: Bool { get }
 
-  /// The files to write besides those that every engine writes. Throws a `CommandFailure` where one
+  /// The files to write besides those that every engine writes. Throws a `CommandFailure` if one
   /// can't be written.
   func outputs() throws -> EngineOutputs
   /// Sets up a session that reads the folder `photos`.
   func configure(_ session: PhotogrammetrySession, photos: URL) throws
-  /// The run's report as JSON; nil where there is none.
+  /// The run's report as JSON; nil if there is none.
   func report(of session: PhotogrammetrySession) throws -> Data?
 }
 

@@ -14,26 +14,26 @@ package protocol EngineSupport: Sendable {
   static var modelFormats: [ModelFormat] { get }
   /// Sections of the help of `reconstruct`.
   static var help: EngineHelp { get }
-  /// The source of log messages that repeat outputs of the session; nil where it logs none.
+  /// The source of log messages that repeat outputs of the session; nil if it logs none.
   static var sessionOutputSource: String? { get }
-  /// Why this machine can't reconstruct, where the session isn't supported.
+  /// The reason why this machine can't reconstruct, if sessions are not supported.
   static var unsupportedMachine: CommandFailure { get }
 
   /// Prepares the process of the command line; called once, before any command.
   static func prepareProcess()
   /// Whether another attempt may succeed after `error`.
   static func isTransient(_ error: any Error) -> Bool
-  /// Intrinsics of a photo's camera; nil where the engine does not provide them.
+  /// Intrinsics of a photo's camera; nil if the engine does not provide them.
   static func intrinsics(of pose: PhotogrammetrySession.Pose) -> PosesFile.Intrinsics?
   /// Adds the number of photos, registered photos and triangles to the event `complete`.
   static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent)
-  /// Prints what a run would do; throws a `CommandFailure` where it could not succeed.
+  /// Prints what a run would do; throws a `CommandFailure` if it could not succeed.
   static func dryRun(
     _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,
     _ reporter: RunReporter) throws
 }
 
-/// Sections of the help of `reconstruct` that depend on the engine; empty where it adds nothing.
+/// Sections of the help of `reconstruct` that depend on the engine; empty if it adds nothing.
 package struct EngineHelp: Sendable {
   /// Further command lines of the section on examples.
   package var examples = ""

@@ -11,7 +11,7 @@ package struct PosesFile: Encodable {
     var translation: [Float]
     /// Camera to world, as a quaternion x, y, z, w.
     var rotation: [Float]
-    /// Pixels of the upright photo; missing where the engine does not provide them.
+    /// Pixels of the upright photo; missing if the engine does not provide them.
     var intrinsics: Intrinsics?
   }
 

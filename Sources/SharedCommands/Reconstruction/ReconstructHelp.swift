@@ -1,6 +1,6 @@
 /// The discussion in the help of `reconstruct`.
 enum ReconstructHelp {
-  /// All sections; those of `engine` where they belong.
+  /// All sections, including those of `engine`.
   static func discussion(_ engine: EngineHelp) -> String {
     [
       introduction, examples + engine.examples, DetailArguments.help, engine.outputs,

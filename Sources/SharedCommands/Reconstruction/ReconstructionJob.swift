@@ -48,7 +48,7 @@ struct ReconstructionJob<Engine: EngineSupport> {
     logger.info("Done in \(RunProgress.duration(reporter.elapsed)).")
   }
 
-  /// Processes the requests and records all outputs; throws where an interrupt ended the session.
+  /// Processes the requests and records all outputs; throws if an interrupt ended the session.
   private func follow(_ session: PhotogrammetrySession, _ run: inout SessionRun<Engine>)
     async throws
   {

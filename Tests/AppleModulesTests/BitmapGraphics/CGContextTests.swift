@@ -2,7 +2,8 @@ import BitmapGraphics
 import Foundation
 import Testing
 
-/// Bitmaps of a few pixels, read back byte by byte. Rows are numbered from the top, y from the bottom.
+/// Bitmaps of a few pixels, read back byte by byte. Rows are numbered from the top, y from the
+/// bottom.
 @Suite struct CGContextTests {
   private static let rgba = CGImageAlphaInfo.premultipliedLast.rawValue
   private let clear: [UInt8] = [0, 0, 0, 0]

@@ -1,5 +1,6 @@
-// Swift Testing looks for an overlay of each module that a file imports next to it, and there is none
-// of Core Image on Linux. So this file, which doesn't import Testing, names the types for the tests.
+// Swift Testing looks for an overlay of each module that a file imports next to it, and there is
+// none of Core Image on Linux. So this file, which doesn't import Testing, names the types for the
+// tests.
 import CoreImage
 import Metal
 

@@ -133,7 +133,7 @@ import Testing
     try sealing.checkpoint.write(mesh)
     try sealing.sealSurface(StageNotes(), denseNotes: StageNotes())
     #expect(try store(viewPixels: 500).surface(StageNotes())?.positions == mesh.positions)
-    // The options of later stages play no part.
+    // The options of later stages are irrelevant.
     let retextured = try store(viewPixels: 500) { $0.textureMapping.textureSide = 1024 }
     #expect(retextured.surface(StageNotes()) != nil)
     let others = [

@@ -53,7 +53,7 @@ import Testing
     return ownIndex <= index
   }
 
-  /// A member that no list names counts for the first stage already.
+  /// A member that is not listed counts from the first stage on.
   @Test func newMembersCountForAllStages() throws {
     let encoded = try JSONValue(encoding: PipelineConfiguration())
     guard case .object(var members) = encoded else { return #expect(Bool(false)) }

@@ -18,10 +18,10 @@ import Testing
     #expect(special.textureMapping.textureSide == 8192)
     #expect(special.textureMapping.maps == Set(TextureMap.allCases))
     #expect(special.export.textureFormat == .jpeg(quality: 0.5))
-    // The stages before do not depend on it.
+    // Earlier stages do not depend on it.
     #expect(special.ingestion == configuration.ingestion)
     #expect(special.alignment == configuration.alignment)
-    // Applied twice it is the same.
+    // Specialization is idempotent.
     #expect(special.specialized(for: specification, viewPixels: 3_000_000) == special)
   }
 

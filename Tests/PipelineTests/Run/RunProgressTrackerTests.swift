@@ -15,7 +15,7 @@ import Testing
       denseShare: denseShare)
   }
 
-  /// At the expected pace fraction and remaining time are those of the model.
+  /// At the expected pace, the fraction and the remaining time are those of the model.
   @Test func progressFollowsTheModel() throws {
     let stages: [PipelineStage] = [.preProcessing, .imageAlignment, .pointCloudGeneration]
     let model = durations()
@@ -50,7 +50,7 @@ import Testing
     }
   }
 
-  /// Until validation ends the number of photos is a guess.
+  /// Until validation ends, the number of photos is an estimate.
   @Test func ingestedPhotosReweighStages() throws {
     func fraction(photos: Int) throws -> Double {
       var tracker = RunProgressTracker(

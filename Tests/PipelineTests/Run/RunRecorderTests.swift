@@ -42,7 +42,7 @@ import Testing
       events.withLock { $0 }
         == ["meshGeneration 0.0", "meshGeneration 1.0", "warning A.", "detail B."])
     let stage = try #require(recorder.report.stages.first)
-    // The store keeps nothing.
+    // The store caches nothing.
     #expect(stage.counts == ["triangles": 12, "decodedPhotos": 2])
     #expect(stage.name == "meshGeneration" && stage.seconds >= 0)
     #expect(recorder.report.warnings == ["A."] && recorder.report.details == ["B."])

@@ -57,7 +57,7 @@ import Testing
     try first.lockDirectory()
     try first.lockDirectory()
     #expect(throws: CheckpointError.self) { try second.lockDirectory() }
-    // Nor does the other write its report there.
+    // The other run does not write its report there either.
     try second.writeReport()
     let report = folder.url.appendingPathComponent("report.json")
     #expect(!FileManager.default.fileExists(atPath: report.path))

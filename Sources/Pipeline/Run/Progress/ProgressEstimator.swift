@@ -1,42 +1,43 @@
-/// Estimates how much of a run is done and how long the rest takes.
+/// Estimates the completed fraction and the remaining time of a run.
 ///
-/// Begins with the expected duration of each unit of work and corrects it by measurements: finished
-/// units give the speed of the machine, and the current one is extrapolated, with a weight that grows
-/// with its progress.
+/// Starts from the expected duration of each unit of work and corrects it by measurements: finished
+/// units give the speed of the machine, and the current unit is extrapolated with a weight that
+/// grows with its progress.
 package struct ProgressEstimator: Sendable {
   private struct Step {
     var unit: WorkUnit
     /// The expected duration in seconds.
     var prior: Double
     var fraction = 0.0
-    /// Measured so far, in seconds.
+    /// The measured duration so far, in seconds.
     var seconds = 0.0
 
-    /// The weight of its duration as evidence of the machine's speed. That of an alignment follows
-    /// the photos: how many features they have, and how many pairs overlap; that of a mesh the
-    /// shape.
+    /// The weight of its duration as evidence of the machine's speed. It is lower for alignment,
+    /// whose duration depends on the photos (the number of features and of overlapping pairs), and
+    /// for meshing, whose duration depends on the shape.
     var evidence: Double { [.imageAlignment, .meshGeneration].contains(unit.stage) ? 0.1 : 1 }
 
     var isDone: Bool { fraction >= 1 }
-    /// Whether the work was done and not taken from an earlier run.
+    /// Whether the work was done in this run, not reused from an earlier one.
     var isMeasured: Bool { fraction > 0 && seconds > 0.02 * prior * fraction }
   }
 
   private var steps: [Step]
   private var lastTime: Double
 
-  /// Begins at `time`, in seconds, with units in the order of work. `prior` gives expected seconds.
+  /// Starts at `time`, in seconds. `units` are in the order of work; `prior` returns the expected
+  /// duration of a unit in seconds.
   package init(units: [WorkUnit], at time: Double, prior: (WorkUnit) -> Double) {
     steps = units.map { Step(unit: $0, prior: max(0, prior($0))) }
     lastTime = time
   }
 
-  /// Replaces the expected durations, once more is known about the input.
+  /// Replaces the expected durations when more is known about the input.
   package mutating func reweigh(_ prior: (WorkUnit) -> Double) {
     for index in steps.indices { steps[index].prior = max(0, prior(steps[index].unit)) }
   }
 
-  /// Records that a unit has come to a fraction; progress never goes back.
+  /// Records that a unit has reached a fraction of its work; progress never decreases.
   package mutating func advance(_ unit: WorkUnit, to fraction: Double, at time: Double) {
     guard let index = steps.firstIndex(where: { $0.unit == unit }), fraction.isFinite else {
       return
@@ -46,12 +47,12 @@ package struct ProgressEstimator: Sendable {
     lastTime = max(lastTime, time)
   }
 
-  /// Removes units that are not needed any more.
+  /// Removes units that are no longer needed.
   package mutating func remove(_ isObsolete: (WorkUnit) -> Bool) {
     steps.removeAll { isObsolete($0.unit) }
   }
 
-  /// The part of the units that is done, from 0 to 1, weighted by expected durations.
+  /// The completed fraction of some units, from 0 to 1, weighted by expected durations.
   package func fraction(of units: [WorkUnit]) -> Double {
     let needed = steps.filter { units.contains($0.unit) }
     let total = needed.reduce(0) { $0 + $1.prior }
@@ -59,8 +60,8 @@ package struct ProgressEstimator: Sendable {
     return min(1, needed.reduce(0) { $0 + $1.prior * $1.fraction } / total)
   }
 
-  /// Seconds until the last of the units is done, those in between included; nil before anything is
-  /// measured.
+  /// Seconds until the last of the units is done, including all units before it; nil before
+  /// anything is measured.
   package func remainingSeconds(of units: [WorkUnit]) -> Double? {
     guard let last = steps.lastIndex(where: { units.contains($0.unit) }), let speed else {
       return nil
@@ -76,7 +77,8 @@ package struct ProgressEstimator: Sendable {
     guard done > 0, done > 0.01 * total else { return nil }
     let expected = measured.reduce(0) { $0 + $1.evidence * $1.prior * $1.fraction }
     let seconds = measured.reduce(0) { $0 + $1.evidence * $1.seconds }
-    // Little work may be atypical: the prior keeps some weight until a tenth is measured.
+    // A small amount of work may be atypical: the prior keeps some weight until a tenth is
+    // measured.
     let weight = 0.03 * max(0, total - 10 * expected)
     return (seconds + weight) / (expected + weight)
   }

@@ -1,9 +1,9 @@
-/// Follows the events of a run that works through some stages once, for a command that shows one
-/// result's progress.
+/// Tracks the events of a run that passes through its stages once, for a command that shows the
+/// progress of a single result.
 package struct RunProgressTracker: Sendable {
   package struct Progress: Hashable, Sendable {
     package var stage: PipelineStage
-    /// Of all stages, from 0 to 1.
+    /// The completed fraction of all stages, from 0 to 1.
     package var fraction: Double
     /// Nil before anything is measured.
     package var remainingSeconds: Double?
@@ -13,14 +13,14 @@ package struct RunProgressTracker: Sendable {
   private var durations: StageDurationModel
   private var estimator: ProgressEstimator
 
-  /// `stages` are in the order of work; `time` is in seconds of any clock that does not go back.
+  /// `stages` are in the order of work; `time` is in seconds of any monotonic clock.
   package init(stages: [PipelineStage], durations: StageDurationModel, at time: Double) {
     units = stages.map { WorkUnit(stage: $0) }
     self.durations = durations
     estimator = ProgressEstimator(units: units, at: time) { durations.seconds(of: $0) }
   }
 
-  /// The progress after an event; nil where the event does not change it.
+  /// The progress after an event; nil if the event does not change it.
   package mutating func update(_ event: PipelineEvent, at time: Double) -> Progress? {
     switch event {
     case .ingested(let photos):

@@ -2,8 +2,8 @@ import Foundation
 
 /// Expected durations of the stages of a run, before anything is measured.
 ///
-/// Fitted to ten runs on two threads, from 8 to 40 photos of 0.5 to 6 megapixels, at all levels from
-/// preview to full. Meshing and texture mapping are single-threaded for the most part.
+/// Fitted to ten runs with two threads and 8 to 40 photos of 0.5 to 6 megapixels, at all detail
+/// levels from preview to full. Meshing and texture mapping are mostly single-threaded.
 package struct StageDurationModel: Sendable {
   /// The work that yields cameras and sparse points.
   package enum AlignmentWork: Sendable {
@@ -17,12 +17,11 @@ package struct StageDurationModel: Sendable {
 
   /// The photos of the run.
   package var photos: PhotoTotals
-  /// The specification that stages without one of their own work for.
+  /// The specification for stages that all models share.
   package var finest: DetailSpecification
   package var threadCount: Int
   package var alignment: AlignmentWork
-  /// The part of the views that the dense stage makes patches of: less than 1 for one of several
-  /// jobs.
+  /// The fraction of the views that the dense stage processes: less than 1 for one of several jobs.
   package var denseShare: Double
 
   package init(
@@ -36,7 +35,7 @@ package struct StageDurationModel: Sendable {
   /// Expected seconds of a model, from the photos to the file.
   package var total: Double { seconds(of: PipelineStage.allCases) }
 
-  /// Expected seconds of some stages together.
+  /// Expected seconds of several stages together.
   package func seconds(of stages: [PipelineStage]) -> Double {
     stages.reduce(0) { $0 + seconds(of: WorkUnit(stage: $1)) }
   }
@@ -54,15 +53,15 @@ package struct StageDurationModel: Sendable {
     case .preProcessing: (0.01 * count + 0.015 * megapixels) / threads
     case .imageAlignment: alignmentSeconds(count, megapixels) / threads
     case .pointCloudGeneration: 0.4 + 1.84 * denseShare * count * view / threads
-    // The octree is mostly as deep for 0.2 MP as for 0.5 MP, and shallower below 0.12 MP.
+    // The octree usually has the same depth for 0.2 MP and 0.5 MP, and is shallower below 0.12 MP.
     case .meshGeneration: view < 0.12 ? 4.2 : 14.5 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
     case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
     case .optimization: 0.1 + 0.06 * texels
     }
   }
 
-  /// Thread seconds. Features and matches are two fifths of structure from motion, in runs of 11, 32
-  /// and 40 photos.
+  /// Seconds on a single thread. Features and matches take two fifths of structure from motion, as
+  /// measured in runs of 11, 32 and 40 photos.
   private func alignmentSeconds(_ count: Double, _ megapixels: Double) -> Double {
     let pairs = min(count * (count - 1) / 2, count * 20)
     let search = 0.4 * count + 0.09 * megapixels + 0.005 * pairs

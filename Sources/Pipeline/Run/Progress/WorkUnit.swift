@@ -1,4 +1,4 @@
-/// A piece of work that is done once, whichever requests need it.
+/// A unit of work that is done once, regardless of the number of requests that need it.
 package struct WorkUnit: Hashable, Sendable {
   package var stage: PipelineStage
   /// The model that the unit is for; nil for stages that all models share.

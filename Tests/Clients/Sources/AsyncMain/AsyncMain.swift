@@ -21,7 +21,7 @@ struct SampleLoader: Sequence, IteratorProtocol {
 }
 
 extension PhotogrammetrySample {
-  /// The same photo with a buffer of its own and a mask that excludes a two-pixel border.
+  /// The same photo with a separate buffer and a mask that excludes a two-pixel border.
   init?(copying sample: PhotogrammetrySample, id: Int) {
     let (width, height) = (
       CVPixelBufferGetWidth(sample.image), CVPixelBufferGetHeight(sample.image)

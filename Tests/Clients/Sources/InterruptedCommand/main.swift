@@ -2,7 +2,7 @@ import Foundation
 import OSLog
 import RealityKit
 
-// Ends in an orderly way when it is interrupted; it interrupts itself once processing has begun.
+// Ends cleanly when interrupted; interrupts itself once processing has begun.
 //
 //     InterruptedCommand <photos> <model.usdz>
 

@@ -2,7 +2,7 @@ import Combine
 import Foundation
 import RealityKit
 
-/// The state that an app shows of a reconstruction, without the app.
+/// The state of a reconstruction as an app displays it, without the app.
 @MainActor
 final class ReconstructionModel: ObservableObject {
   enum Phase: Equatable {

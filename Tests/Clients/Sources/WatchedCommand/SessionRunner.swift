@@ -50,7 +50,10 @@ final class SessionRunner: NSObject {
       case .requestProgress(_, fractionComplete: let fraction): onProgress?(fraction)
       case .requestProgressInfo(let request, let info):
         signposts.debug(
-          "\(String(describing: request)): \(String(describing: info.processingStage), privacy: .public)"
+          """
+          \(String(describing: request)): \
+          \(String(describing: info.processingStage), privacy: .public)
+          """
         )
       case .requestError(let request, let error): throw Failure.request(request, error)
       case .processingCancelled: throw Failure.timedOut(after: timeout)

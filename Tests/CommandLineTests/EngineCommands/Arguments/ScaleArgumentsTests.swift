@@ -13,7 +13,8 @@ import Testing
     let file = folder.appendingPathComponent("points.json")
     try Data(
       """
-      [{"meters": 0.2, "from": [{"photo": "a=1.jpg", "x": 1, "y": 2}, {"photo": "b.jpg", "x": 3, "y": 4}],
+      [{"meters": 0.2, "from": [{"photo": "a=1.jpg", "x": 1, "y": 2}, \
+      {"photo": "b.jpg", "x": 3, "y": 4}],
         "to": [{"photo": "a=1.jpg", "x": 5, "y": 6}, {"photo": "b.jpg", "x": 7, "y": 8}]}]
       """.utf8
     ).write(to: file)

@@ -24,7 +24,7 @@ import Testing
     }
   }
 
-  /// Adds datasets that give no model.
+  /// Adds datasets without a reconstructible model.
   private func addBrokenDatasets() throws {
     try addDataset("empty", from: "orbit", photos: 0)
     try addDataset("few", from: "orbit", photos: 2)

@@ -135,7 +135,7 @@ import Testing
     try expectFailure([], code: 2, mentioning: ["checkpoint-directory"])
     try expectFailure(["none", "m.usdz"], code: 2, mentioning: ["none does not exist"])
     try expectFailure(["empty", "m.usdz"], code: 2, mentioning: ["empty holds no checkpoint"])
-    try expectFailure(["begun", "m.usdz"], code: 2, mentioning: ["has not come to its surface"])
+    try expectFailure(["begun", "m.usdz"], code: 2, mentioning: ["has no finished surface"])
     try expectFailure(
       ["begun", "m.usdz", "--photos", "none"], code: 2, mentioning: ["none does not exist"])
     try expectFailure(

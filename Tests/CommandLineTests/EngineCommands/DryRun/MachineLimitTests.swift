@@ -11,7 +11,7 @@ import Testing
 
 /// Checks before a run apply the limits of the machine's memory, as the run does.
 @Suite struct MachineLimitTests {
-  /// A photo of more pixels a side than a machine with 4 GiB accepts.
+  /// A photo with more pixels per side than a machine with 4 GiB accepts.
   private func folder() throws -> TemporaryFolder {
     let folder = try TemporaryFolder()
     let image = TexturePattern.image(width: 8200, height: 240, seed: 1)

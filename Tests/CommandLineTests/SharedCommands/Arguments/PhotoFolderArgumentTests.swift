@@ -38,8 +38,8 @@ import Testing
     #expect(mask?.sentence.contains("holds the masks") == true)
   }
 
-  /// Hidden files are no content. A folder without photos fails the run, one without masks is an
-  /// invalid argument.
+  /// Hidden files do not count as content. A folder without photos fails the run; one without masks
+  /// is an invalid argument.
   @Test func emptyFoldersFail() throws {
     try temporary.write([0], as: "empty/.DS_Store")
     let photos = failure(path + "/empty")
