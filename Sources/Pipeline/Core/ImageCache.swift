@@ -35,14 +35,8 @@ final class ImageCache: Sendable {
     }
   }
 
-<<<<<<< HEAD
   /// Adds an image and drops the least recently used ones that exceed the budget.
   func keep(_ image: RasterImage, _ content: Content, of photo: ID<Photo>) {
-=======
-  /// Adds an image and evicts the least recently used ones. If `evicts` is false, the image is kept
-  /// only if there is room.
-  func keep(_ image: RasterImage, _ content: Content, of photo: ID<Photo>, evicts: Bool = true) {
->>>>>>> 935d1c8c789d09cd266153ed6c7663a64eea8af2
     let size = image.pixels.count
     let key = Key(photo: photo, content: content)
     guard size <= byteBudget else { return }

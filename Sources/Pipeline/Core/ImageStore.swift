@@ -9,14 +9,9 @@ package final class ImageStore: Sendable {
   private let processingPixels: Int?
   private let usesMasks: Bool
   private let cache: ImageCache
-<<<<<<< HEAD
   /// The photos at full size, if all of them fit into the budget: then each is decoded at full size
   /// once. `cache` has what remains of the budget.
   private let wholePhotos: ImageCache?
-=======
-  /// Whether all photos fit into the budget at full size; if so, each is decoded once at full size.
-  private let keepsWholePhotos: Bool
->>>>>>> 935d1c8c789d09cd266153ed6c7663a64eea8af2
   private let decodes: Locked<Int>
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image

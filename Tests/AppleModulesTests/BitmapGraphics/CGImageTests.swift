@@ -5,7 +5,7 @@ import TestSupport
 import Testing
 
 @Suite struct CGImageTests {
-  private func image(
+  private func makeImage(
     _ bytes: [UInt8], width: Int, height: Int = 1, bits: Int = 8, bitsPerPixel: Int,
     bytesPerRow: Int, space: CGColorSpace = CGColorSpaceCreateDeviceRGB(),
     info: CGImageAlphaInfo, order: CGBitmapInfo = []
@@ -38,7 +38,7 @@ import Testing
     alpha: CGImageAlphaInfo, order: CGBitmapInfo, stored: [UInt8], expected: [UInt8]
   ) throws {
     let image = try #require(
-      image(stored, width: 1, bitsPerPixel: 32, bytesPerRow: 4, info: alpha, order: order))
+      makeImage(stored, width: 1, bitsPerPixel: 32, bytesPerRow: 4, info: alpha, order: order))
     #expect(image.dataProvider?.data == Data(expected))
     let hasAlpha = alpha != .noneSkipLast && alpha != .noneSkipFirst
     #expect(image.alphaInfo == (hasAlpha ? .last : .noneSkipLast))
@@ -48,7 +48,7 @@ import Testing
 
   @Test func grayRowsMayBePadded() throws {
     let image = try #require(
-      image(
+      makeImage(
         [1, 2, 99, 3, 4], width: 2, height: 2, bitsPerPixel: 8, bytesPerRow: 3,
         space: CGColorSpaceCreateDeviceGray(), info: .none))
     #expect(image.dataProvider?.data == Data([1, 2, 3, 4]))
@@ -62,7 +62,7 @@ import Testing
       _ width: Int = 2, _ height: Int = 2, bits: Int = 8, bitsPerPixel: Int = 32,
       bytesPerRow: Int = 8
     ) -> CGImage? {
-      image(
+      makeImage(
         bytes, width: width, height: height, bits: bits, bitsPerPixel: bitsPerPixel,
         bytesPerRow: bytesPerRow, info: .last)
     }
@@ -71,7 +71,7 @@ import Testing
     #expect(make(bits: 16) == nil && make(bitsPerPixel: 24) == nil && make(bytesPerRow: 7) == nil)
     // One byte too few.
     #expect(make(2, 3) == nil && make(bytesPerRow: 9) == nil)
-    #expect(image(bytes, width: 1, bitsPerPixel: 32, bytesPerRow: 4, info: .none) == nil)
+    #expect(makeImage(bytes, width: 1, bitsPerPixel: 32, bytesPerRow: 4, info: .none) == nil)
   }
 
   @Test func croppingCountsFromTheTopLeft() throws {
