@@ -146,6 +146,12 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .executableTarget(
       name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation"],
       path: "Tests/CancelBenchmark", swiftSettings: strict),
+    .executableTarget(
+      name: "library-benchmark",
+      dependencies: [
+        argumentParser, "Formats", "ImageFiles", "Kernels", "SceneModel",
+      ],
+      path: "Tests/LibraryBenchmark", swiftSettings: strict),
     .testTarget(
       name: "KernelsTests",
       dependencies: ["CKernels", "Kernels", "SceneModel", "TestLevels", "TestSupport"],
