@@ -98,8 +98,8 @@ struct MinimalSolvers: ParsableCommand {
 }
 
 /// Estimates poses from correspondences with outliers: relative ones (rows x₁ y₁ x₂ y₂ at depth 1)
-/// or absolute ones (rows u v, in pixels of a camera of focal length `focal` with the principal point
-/// at 0, then X Y Z).
+/// or absolute ones (rows u v, in pixels of a camera of focal length `focal` with the principal
+/// point at 0, then X Y Z).
 ///
 /// For each problem the output holds the processor seconds, the number of inliers (−1 without a
 /// pose), a quaternion x y z w, a translation and the indices of the inliers.

@@ -178,7 +178,7 @@ private struct FinishedRun {
   @Test func photosMayMove() throws {
     let run = try FinishedRun()
     let original = try ReconstructionPipeline(
-      try run.saved(), configuration: PipelineConfiguration()
+      .savedRun(try run.saved()), configuration: PipelineConfiguration()
     ).model(for: small)
     let moved = run.folder.appendingPathComponent("moved", isDirectory: true)
     try FileManager.default.moveItem(at: run.photos, to: moved)

@@ -72,7 +72,7 @@ import Testing
     let caches = (0..<2).map { _ in cache(folder.url, access: .shared) }
     for cache in caches { try cache.lockDirectory() }
     withExtendedLifetime(caches) {
-      #expect(throws: CheckpointError.self) { try self.cache(folder.url).lockDirectory() }
+      _ = #expect(throws: CheckpointError.self) { try self.cache(folder.url).lockDirectory() }
     }
   }
 
