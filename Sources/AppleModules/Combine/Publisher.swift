@@ -73,7 +73,8 @@ public enum Subscribers {
 
     /// Whether the first requests fewer values.
     public static func < (lhs: Demand, rhs: Demand) -> Bool {
-      (lhs.max ?? .max) < (rhs.max ?? .max)
+      guard let left = lhs.max else { return false }
+      return rhs.max.map { left < $0 } ?? true
     }
   }
 }

@@ -28,7 +28,7 @@ import Testing
     #expect(plan.memory.needed == 3 << 30)
     #expect(plan.report.used.count == 20)
     let lines = plan.lines.suffix(2)
-    #expect(lines.first?.contains("m.usdz would be written: at most 100000 triangles") == true)
+    #expect(lines.first?.contains("m.usdz would be written: at most 99999 triangles") == true)
     #expect(lines.first?.contains("4096 x 4096") == true)
     #expect(lines.last?.contains("with 3 threads, at most 3221 MB of memory") == true)
   }
