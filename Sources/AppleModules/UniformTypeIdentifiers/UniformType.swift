@@ -19,7 +19,7 @@ extension UniformType {
     UniformType(identifier: "public.image", parents: ["public.data", "public.content"]),
     UniformType(
       identifier: "public.jpeg", parents: ["public.image"],
-      filenameExtensions: ["jpg", "jpeg", "jpe"],
+      filenameExtensions: ["jpeg", "jpg", "jpe"],
       mimeType: "image/jpeg"),
     UniformType(
       identifier: "public.png", parents: ["public.image"], filenameExtensions: ["png"],
