@@ -20,7 +20,7 @@ COMPONENTS = {
     "photo refinement": ["CKernels/surface/photo_refinement*"],
     "simplifier and surface fit": ["CKernels/mesh/*"],
     "charts": ["CKernels/texture/c*", "CKernels/texture/overlaps.cpp"],
-    "packing": ["CKernels/texture/pack.cpp", "CKernels/texture/sheet*", "CKernels/texture/page*",
+    "packing": ["CKernels/texture/pack.cpp", "CKernels/texture/atlas_occupancy*",
                 "CKernels/texture/bitmap*", "CKernels/texture/atlas*"],
     "visibility, painting, baking": ["CKernels/texture/observe.cpp", "CKernels/texture/paint.cpp",
                                      "CKernels/texture/bake*", "CKernels/texture/occlusion.cpp",
