@@ -1,11 +1,16 @@
 import SceneModel
 
-/// Keeps the most recently used images within a byte budget. Thread-safe.
+/// Keeps images within a byte budget. Thread-safe.
+///
+/// New images displace only those of earlier stages, least recently used first: a stage reads all
+/// photos in turn, often several times, and in such a scan the image that is needed again soonest
+/// is the one that was used least recently.
 final class ImageCache: Sendable {
   enum Content: Hashable {
     /// As decoded, with the sides divided by the reduction.
     case decoded(reduction: Int)
-    case resized(width: Int, height: Int)
+    /// Made from the photo as decoded with the reduction.
+    case resized(width: Int, height: Int, reduction: Int)
     case mask(width: Int, height: Int)
   }
 
@@ -18,6 +23,8 @@ final class ImageCache: Sendable {
     var images: [Key: (image: RasterImage, lastUse: Int)] = [:]
     var byteCount = 0
     var clock = 0
+    /// Images that were used before this time may be displaced.
+    var stageStart = 0
   }
 
   private let byteBudget: Int
@@ -35,16 +42,22 @@ final class ImageCache: Sendable {
     }
   }
 
-  /// Adds an image and drops the least recently used ones that exceed the budget.
+  /// Allows images that are not used from now on to be displaced.
+  func startStage() {
+    state.withLock { $0.stageStart = $0.clock + 1 }
+  }
+
+  /// Adds an image if it fits into the budget, at the expense of images of earlier stages.
   func keep(_ image: RasterImage, _ content: Content, of photo: ID<Photo>) {
     let size = image.pixels.count
     let key = Key(photo: photo, content: content)
     guard size <= byteBudget else { return }
     state.withLock { state in
       guard state.images[key] == nil else { return }
-      while state.byteCount + size > byteBudget,
-        let oldest = state.images.min(by: { $0.value.lastUse < $1.value.lastUse })
-      {
+      while state.byteCount + size > byteBudget {
+        guard let oldest = state.images.min(by: { $0.value.lastUse < $1.value.lastUse }),
+          oldest.value.lastUse < state.stageStart
+        else { return }
         state.byteCount -= oldest.value.image.pixels.count
         state.images[oldest.key] = nil
       }

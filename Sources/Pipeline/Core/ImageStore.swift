@@ -1,7 +1,7 @@
 import Kernels
 import SceneModel
 
-/// Decodes photos on demand and keeps the most recently used ones within a byte budget.
+/// Decodes photos on demand and keeps images within a byte budget.
 ///
 /// Thread-safe. Results depend on the arguments only, never on the cached images.
 package final class ImageStore: Sendable {
@@ -12,6 +12,8 @@ package final class ImageStore: Sendable {
   /// The photos at full size, if all of them fit into the budget: then each is decoded at full size
   /// once. `cache` has what remains of the budget.
   private let wholePhotos: ImageCache?
+  /// Every photo is decoded for an image of this number of pixels, or of more.
+  private let decodedPixels: Int
   private let decodes: Locked<Int>
 
   /// `byteBudget` bounds the images that are kept between calls, not those a caller holds. No image
@@ -25,17 +27,36 @@ package final class ImageStore: Sendable {
     let wholeBytes = source.byteCount <= byteBudget ? source.byteCount : 0
     cache = ImageCache(byteBudget: byteBudget - wholeBytes)
     wholePhotos = wholeBytes > 0 ? ImageCache(byteBudget: wholeBytes) : nil
+    decodedPixels = 0
     decodes = Locked(0)
   }
 
-  /// The photos of another store without their masks; the two share their decoded images.
-  package init(withoutMasksOf other: ImageStore) {
+  /// A store with the photos and the decoded images of another one.
+  private init(sharing other: ImageStore, usesMasks: Bool, decodedPixels: Int) {
     source = other.source
     processingPixels = other.processingPixels
-    usesMasks = false
+    self.usesMasks = usesMasks
     cache = other.cache
     wholePhotos = other.wholePhotos
+    self.decodedPixels = decodedPixels
     decodes = other.decodes
+  }
+
+  /// The photos of another store without their masks; the two share their decoded images.
+  package convenience init(withoutMasksOf other: ImageStore) {
+    self.init(sharing: other, usesMasks: false, decodedPixels: other.decodedPixels)
+  }
+
+  /// The same photos for a stage that needs them in several sizes, up to `maximumPixels`: one
+  /// decoding serves all sizes.
+  func decodingOnce(forSizesUpTo maximumPixels: Int) -> ImageStore {
+    ImageStore(sharing: self, usesMasks: usesMasks, decodedPixels: maximumPixels)
+  }
+
+  /// Marks the beginning of a stage: its images may displace those of earlier stages.
+  func startStage() {
+    cache.startStage()
+    wholePhotos?.startStage()
   }
 
   /// A store of photos in files. `contentHashes`, by photo id, avoid rereading files if they are
@@ -67,18 +88,21 @@ package final class ImageStore: Sendable {
   /// The camera of the result is `camera.resized(width:height:)` with the image's size.
   package func image(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage {
     let size = try size(of: id, maximumPixels: maximumPixels)
-    let content = ImageCache.Content.resized(width: size.width, height: size.height)
+    let shared = try self.size(of: id, maximumPixels: decodedPixels)
+    let reduction = try source.reduction(
+      of: id, atLeast: (max(size.width, shared.width), max(size.height, shared.height)))
+    let content = ImageCache.Content.resized(
+      width: size.width, height: size.height, reduction: reduction)
     if let kept = cache.image(content, of: id) { return kept }
-    let reduction = try source.reduction(of: id, atLeast: size)
     let decoded = try decoded(id, reducedBy: reduction, for: size)
     guard decoded.width != size.width || decoded.height != size.height else { return decoded }
     let image = try decoded.resized(width: size.width, height: size.height)
-    cache.keep(image, content, of: id)
+    if decodedPixels == 0 { cache.keep(image, content, of: id) }
     return image
   }
 
-  /// The photo as decoded for an image of a given size. It is cached if it has that size, or if all
-  /// photos fit into the budget at full size.
+  /// The photo as decoded for an image of a given size. It is cached if it has that size, if other
+  /// sizes may be needed, or if all photos fit into the budget at full size.
   private func decoded(
     _ id: ID<Photo>, reducedBy reduction: Int, for size: (width: Int, height: Int)
   ) throws -> RasterImage {
@@ -88,7 +112,7 @@ package final class ImageStore: Sendable {
     let image = try source.decoded(id, reducedBy: reduction)
     decodes.withLock { $0 += 1 }
     let isResult = image.width == size.width && image.height == size.height
-    if isResult || cache === wholePhotos { cache.keep(image, content, of: id) }
+    if isResult || decodedPixels > 0 || cache === wholePhotos { cache.keep(image, content, of: id) }
     return image
   }
 

@@ -40,6 +40,9 @@ package struct ImageAlignment: Sendable {
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
     try PipelineError.checkCount(photos.count, needed: options.minimumPhotos)
+    let sizes = [options.features.photoPixels, options.refinement.workingPixels]
+    let images =
+      sizes[0] == sizes[1] ? images : images.decodingOnce(forSizesUpTo: max(sizes[0], sizes[1]))
     let features = try timed("featureSeconds", context) {
       try FeatureExtraction(options.features).run(
         photos, images: images, context.part(from: 0, to: 0.4))

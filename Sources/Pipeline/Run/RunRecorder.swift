@@ -54,6 +54,7 @@ final class RunRecorder {
     self.notes[stage] = notes
     let start = ResourceUsage.now
     let decodeCount = images?.decodeCount
+    images?.startStage()
     try recordingErrors { try control.step(0) }
     defer {
       if let images, let decodeCount {

@@ -55,7 +55,8 @@ package struct TextureMapping: Sendable {
     _ mesh: Mesh, dense: Mesh, occluders: Mesh = Mesh(), reconstruction: Reconstruction,
     images: ImageStore, _ context: StageContext
   ) throws -> TexturedMesh {
-    try run(
+    let images = images.decodingOnce(forSizesUpTo: options.painting.maximumPixels)
+    return try run(
       mesh, dense: dense, occluders: occluders,
       source: ViewSource(reconstruction, images: images), context)
   }

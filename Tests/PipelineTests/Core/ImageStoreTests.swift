@@ -62,6 +62,49 @@ import Testing
     }
   }
 
+  /// Reads JPEG photos in two sizes, as the texture stage does, of which the smaller alone would be
+  /// decoded at half size.
+  @Test func aStageDecodesAPhotoOnceForAllSizes() throws {
+    let folder = try TemporaryFolder()
+    for index in 0..<3 {
+      try folder.write(
+        ImageCodec.encodeJPEG(
+          TexturePattern.image(width: 400, height: 300, seed: UInt32(index)), quality: 0.9),
+        as: "\(index).jpg")
+    }
+    let photos = try PhotoIngestion().run(folder: folder.url, StageContext()).photos
+    let bytes = photos.count * 400 * 300 * 3
+    for (budget, decodes) in [(bytes, 3), (2 * bytes / 3, 4), (0, 6)] {
+      let whole = ImageStore(photos: photos, byteBudget: budget)
+      _ = try whole.image(ID(0), maximumPixels: 25_000)
+      whole.startStage()
+      let before = whole.decodeCount
+      let store = whole.decodingOnce(forSizesUpTo: 90_000)
+      for pixels in [25_000, 90_000] {
+        for photo in photos {
+          let full = try ImageCodec.decode(ImageCodec.contents(of: photo.url))
+          #expect(try store.image(photo.id, maximumPixels: pixels) == full.reduced(to: pixels))
+        }
+      }
+      #expect(store.decodeCount - before == decodes)
+    }
+  }
+
+  /// Of six photos that are read three times, the cache holds four: only two are decoded again.
+  @Test func repeatedScansDisplaceOnlyImagesOfEarlierStages() throws {
+    let photos = (0..<6).map { TexturePattern.image(width: 400, height: 300, seed: $0) }
+    let store = ImageStore(ImagesInMemory(images: photos), byteBudget: 4 * photos[0].pixels.count)
+    for stage in 0..<2 {
+      store.startStage()
+      let before = store.decodeCount
+      let order = stage == 0 ? Array(photos.indices) : photos.indices.reversed()
+      for _ in 0..<3 {
+        for index in order { #expect(try store.image(ID(index)) == photos[index]) }
+      }
+      #expect(store.decodeCount - before == (stage == 0 ? 6 : 4) + 2 * 2)
+    }
+  }
+
   @Test func aStoreWithoutMasksSharesDecodedPhotos() throws {
     let image = TexturePattern.image(width: 400, height: 300, seed: 1)
     let mask = RasterImage(width: 400, height: 300, channels: 1)

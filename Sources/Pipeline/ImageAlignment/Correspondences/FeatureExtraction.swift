@@ -35,18 +35,21 @@ package struct FeatureExtraction {
 
     package init() {}
 
-    /// The working size in pixels and the detector options for a photo.
-    fileprivate func plan(of photo: Photo) -> (maximumPixels: Int, detection: FeatureDetection) {
+    /// The largest number of pixels that is searched, for the sensitivity.
+    var photoPixels: Int { sensitivity == .high ? high.maximumPixels : maximumPixels }
+
+    /// The detector's options for a photo.
+    fileprivate func detection(for photo: Photo) -> FeatureDetection {
       var detection = detection
       guard sensitivity == .high else {
         detection.doublesPhoto = photo.width * photo.height <= doubledPixels
-        return (maximumPixels, detection)
+        return detection
       }
       detection.contrastThreshold *= high.contrastFactor
       detection.edgeThreshold *= high.edgeFactor
       detection.maximumFeatures *= high.featureFactor
       detection.sufficientFeatures *= high.featureFactor
-      return (high.maximumPixels, detection)
+      return detection
     }
   }
 
@@ -91,10 +94,10 @@ package struct FeatureExtraction {
   private static func features(
     of photo: Photo, _ images: ImageStore, _ options: Options
   ) throws -> FeatureSet {
-    var (maximumPixels, detection) = options.plan(of: photo)
-    let image = try images.image(photo.id, maximumPixels: maximumPixels)
+    var detection = options.detection(for: photo)
+    let image = try images.image(photo.id, maximumPixels: options.photoPixels)
     let margin = max(1, options.maskMargin * Double(max(image.width, image.height)))
-    let mask = try images.mask(photo.id, maximumPixels: maximumPixels)?
+    let mask = try images.mask(photo.id, maximumPixels: options.photoPixels)?
       .dilated(by: Int(margin.rounded()))
     // Each task is single-threaded; tasks run in parallel.
     let control = KernelControl()
