@@ -66,7 +66,8 @@ struct InspectionReport: Encodable {
     var lines = used.map { line($0, nameWidth: width) }
     lines += refused.map(\.reason) + refusedMasks.map(\.reason)
     lines.append(
-      "\(used.count) photos of \(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
+      "\(used.count) photo\(used.count == 1 ? "" : "s") of "
+        + "\(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
         + "\(refused.count) file\(refused.count == 1 ? "" : "s") not.")
     let masks = used.count { $0.maskCoverage != nil }
     if masks > 0 { lines.append("\(masks) of \(used.count) photos have a mask.") }

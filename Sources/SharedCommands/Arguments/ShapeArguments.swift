@@ -6,13 +6,13 @@ package struct ShapeArguments: ParsableArguments {
   @Option(
     name: .long, parsing: .unconditional,
     help: ArgumentHelp(
-      "Crop the model to a box, given by two opposite corners in the model's frame.",
+      "Crop the model to the box with these opposite corners, in the model's frame and unit.",
       valueName: "x,y,z,x,y,z"))
   package var crop: BoxArgument?
 
   @Flag(
     name: .long,
-    help: "Merge pairs of triangles to quads where they fit together; not in GLB.")
+    help: "Merge pairs of triangles into quads where they fit together; GLB has triangles only.")
   package var quads = false
 
   package init() {}
