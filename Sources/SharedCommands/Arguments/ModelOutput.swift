@@ -3,7 +3,9 @@ import Foundation
 
 /// The file or folder of a model; the extension of its path selects the format.
 package struct ModelOutput: Equatable, Sendable {
+  /// The location; that of a folder has a directory path.
   package let url: URL
+  /// The format that the extension selects.
   package let format: ModelFormat
 
   /// Parses `path`; throws a `CommandFailure` if no model can be written there in one of the file

@@ -2,6 +2,7 @@ import Foundation
 
 /// A folder of photos, or of their masks, on the command line.
 package struct PhotoFolderArgument {
+  /// The location of the folder.
   package let url: URL
 
   /// Throws a `CommandFailure` unless `path` is a readable folder that isn't empty.

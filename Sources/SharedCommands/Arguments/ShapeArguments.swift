@@ -30,8 +30,10 @@ package struct ShapeArguments: ParsableArguments {
 
 /// A box by two opposite corners.
 package struct BoxArgument: ExpressibleByArgument, Equatable {
+  /// The axis-aligned box.
   package let box: BoundingBox
 
+  /// Parses `x,y,z,x,y,z`; nil unless these are finite numbers and the box has a volume.
   package init?(argument: String) {
     let numbers = argument.split(separator: ",", omittingEmptySubsequences: false)
       .map { Float($0.filter { $0 != " " }) }
