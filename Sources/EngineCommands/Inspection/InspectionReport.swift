@@ -55,9 +55,7 @@ struct InspectionReport: Encodable {
 
   /// The report as JSON.
   func encoded() throws -> String {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
-    return String(decoding: try encoder.encode(self), as: UTF8.self)
+    String(decoding: try JSONEncoder.readable.encode(self), as: UTF8.self)
   }
 
   /// A line per used photo, the reasons for the other files, and a summary.

@@ -2,8 +2,8 @@ import Foundation
 
 /// A folder on the command line.
 package enum FolderArgument {
-  /// The URL of the folder `path`; throws a `CommandFailure` that names the remedy unless `path` is a
-  /// folder. `content` is what the folder should hold.
+  /// The URL of the folder `path`, which should hold `content`; throws a `CommandFailure` unless
+  /// `path` is a folder.
   package static func url(_ path: String, holding content: String) throws -> URL {
     let url = URL(fileURLWithPath: path, isDirectory: true)
     var isDirectory: ObjCBool = false

@@ -47,8 +47,6 @@ package struct PosesFile: Encodable {
 
   /// The file's content.
   func encoded() throws -> Data {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
-    return try encoder.encode(self) + Data("\n".utf8)
+    try JSONEncoder.readable.encode(self) + Data("\n".utf8)
   }
 }
