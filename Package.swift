@@ -91,19 +91,15 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "ImageFiles", dependencies: ["CKernels", "Kernels", "SceneModel"],
       swiftSettings: strict),
     .target(
-      name: "Pipeline", dependencies: ["Kernels", "ImageFiles", "Formats", "SceneModel", logging],
+      name: "Pipeline", dependencies: ["Kernels", "ImageFiles", "Formats", "SceneModel"],
       swiftSettings: strict),
     appleModule("CoreFoundationTypes"),
-    appleModule("BitmapGraphics", ["CoreFoundationTypes", "ImageFiles", "Kernels", "SceneModel"]),
+    appleModule("BitmapGraphics", ["CoreFoundationTypes", "Kernels", "SceneModel"]),
     appleModule("Combine"),
     appleModule("CoreGraphics", ["BitmapGraphics"]),
-    appleModule(
-      "CoreImage",
-      [
-        "BitmapGraphics", "CoreVideo", "ImageFiles", "ImageIO", "Kernels", "Metal", "SceneModel",
-      ]),
+    appleModule("CoreImage", ["BitmapGraphics", "CoreVideo", "ImageIO", "Metal", "SceneModel"]),
     appleModule("CoreMotion"),
-    appleModule("CoreVideo", ["CoreFoundationTypes", "Kernels", "SceneModel"]),
+    appleModule("CoreVideo", ["CoreFoundationTypes", "SceneModel"]),
     appleModule(
       "ImageIO", ["BitmapGraphics", "CoreFoundationTypes", "ImageFiles", "Kernels", "SceneModel"]),
     appleModule("Metal"),
@@ -130,7 +126,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       ],
       swiftSettings: strict),
     .target(
-      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles", "Formats"],
+      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles"],
       path: "Tests/TestSupport", swiftSettings: strict),
     .target(name: "TestLevels", path: "Tests/TestLevels", swiftSettings: strict),
     .executableTarget(
@@ -178,16 +174,16 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .testTarget(
       name: "RealityFoundationTests",
       dependencies: [
-        "RealityKit", "RealityFoundation", "Metal", "os", "Pipeline", "Formats", "ImageFiles",
-        "Kernels", "SceneModel", "simd", "TestLevels", "TestSupport", logging,
+        "RealityKit", "RealityFoundation", "Pipeline", "Formats", "ImageFiles", "Kernels",
+        "SceneModel", "TestLevels", "TestSupport",
       ],
       swiftSettings: strict),
     .testTarget(
       name: "CommandLineTests",
       dependencies: [
-        "photogrammetry-cli", "SharedCommands", "EngineCommands", "Evaluation", "Formats",
-        "Pipeline", "ImageFiles", "Kernels", "RealityFoundation", "RealityKit", "SceneModel",
-        "TestLevels", "TestSupport",
+        argumentParser, "photogrammetry-cli", "SharedCommands", "EngineCommands", "Evaluation",
+        "Formats", "Pipeline", "ImageFiles", "Kernels", "RealityFoundation", "RealityKit",
+        "SceneModel", "TestLevels", "TestSupport",
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]

@@ -15,7 +15,7 @@ import SharedCommands
 struct PhotogrammetryCLI: AsyncParsableCommand {
   static let configuration = CommandConfiguration(
     commandName: "photogrammetry-cli",
-    abstract: "Photos in, a textured 3-D model out.",
+    abstract: "Reconstruct textured 3-D models from photos.",
     discussion: """
       Reconstructs an object from photos taken all around it:
 

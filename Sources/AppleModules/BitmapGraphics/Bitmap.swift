@@ -87,6 +87,12 @@ struct Bitmap {
   }
 }
 
+/// A color component, premultiplied by alpha, divided by alpha; unchanged if alpha is 0 or 255.
+func divided(_ component: UInt8, byAlpha alpha: UInt8) -> UInt8 {
+  guard alpha > 0, alpha < 255 else { return component }
+  return UInt8(min(255, (Int(component) * 255 + Int(alpha) / 2) / Int(alpha)))
+}
+
 extension PixelValue {
   /// The color with its components multiplied by alpha.
   var premultiplied: PixelValue {
@@ -97,11 +103,9 @@ extension PixelValue {
 
   /// The color with its components divided by alpha.
   var unpremultiplied: PixelValue {
-    guard alpha > 0, alpha < 255 else { return self }
-    func scaled(_ value: UInt8) -> UInt8 {
-      UInt8(min(255, (Int(value) * 255 + Int(alpha) / 2) / Int(alpha)))
-    }
-    return PixelValue(scaled(red), scaled(green), scaled(blue), alpha)
+    PixelValue(
+      divided(red, byAlpha: alpha), divided(green, byAlpha: alpha), divided(blue, byAlpha: alpha),
+      alpha)
   }
 
   /// This color composited over another (source-over; Porter and Duff 1984), neither premultiplied.

@@ -130,16 +130,11 @@ extension PixelLayout {
         if colorOffsets.isEmpty { pixels.append(opacity) }
         for offset in colorOffsets {
           let value = bytes[start + offset]
-          pixels.append(isPremultiplied ? restored(value, opacity) : value)
+          pixels.append(isPremultiplied ? divided(value, byAlpha: opacity) : value)
         }
         if channels == 4 { pixels.append(opacity) }
       }
     }
     return RasterImage(width: width, height: height, channels: channels, pixels: pixels)
-  }
-
-  private func restored(_ value: UInt8, _ opacity: UInt8) -> UInt8 {
-    guard opacity > 0, opacity < 255 else { return value }
-    return UInt8(min(255, (Int(value) * 255 + Int(opacity) / 2) / Int(opacity)))
   }
 }

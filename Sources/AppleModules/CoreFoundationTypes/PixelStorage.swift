@@ -1,5 +1,6 @@
 /// Memory for the rows of an image, at a fixed address as long as the object lives.
 package final class PixelStorage {
+  /// The size in bytes.
   package let byteCount: Int
   private let bytes: UnsafeMutableRawBufferPointer
   /// Whether the memory is freed with the object.

@@ -57,7 +57,7 @@ public final class CIContext: Sendable {
     options: [CIImageRepresentationOption: Any] = [:]
   ) -> Data? { file(of: image, "public.png", [:]) }
 
-  /// Writes an image as a JPEG file.
+  /// Writes an image as a JPEG file. Throws a `CocoaError` if it can't be rendered or written.
   public func writeJPEGRepresentation(
     of image: CIImage, to url: URL, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
@@ -66,7 +66,7 @@ public final class CIContext: Sendable {
       jpegRepresentation(of: image, colorSpace: colorSpace, options: options), to: url)
   }
 
-  /// Writes an image as a PNG file.
+  /// Writes an image as a PNG file. Throws a `CocoaError` if it can't be rendered or written.
   public func writePNGRepresentation(
     of image: CIImage, to url: URL, format: CIFormat, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
@@ -80,7 +80,7 @@ public final class CIContext: Sendable {
     options: [CIImageRepresentationOption: Any] = [:]
   ) -> Data? { file(of: image, "public.heic", quality(options)) }
 
-  /// Writes an image as a HEIC file.
+  /// Writes an image as a HEIC file. Throws a `CocoaError` if it can't be rendered or written.
   public func writeHEIFRepresentation(
     of image: CIImage, to url: URL, format: CIFormat, colorSpace: CGColorSpace,
     options: [CIImageRepresentationOption: Any] = [:]
@@ -168,7 +168,7 @@ public struct CIImageRepresentationOption: RawRepresentable, Hashable, Sendable 
   public init(rawValue: String) { self.rawValue = rawValue }
 }
 
-/// A pixel format.
+/// A pixel format; has no effect here, since files have 8 bits per component, and all are equal.
 public struct CIFormat: Hashable, Sendable {
   /// Red, green, blue and alpha, 8 bits each.
   public static let RGBA8 = CIFormat()

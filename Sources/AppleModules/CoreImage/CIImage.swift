@@ -2,6 +2,7 @@
 @_exported import CoreVideo
 @_exported import Foundation
 @_exported import ImageIO
+import SceneModel
 
 /// An image in a plane: it may be rotated, cropped, translated and scaled before it is rendered.
 /// There are no filters.

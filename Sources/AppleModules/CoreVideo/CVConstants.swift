@@ -30,6 +30,10 @@ public let kCVPixelFormatType_OneComponent32Float: OSType = 0x4C30_3066
 public let kCVPixelFormatType_DepthFloat32: OSType = 0x6664_6570
 /// Disparities in 1/meter as 32-bit floating-point numbers.
 public let kCVPixelFormatType_DisparityFloat32: OSType = 0x6664_6973
+/// Depths in meters as 16-bit floating-point numbers.
+public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
+/// Disparities in 1/meter as 16-bit floating-point numbers.
+public let kCVPixelFormatType_DisparityFloat16: OSType = 0x6864_6973
 /// One 16-bit floating-point component.
 public let kCVPixelFormatType_OneComponent16Half: OSType = 0x4C30_3068
 /// Alpha, blue, green, red; 8 bits each. Buffers of this format can't be created.
@@ -38,11 +42,6 @@ public let kCVPixelFormatType_32ABGR: OSType = 0x4142_4752
 public let kCVPixelFormatType_420YpCbCr8BiPlanarVideoRange: OSType = 0x3432_3076
 /// Luma and chroma in two planes, full range. Buffers of this format can't be created.
 public let kCVPixelFormatType_420YpCbCr8BiPlanarFullRange: OSType = 0x3432_3066
-
-/// Depths in meters as 16-bit floating-point numbers.
-public let kCVPixelFormatType_DepthFloat16: OSType = 0x6864_6570
-/// Disparities in 1/meter as 16-bit floating-point numbers.
-public let kCVPixelFormatType_DisparityFloat16: OSType = 0x6864_6973
 
 /// Attribute: the pixel format code. Pools read it; elsewhere attributes have no effect.
 public let kCVPixelBufferPixelFormatTypeKey: CFString = "PixelFormatType"

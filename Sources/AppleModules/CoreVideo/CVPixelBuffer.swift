@@ -1,4 +1,4 @@
-/// An image in memory with one plane.
+/// An image in memory with one plane. On macOS a buffer may have several planes and attachments.
 public final class CVPixelBuffer {
   /// The width in pixels.
   package let width: Int
@@ -40,6 +40,7 @@ public typealias CVImageBuffer = CVPixelBuffer
 /// A buffer of any kind; always a pixel buffer here.
 public typealias CVBuffer = CVPixelBuffer
 
+/// The number of bytes per pixel; nil for formats that are not supported.
 func bytesPerPixel(of format: OSType) -> Int? {
   switch format {
   case kCVPixelFormatType_32BGRA, kCVPixelFormatType_32ARGB, kCVPixelFormatType_32RGBA: 4

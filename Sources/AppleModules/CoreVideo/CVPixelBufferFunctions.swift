@@ -1,9 +1,8 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
 import Foundation
 
-// The part of CoreVideo's C interface that fills and reads the pixel buffers of samples. Its
-// signatures and those of CoreGraphics are the only ones outside of Kernels that contain unsafe
-// pointers.
+// The part of CoreVideo's C interface that fills and reads the pixel buffers of samples, with
+// unsafe pointers where Apple's signatures have them.
 
 /// Options for locking a buffer.
 public struct CVPixelBufferLockFlags: OptionSet, Sendable {

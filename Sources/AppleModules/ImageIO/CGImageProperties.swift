@@ -106,8 +106,7 @@ public let kCGImageAuxiliaryDataTypeDepth: CFString = "kCGImageAuxiliaryDataType
 /// Auxiliary disparity map.
 public let kCGImageAuxiliaryDataTypeDisparity: CFString = "kCGImageAuxiliaryDataTypeDisparity"
 
-// Further properties that programs query: those with a numeric value are read, the others are
-// always absent.
+// Further properties that programs query.
 
 /// Apple's maker note; always absent.
 public let kCGImagePropertyMakerAppleDictionary: CFString = "{MakerApple}"

@@ -2,6 +2,7 @@
 @_exported import BitmapGraphics
 @_exported import CoreFoundationTypes
 import ImageFiles
+import Kernels
 import SceneModel
 
 /// The content of an image file: JPEG, PNG, TIFF, BMP, WebP, HEIC or AVIF with one image each.

@@ -67,7 +67,9 @@ extension OSAllocatedUnfairLock {
   /// Stops the program unless the ownership of the lock is as given.
   public func precondition(_ condition: Ownership) {
     let isHeld = storage.holder.load(ordering: .relaxed) == pthread_self()
-    Swift.precondition(isHeld == (condition == .owner), "The lock isn't as expected.")
+    Swift.precondition(
+      isHeld == (condition == .owner),
+      isHeld ? "The current thread holds the lock." : "The current thread does not hold the lock.")
   }
 }
 

@@ -1,7 +1,7 @@
 import Foundation
 import Logging
 
-/// A log for the functions that predate `Logger`.
+/// A log for `os_log` and `os_signpost`.
 public final class OSLog: Sendable {
   let logger: Logger
 

@@ -1,5 +1,6 @@
 // swift-format-ignore-file: AlwaysUseLowerCamelCase
-// On macOS these variants differ in speed and in the last bits. Here all of them are exact.
+// On macOS the fast and the precise variant differ in speed and in the last bits. Here they are the
+// same function.
 
 /// The Euclidean length.
 public func simd_fast_length<V: SIMD>(_ x: V) -> V.Scalar where V.Scalar: FloatingPoint {

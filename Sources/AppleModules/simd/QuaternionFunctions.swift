@@ -87,8 +87,8 @@ public func simd_quaternion(_ from: simd_double3, _ to: simd_double3) -> simd_qu
   _ q0: Q, _ q1: Q, _ t: Q.Scalar
 ) -> Q { arc(from: q0, to: dot(q0, q1) >= 0 ? -q1 : q1, t) }
 
-/// Spherical linear interpolation (Shoemake 1985). The atan2 form of the angle stays exact where
-/// the quaternions nearly agree.
+/// Spherical linear interpolation (Shoemake 1985). The angle by atan2 is accurate even where the
+/// quaternions are nearly equal.
 @inlinable func arc<Q: SIMDQuaternion>(from q0: Q, to q1: Q, _ t: Q.Scalar) -> Q {
   let angle = 2 * Q.Scalar.arcTangent(y: (q0 - q1).length, x: (q0 + q1).length)
   let sine = Q.Scalar.sine(of: angle)

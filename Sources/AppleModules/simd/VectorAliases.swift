@@ -45,25 +45,25 @@ public typealias vector_float2 = SIMD2<Float>
 public typealias vector_float3 = SIMD3<Float>
 /// The name in C of `simd_float4`.
 public typealias vector_float4 = SIMD4<Float>
+/// The name in C of `simd_double2`.
+public typealias vector_double2 = SIMD2<Double>
 /// The name in C of `simd_double3`.
 public typealias vector_double3 = SIMD3<Double>
-/// A vector of 2 scalars of the type `Double`.
-public typealias vector_double2 = SIMD2<Double>
-/// A vector of 4 scalars of the type `Double`.
+/// The name in C of `simd_double4`.
 public typealias vector_double4 = SIMD4<Double>
-/// A vector of 2 scalars of the type `Int32`.
+/// The name in C of `simd_int2`.
 public typealias vector_int2 = SIMD2<Int32>
-/// A vector of 3 scalars of the type `Int32`.
+/// The name in C of `simd_int3`.
 public typealias vector_int3 = SIMD3<Int32>
-/// A vector of 4 scalars of the type `Int32`.
+/// The name in C of `simd_int4`.
 public typealias vector_int4 = SIMD4<Int32>
-/// A vector of 2 scalars of the type `UInt32`.
+/// The name in C of `simd_uint2`.
 public typealias vector_uint2 = SIMD2<UInt32>
-/// A vector of 3 scalars of the type `UInt32`.
+/// The name in C of `simd_uint3`.
 public typealias vector_uint3 = SIMD3<UInt32>
-/// A vector of 4 scalars of the type `UInt32`.
+/// The name in C of `simd_uint4`.
 public typealias vector_uint4 = SIMD4<UInt32>
-/// A vector of 4 scalars of the type `UInt8`.
+/// The name in C of `simd_uchar4`.
 public typealias vector_uchar4 = SIMD4<UInt8>
 
 /// Makes a vector of two scalars.

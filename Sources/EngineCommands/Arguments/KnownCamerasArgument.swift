@@ -14,14 +14,7 @@ struct KnownCamerasArgument {
   /// Throws a `CommandFailure` if there are no usable cameras. With `isMetric` their unit is the
   /// meter; otherwise the report.json that `align` writes next to sparse/ determines the scale.
   init(_ path: String, isMetric: Bool) throws {
-    let folder = URL(fileURLWithPath: path, isDirectory: true)
-    var isDirectory: ObjCBool = false
-    guard FileManager.default.fileExists(atPath: folder.path, isDirectory: &isDirectory) else {
-      throw CommandFailure.usage("The folder \(path) does not exist. Check the path.")
-    }
-    guard isDirectory.boolValue else {
-      throw CommandFailure.usage("\(path) is a file. Name the folder that holds the cameras.")
-    }
+    let folder = try FolderArgument.url(path, holding: "cameras")
     do {
       var cameras = try Self.read(folder, path)
       cameras.reconstruction.worldFrame = Self.worldFrame(folder, isMetric: isMetric)

@@ -14,7 +14,7 @@ struct MaskArguments: ParsableArguments {
           one of these, IMG_1.png or IMG_1.jpg.png in the folder masks/ next to
           the photo, or in that of --masks;
           or the alpha channel of the photo, in PNG, TIFF or WebP.
-      Masks of another size are scaled. A photo without a mask is used entirely.
+      Masks of another size are scaled. A photo without a mask is used in full.
       If masks leave too few features to align the photos, features of the
       background are used as well, provided that the object did not move.
 

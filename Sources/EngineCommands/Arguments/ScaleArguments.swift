@@ -49,7 +49,8 @@ struct ScaleArguments: ParsableArguments {
       let file = folder.appendingPathComponent(name)
       guard FileManager.default.fileExists(atPath: file.path) else {
         throw CommandFailure.usage(
-          "A known distance names the photo \(name), which is not in \(folder.relativePath).")
+          "A known distance names the photo \(name), which is not in \(folder.relativePath). Check "
+            + "the file name.")
       }
     }
     return distances

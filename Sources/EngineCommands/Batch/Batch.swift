@@ -49,7 +49,7 @@ struct Batch: AsyncParsableCommand {
 
   @Argument(
     help: ArgumentHelp(
-      "The folder with a folder of photos for each object.", valueName: "folders"),
+      "The folder that contains a folder of photos for each object.", valueName: "folders"),
     completion: .directory)
   var folders: String
 
@@ -70,10 +70,11 @@ struct Batch: AsyncParsableCommand {
 
   @Option(
     name: .long,
-    help: ArgumentHelp("How often to retry transient failures.", valueName: "count"))
+    help: ArgumentHelp(
+      "How many times to retry a dataset after a transient failure.", valueName: "count"))
   var retries = 1
 
-  @Flag(name: .long, help: "Keep the finished stages of finished datasets in <models>/.work/.")
+  @Flag(name: .long, help: "Keep the checkpoints of finished datasets in <models>/.work/.")
   var keepCheckpoints = false
 
   @Flag(name: .long, help: "Render each model from eight sides, to <models>/<name>.png.")
@@ -99,7 +100,7 @@ struct Batch: AsyncParsableCommand {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "Threads of each job. (default: the processors divided by the jobs)", valueName: "count"))
+      "Number of threads per job. (default: processors divided by jobs)", valueName: "count"))
   var threads: Int?
 
   @Flag(name: .long, help: "Report progress and results as JSON Lines on stdout.")
@@ -142,7 +143,7 @@ extension Batch {
     try ModelOutput.checkWritable(output)
     guard input.resolvingSymlinksInPath().path != output.resolvingSymlinksInPath().path else {
       throw CommandFailure.usage(
-        "The models can't be written to the folder of the photos; name another.")
+        "\(models) is the folder of the photos. Name another folder for the models.")
     }
     let datasets = try BatchDataset.all(in: input, except: output)
     guard !datasets.isEmpty else {
@@ -191,8 +192,10 @@ extension Batch {
     if wasInterrupted, cancelled > 0 {
       failure = .interrupted(BatchSummary.resumeHint)
     } else if failed + cancelled > 0 {
+      let reasons = URL(fileURLWithPath: models).appendingPathComponent("batch.csv").relativePath
       failure = .run(
-        "\(failed + cancelled) of \(summary.datasets.count) datasets have no model.")
+        "\(failed + cancelled) of \(summary.datasets.count) datasets have no model. The reasons "
+          + "are in \(reasons).")
     }
     reporter.event(
       RunEvent(failure == nil ? "complete" : wasInterrupted ? "cancelled" : "failed") { event in

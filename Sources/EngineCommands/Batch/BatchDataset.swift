@@ -1,3 +1,4 @@
+import Formats
 import Foundation
 import Kernels
 import Pipeline
@@ -20,7 +21,7 @@ struct BatchDataset: Equatable, Sendable {
       .filter { !$0.hasPrefix(".") }
       .map { folder.appendingPathComponent($0, isDirectory: true) }
       .filter {
-        isFolder($0) && $0.standardizedFileURL.resolvingSymlinksInPath().path != excluded
+        $0.isExistingFolder && $0.standardizedFileURL.resolvingSymlinksInPath().path != excluded
       }
       .sorted { a, b in
         let (a, b) = (a.lastPathComponent, b.lastPathComponent)
@@ -34,12 +35,12 @@ struct BatchDataset: Equatable, Sendable {
     name = folder.lastPathComponent
     let images = folder.appendingPathComponent("images", isDirectory: true)
     let hasOwn = Self.files(in: folder).contains { Self.isImage($0) }
-    let hasImages = !hasOwn && Self.isFolder(images)
+    let hasImages = !hasOwn && images.isExistingFolder
     photos = hasImages ? images : folder
     masks =
       hasImages
       ? PhotoFolder.maskFolderNames.map { folder.appendingPathComponent($0, isDirectory: true) }
-        .first(where: Self.isFolder) : nil
+        .first(where: \.isExistingFolder) : nil
     let file = folder.appendingPathComponent("measurements.json", isDirectory: false)
     measurements = FileManager.default.fileExists(atPath: file.path) ? file : nil
   }
@@ -77,12 +78,6 @@ struct BatchDataset: Equatable, Sendable {
 
   private static func files(in folder: URL) -> [URL] {
     (try? PhotoFolder.files(in: folder)) ?? []
-  }
-
-  private static func isFolder(_ url: URL) -> Bool {
-    var isDirectory: ObjCBool = false
-    let exists = FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
-    return exists && isDirectory.boolValue
   }
 
   /// Whether the file name is that of an image, to find the folder of photos. Ingestion judges

@@ -22,21 +22,22 @@ struct BatchResult: Equatable {
       (error, isTransient) = (last.message, last.isTransient ?? false)
     case .ended(let code, _):
       let reason = Self.lastLine(of: log).map { ": \($0)" } ?? "."
-      error = "The run ended with code \(code)\(reason)"
+      error = "The run ended with code \(code); see \(log.path)\(reason)"
       // Except for invalid arguments the cause is unknown and may be transient.
       isTransient = code != CommandFailure.usageCode
     case .killed(let signal):
-      (error, isTransient) = (Self.sentence(forSignal: signal), true)
+      (error, isTransient) = (Self.sentence(forSignal: signal, log: log), true)
     case .notStarted(let reason):
       (error, isTransient) = ("The run could not be started: \(reason)", true)
     }
   }
 
-  private static func sentence(forSignal signal: Int32) -> String {
+  private static func sentence(forSignal signal: Int32, log: URL) -> String {
     signal == SIGKILL
       ? "The run was killed (signal 9), probably because memory ran out. Use fewer --jobs or a "
         + "lower detail level."
-      : "The run crashed (signal \(signal)). Try another detail level, and report the error."
+      : "The run crashed (signal \(signal)). Try another detail level, and report the error with "
+        + "the log \(log.path)."
   }
 
   private static func lastLine(of file: URL) -> String? {

@@ -13,11 +13,7 @@ struct BatchSummary: Codable, Equatable {
   func count(_ status: DatasetStatus) -> Int { datasets.count { $0.status == status } }
 
   /// The content of `batch.json`.
-  func json() throws -> Data {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
-    return try encoder.encode(self)
-  }
+  func json() throws -> Data { try JSONEncoder.readable.encode(self) }
 
   /// The content of `batch.csv` (RFC 4180).
   var csv: String {

@@ -4,11 +4,11 @@ import Kernels
 import Pipeline
 import SharedCommands
 
-/// Estimates cameras, poses and sparse points only.
+/// Estimates cameras, poses and sparse points.
 struct Align: ParsableCommand {
   static let configuration = CommandConfiguration(
     commandName: "align",
-    abstract: "Estimate cameras and poses of photos, without making a model.",
+    abstract: "Estimate the cameras and poses of photos without reconstructing a model.",
     discussion: """
       Writes sparse/cameras.txt, images.txt and points3D.txt, COLMAP's text format that programs \
       for neural rendering, stereo and surveying read, and report.json into the folder <output>. \

@@ -44,12 +44,12 @@ struct Densify: ParsableCommand {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "Process only a share of the views.", valueName: "number/count"))
+      "Process only a share of the views; see above.", valueName: "number/count"))
   var job: JobArgument?
 
   @Flag(
     name: .long,
-    help: "The cameras' unit is the meter; the report then has points per cubic meter.")
+    help: "The cameras' unit is the meter; the density is then reported in points per cubic meter.")
   var metric = false
 
   @Flag(name: .long, help: "Ignore the photos' masks; see 'align --help'.")

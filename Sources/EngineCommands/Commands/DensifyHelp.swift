@@ -30,21 +30,21 @@ enum DensifyHelp {
           width and height are optional and default to those of the photo.
       Cameras are matched to photos by file name. A camera for another size
       of the same aspect ratio is scaled. Pixel coordinates start at the top
-      left corner of the top left pixel, in the photo turned upright by its
+      left corner of the top left pixel, in the photo rotated upright by its
       EXIF orientation, as 'align' writes them. If the size shows that a camera
       is for the photo as stored, as COLMAP's are, the camera is rotated; for a
       photo that is stored upside down the size does not show it: rotate the
       photo first.
 
-    DETAIL LEVELS (maximum number of pixels that are used of a photo)
+    DETAIL LEVELS (maximum number of pixels used per photo)
       preview 0.08, reduced 0.18, medium 0.5, full 2, raw 4 megapixels
 
     JOBS
-      --job 2/8 processes every eighth view, starting with the second, into
-      <output>/dense/views/, which is most of the work, and stops. Jobs may run
-      in sequence or in parallel, also on several machines that share <output>;
-      they divide the preparation between them. Then the same command without
-      --job makes the cloud.
+      --job 2/8 processes every eighth view, starting with the second, writes the
+      results to <output>/dense/views/ and stops; this is most of the work. Jobs
+      may run in sequence or in parallel, also on several machines that share
+      <output>; they divide the preparation between them. Afterwards, the same
+      command without --job makes the cloud.
 
     Exit codes: 0 the cloud was written, 1 the photos give no points with these cameras, \
     2 invalid arguments or paths, 130 interrupted.

@@ -52,8 +52,8 @@ struct DryRun {
     do { try report.checkCount() } catch { faults.append(CommandFailure(error).sentence) }
     if let free = space.free, free < space.needed {
       faults.append(
-        "The disk has \(Self.megabytes(free)) free and the model may take "
-          + "\(Self.megabytes(space.needed)). Free some space or choose another disk.")
+        "The disk of \(output.url.relativePath) has \(Self.megabytes(free)) free, and the model "
+          + "may take \(Self.megabytes(space.needed)). Free some space or choose another disk.")
     }
     return faults
   }

@@ -66,6 +66,7 @@ package enum PipelineEngine: EngineSupport {
 }
 
 extension PipelineEngine {
+  /// The sections of help on models, masks and the scale, with examples and the event `plan`.
   package static var help: EngineHelp {
     var help = EngineHelp()
     help.examples = """

@@ -55,9 +55,7 @@ struct InspectionReport: Encodable {
 
   /// The report as JSON.
   func encoded() throws -> String {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
-    return String(decoding: try encoder.encode(self), as: UTF8.self)
+    String(decoding: try JSONEncoder.readable.encode(self), as: UTF8.self)
   }
 
   /// A line per used photo, the reasons for the other files, and a summary.
@@ -66,7 +64,8 @@ struct InspectionReport: Encodable {
     var lines = used.map { line($0, nameWidth: width) }
     lines += refused.map(\.reason) + refusedMasks.map(\.reason)
     lines.append(
-      "\(used.count) photos of \(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
+      "\(used.count) photo\(used.count == 1 ? "" : "s") of "
+        + "\(cameras) camera\(cameras == 1 ? "" : "s") would be used, "
         + "\(refused.count) file\(refused.count == 1 ? "" : "s") not.")
     let masks = used.count { $0.maskCoverage != nil }
     if masks > 0 { lines.append("\(masks) of \(used.count) photos have a mask.") }

@@ -111,12 +111,14 @@ extension PipelineConfiguration {
 }
 
 extension SampleOrdering {
+  /// Converts the value of a session's configuration.
   package init(_ ordering: PhotogrammetrySession.Configuration.SampleOrdering) {
     self = ordering == .sequential ? .sequential : .unordered
   }
 }
 
 extension FeatureSensitivity {
+  /// Converts the value of a session's configuration.
   package init(_ sensitivity: PhotogrammetrySession.Configuration.FeatureSensitivity) {
     self = sensitivity == .high ? .high : .normal
   }

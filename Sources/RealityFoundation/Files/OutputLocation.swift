@@ -19,9 +19,9 @@ enum OutputLocation: Hashable {
       return url.hasDirectoryPath
         ? folderFault(of: url) : "\(url.path) names neither a .usdz file nor a folder."
     }
-    if isDirectory(url) { return "\(url.path) is a folder." }
+    if url.isExistingFolder { return "\(url.path) is a folder." }
     let parent = url.deletingLastPathComponent()
-    guard isDirectory(parent) else { return "The folder \(parent.path) does not exist." }
+    guard parent.isExistingFolder else { return "The folder \(parent.path) does not exist." }
     return isWritable(parent) ? nil : "The folder \(parent.path) can't be written to."
   }
 
@@ -39,14 +39,8 @@ enum OutputLocation: Hashable {
     while !FileManager.default.fileExists(atPath: existing.path), existing.path != "/" {
       existing = existing.deletingLastPathComponent()
     }
-    guard isDirectory(existing) else { return "\(existing.path) is a file and not a folder." }
+    guard existing.isExistingFolder else { return "\(existing.path) is a file and not a folder." }
     return isWritable(existing) ? nil : "The folder \(existing.path) can't be written to."
-  }
-
-  private static func isDirectory(_ url: URL) -> Bool {
-    var isDirectory: ObjCBool = false
-    return FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
-      && isDirectory.boolValue
   }
 
   /// Tests by writing a file: permissions alone don't reveal read-only and special file systems.

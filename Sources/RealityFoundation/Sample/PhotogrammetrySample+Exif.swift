@@ -1,25 +1,26 @@
 extension PhotogrammetrySample {
-  /// The metadata that the reconstruction uses, read with ImageIO's keys.
+  /// The metadata that the reconstruction uses, read with ImageIO's keys. Fields are numbered by
+  /// their EXIF tags.
   var exif: ExifWriter {
     var exif = ExifWriter()
-    let tiff = section("{TIFF}")
-    let camera = section("{Exif}")
-    exif.image[271] = text(tiff["Make"])
-    exif.image[272] = text(tiff["Model"])
+    let tiff = section(kCGImagePropertyTIFFDictionary)
+    let camera = section(kCGImagePropertyExifDictionary)
+    exif.image[271] = text(tiff[kCGImagePropertyTIFFMake])
+    exif.image[272] = text(tiff[kCGImagePropertyTIFFModel])
     exif.image[274] = .short(UInt16(storedOrientation.rawValue))
-    exif.camera[42033] = text(camera["BodySerialNumber"])
-    exif.camera[42036] = text(camera["LensModel"])
-    exif.camera[42037] = text(camera["LensSerialNumber"])
+    exif.camera[42033] = text(camera[kCGImagePropertyExifBodySerialNumber])
+    exif.camera[42036] = text(camera[kCGImagePropertyExifLensModel])
+    exif.camera[42037] = text(camera[kCGImagePropertyExifLensSerialNumber])
     let lengths = focalLengths(camera)
     exif.camera[37386] = lengths.exact.map { .rationals([$0]) }
     exif.camera[41989] = lengths.film.map { .short(UInt16(clamping: Int($0.rounded()))) }
-    exif.gps = gps(section("{GPS}"))
+    exif.gps = gps(section(kCGImagePropertyGPSDictionary))
     return exif
   }
 
   /// The EXIF orientation of the stored pixels: from the sample's file, else from the metadata.
   var storedOrientation: CGImagePropertyOrientation {
-    guard orientation == .up, let number = number(metadata["Orientation"]) else {
+    guard orientation == .up, let number = number(metadata[kCGImagePropertyOrientation]) else {
       return orientation
     }
     return UInt32(exactly: number).flatMap(CGImagePropertyOrientation.init(rawValue:)) ?? .up
@@ -32,20 +33,25 @@ extension PhotogrammetrySample {
       let film = Double(intrinsics[0, 0]) / Double(max(image.width, image.height)) * 36
       return (film, film)
     }
-    return (number(camera["FocalLength"]), number(camera["FocalLenIn35mmFilm"]))
+    return (
+      number(camera[kCGImagePropertyExifFocalLength]),
+      number(camera[kCGImagePropertyExifFocalLenIn35mmFilm])
+    )
   }
 
   private func gps(_ gps: [String: Any]) -> [UInt16: ExifWriter.Value] {
-    guard let latitude = number(gps["Latitude"]), let longitude = number(gps["Longitude"]) else {
-      return [:]
-    }
+    guard let latitude = number(gps[kCGImagePropertyGPSLatitude]),
+      let longitude = number(gps[kCGImagePropertyGPSLongitude])
+    else { return [:] }
     var fields: [UInt16: ExifWriter.Value] = [
-      1: text(gps["LatitudeRef"]) ?? .text(latitude < 0 ? "S" : "N"),
+      1: text(gps[kCGImagePropertyGPSLatitudeRef]) ?? .text(latitude < 0 ? "S" : "N"),
       2: .rationals([abs(latitude), 0, 0]),
-      3: text(gps["LongitudeRef"]) ?? .text(longitude < 0 ? "W" : "E"),
+      3: text(gps[kCGImagePropertyGPSLongitudeRef]) ?? .text(longitude < 0 ? "W" : "E"),
       4: .rationals([abs(longitude), 0, 0]),
     ]
-    if let altitude = number(gps["Altitude"]) { fields[6] = .rationals([abs(altitude)]) }
+    if let altitude = number(gps[kCGImagePropertyGPSAltitude]) {
+      fields[6] = .rationals([abs(altitude)])
+    }
     return fields
   }
 

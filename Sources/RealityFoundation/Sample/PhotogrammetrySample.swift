@@ -17,17 +17,17 @@ public struct PhotogrammetrySample: Identifiable {
   /// The mask of the object, OneComponent8 of the image's size; zero means background.
   public var objectMask: CVPixelBuffer?
 
-  /// When the photo was taken.
+  /// When the photo was taken; nil unless the sample was loaded from a file that has the time.
   public internal(set) var captureTime: Date?
-  /// The transform from the unit cube to the bounding box of the object.
+  /// The transform from the unit cube to the bounding box of the object; always nil here.
   public internal(set) var boundingBox: simd_float4x4?
-  /// The confidence of each depth.
+  /// The confidence of each depth; always nil here.
   public internal(set) var depthConfidenceMap: CVPixelBuffer?
-  /// The camera that took the photo.
+  /// The camera that took the photo; always nil here.
   public internal(set) var camera: Camera?
-  /// The capture session that the photo belongs to.
+  /// The capture session that the photo belongs to; always nil here.
   public internal(set) var sessionID: UUID?
-  /// The scan pass around the object that the photo belongs to.
+  /// The scan pass around the object that the photo belongs to; always nil here.
   public internal(set) var scanPassID: Int?
   /// The EXIF orientation of the stored pixels.
   public internal(set) var orientation = CGImagePropertyOrientation.up

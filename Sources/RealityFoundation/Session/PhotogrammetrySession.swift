@@ -56,8 +56,10 @@ public class PhotogrammetrySession: @unchecked Sendable {
 
   /// Starts to process requests and returns immediately; results are delivered by `outputs`.
   ///
-  /// Throws if the session is already processing, the photos no longer exist, or the output of a
-  /// request can't be written. A later call reuses the results of earlier ones.
+  /// Throws `Error.invalidImages` if the photos don't exist, `Error.invalidOutput` or
+  /// `Error.insufficientStorage` if the output of a request can't be written, and an error with a
+  /// remedy if a request is invalid or the session is processing already. A later call reuses the
+  /// results of earlier ones.
   public func process(requests: [Request]) throws {
     try worker.process(requests, options: engineOptions, keepingAlive: self)
   }

@@ -6,7 +6,7 @@ import SceneModel
 package struct AlignmentArguments: ParsableArguments {
   @Option(
     name: [.customShort("o"), .long],
-    help: "Whether consecutive photos, in the order of file names, overlap.")
+    help: "Use 'sequential' if consecutive photos, in the order of file names, overlap.")
   package var sampleOrdering = SampleOrdering.unordered
 
   @Option(

@@ -91,6 +91,7 @@ package enum DetailChoice: ExpressibleByArgument, Equatable, Sendable {
   case level(DetailArgument)
   case custom
 
+  /// Parses the name of a level, or `custom`.
   package init?(argument: String) {
     if argument == "custom" {
       self = .custom

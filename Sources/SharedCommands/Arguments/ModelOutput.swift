@@ -3,7 +3,9 @@ import Foundation
 
 /// The file or folder of a model; the extension of its path selects the format.
 package struct ModelOutput: Equatable, Sendable {
+  /// The location; that of a folder has a directory path.
   package let url: URL
+  /// The format that the extension selects.
   package let format: ModelFormat
 
   /// Parses `path`; throws a `CommandFailure` if no model can be written there in one of the file
@@ -30,10 +32,13 @@ package struct ModelOutput: Equatable, Sendable {
   private static func folderFault(
     _ path: String, _ name: URL, _ formats: [ModelFormat]
   ) -> String? {
-    if path.isEmpty { return "The output has no name." }
+    if path.isEmpty { return "The output has no name. Name a file or folder for the model." }
     // What "$name.usdz" becomes if the variable is empty.
     let isBareExtension = ModelFormat.files.contains { name.lastPathComponent == ".\($0.rawValue)" }
-    if isBareExtension { return "\(path) has no name before its extension." }
+    if isBareExtension {
+      return "\(path) has no name before its extension. Name the model, for instance "
+        + "model\(name.lastPathComponent)."
+    }
     if name.pathExtension.isEmpty || isFolder(path) || path.hasSuffix("/") { return nil }
     let files = formats.map { ".\($0.rawValue)" }.joined(separator: " or ")
     return "Models can't be written as .\(name.pathExtension) files. Name a \(files) file, or a "

@@ -6,13 +6,13 @@ package struct ShapeArguments: ParsableArguments {
   @Option(
     name: .long, parsing: .unconditional,
     help: ArgumentHelp(
-      "Crop the model to a box, given by two opposite corners in the model's frame.",
+      "Crop the model to the box with these opposite corners, in the model's frame and unit.",
       valueName: "x,y,z,x,y,z"))
   package var crop: BoxArgument?
 
   @Flag(
     name: .long,
-    help: "Merge pairs of triangles to quads where they fit together; not in GLB.")
+    help: "Merge pairs of triangles into quads where they fit together; GLB has triangles only.")
   package var quads = false
 
   package init() {}
@@ -30,8 +30,10 @@ package struct ShapeArguments: ParsableArguments {
 
 /// A box by two opposite corners.
 package struct BoxArgument: ExpressibleByArgument, Equatable {
+  /// The axis-aligned box.
   package let box: BoundingBox
 
+  /// Parses `x,y,z,x,y,z`; nil unless these are finite numbers and the box has a volume.
   package init?(argument: String) {
     let numbers = argument.split(separator: ",", omittingEmptySubsequences: false)
       .map { Float($0.filter { $0 != " " }) }

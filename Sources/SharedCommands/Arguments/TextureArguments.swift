@@ -14,6 +14,7 @@ package enum TextureSideArgument: String, ExpressibleByArgument, CaseIterable, S
   case eightK = "8192"
   case sixteenK = "16384"
 
+  /// The side in a session's configuration.
   var dimension: CustomDetail.TextureDimension {
     switch self {
     case .oneK: .oneK
@@ -27,8 +28,10 @@ package enum TextureSideArgument: String, ExpressibleByArgument, CaseIterable, S
 
 /// The texture maps of a model, by name.
 package struct TextureMapsArgument: ExpressibleByArgument {
+  /// The maps of a session's configuration.
   package var outputs: CustomDetail.TextureMapOutputs = []
 
+  /// Parses a comma-separated list of names; nil if one is unknown.
   package init?(argument: String) {
     for name in argument.split(separator: ",", omittingEmptySubsequences: false) {
       switch name.trimmingCharacters(in: .whitespaces) {
@@ -46,8 +49,10 @@ package struct TextureMapsArgument: ExpressibleByArgument {
 
 /// The image format of textures.
 package struct TextureFormatArgument: ExpressibleByArgument {
+  /// The format of a session's configuration.
   package var format: CustomDetail.TextureFormat
 
+  /// Parses `png`, `jpeg` or `jpeg:<quality>` with a quality from 0 to 1 (best).
   package init?(argument: String) {
     let parts = argument.split(separator: ":", omittingEmptySubsequences: false)
     switch (parts.first, parts.count) {

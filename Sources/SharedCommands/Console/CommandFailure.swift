@@ -11,6 +11,7 @@ package struct CommandFailure: Error, Equatable {
 
   /// The cause, and the remedy if there is one.
   package var sentence: String
+  /// The exit code of the process.
   package var exitCode: Int32
   /// Whether another attempt may succeed.
   package var isTransient = false

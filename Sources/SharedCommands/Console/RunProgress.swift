@@ -4,10 +4,12 @@ import Foundation
 package struct RunProgress: Equatable, Sendable {
   /// Share of the run that is done, 0…1.
   package var fraction = 0.0
+  /// The current stage; nil before the first one.
   package var stage: RunStage?
   /// Estimated time left, in seconds.
   package var remaining: Double?
 
+  /// Creates a progress from the share of the run that is done, 0…1, and the remaining seconds.
   package init(fraction: Double = 0, stage: RunStage? = nil, remaining: Double? = nil) {
     (self.fraction, self.stage, self.remaining) = (fraction, stage, remaining)
   }

@@ -3,6 +3,7 @@ import Synchronization
 
 /// Reports the progress and the results of a run in one of several styles.
 package struct RunReporter: Sendable {
+  /// How progress is shown.
   package enum Style: Equatable, Sendable {
     /// A progress bar on a terminal.
     case bar
@@ -14,11 +15,13 @@ package struct RunReporter: Sendable {
     case quiet
   }
 
+  /// How progress is shown.
   package let style: Style
   private var shown = RunProgress()
   private var shownAt = Date.distantPast
   private let start = Date()
 
+  /// Begins to measure the time; in the style `json`, warnings become events, too.
   package init(_ style: Style) {
     self.style = style
     ConsoleLogHandler.writesWarningEvents.store(style == .json, ordering: .relaxed)

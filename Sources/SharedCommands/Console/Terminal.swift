@@ -5,10 +5,12 @@ import SceneModel
 ///
 /// A status line at the bottom of a terminal is removed for messages and redrawn after them.
 package final class Terminal: Sendable {
+  /// The process's only terminal.
   package static let shared = Terminal()
 
   /// Whether stderr is a terminal that can redraw a line.
   package let isInteractive: Bool
+  /// Whether messages may contain color codes; the variable `NO_COLOR` prevents it.
   let usesColor: Bool
   private let status = Locked("")
 

@@ -33,7 +33,7 @@ package struct Evaluate: ParsableCommand {
   package var result: String
 
   @Option(
-    name: .long, help: ArgumentHelp("The ground truth.", valueName: "folder"),
+    name: .long, help: ArgumentHelp("The folder with the ground truth.", valueName: "folder"),
     completion: .directory)
   package var reference: String
 
@@ -70,13 +70,13 @@ package struct Evaluate: ParsableCommand {
 
   package func validate() throws {
     if threshold.contains(where: { !($0 > 0) || !$0.isFinite }) {
-      throw ValidationError("Thresholds are lengths above 0.")
+      throw ValidationError("Each --threshold must be a length above 0.")
     }
     if !(1...100_000_000).contains(samples) {
       throw ValidationError("--samples must be from 1 to 100000000.")
     }
     if !(voxel >= 0) || !voxel.isFinite {
-      throw ValidationError("--voxel is a length, or 0 for none.")
+      throw ValidationError("--voxel must be a length, or 0 for no downsampling.")
     }
   }
 
@@ -123,8 +123,9 @@ package struct Evaluate: ParsableCommand {
     }
     guard report.poses != nil || report.mesh != nil || report.cloud != nil else {
       throw CommandFailure.usage(
-        "The result and the reference can't be compared: poses need sparse/ and cameras.json, "
-          + "surfaces need a PLY file and mesh.ply.")
+        "\(self.result) can't be compared with \(self.reference). For poses, name a result with "
+          + "sparse/ and a reference with cameras.json; for surfaces, a PLY file and a reference "
+          + "with mesh.ply.")
     }
     return report
   }

@@ -18,7 +18,7 @@ struct EvaluationInput {
     case .file:
       guard url.pathExtension.lowercased() == "ply" else {
         throw CommandFailure.usage(
-          "\(path) can't be compared: name a PLY file, or the checkpoint directory of the run.")
+          "\(path) is not a PLY file. Name a PLY file, or the checkpoint directory of a run.")
       }
       let mesh = try PLY.readMesh(url)
       if mesh.triangles.isEmpty {
@@ -35,7 +35,8 @@ struct EvaluationInput {
       guard input.reconstruction != nil || input.mesh != nil || input.cloud != nil else {
         throw CommandFailure.usage(
           "\(path) holds no result: neither sparse/images.txt nor mesh/surface.ply nor "
-            + "dense/points.ply.")
+            + "dense/points.ply. Name the checkpoint directory of a run, a folder with COLMAP's "
+            + "text files, or a PLY file.")
       }
     }
     return input
@@ -44,7 +45,9 @@ struct EvaluationInput {
   /// Reads a folder with cameras.json and mesh.ply, or a COLMAP text folder.
   static func reference(_ path: String) throws -> EvaluationInput {
     guard case .folder = try kind(of: path) else {
-      throw CommandFailure.usage("\(path) is a file; the reference is a folder.")
+      throw CommandFailure.usage(
+        "\(path) is a file. Name the folder that holds the reference: cameras.json, mesh.ply or "
+          + "COLMAP's text files.")
     }
     let folder = URL(fileURLWithPath: path, isDirectory: true)
     var input = EvaluationInput()
@@ -62,7 +65,7 @@ struct EvaluationInput {
     guard !input.cameras.isEmpty || input.mesh != nil else {
       throw CommandFailure.usage(
         "\(path) holds no reference: neither cameras.json nor mesh.ply nor images.txt, directly "
-          + "in it or in gt/ or sparse/.")
+          + "in it or in gt/ or sparse/. Name the folder with the ground truth.")
     }
     return input
   }

@@ -31,7 +31,7 @@ package enum AppleEngine: EngineSupport {
   }
 
   package static var unsupportedMachine: CommandFailure {
-    .run("This machine can't reconstruct models.")
+    .run("Object Capture does not support this Mac. Use a Mac with Apple silicon.")
   }
 
   package static func prepareProcess() {}

@@ -23,6 +23,7 @@ package struct EngineOutputs: Equatable, Sendable {
   /// The report of the run.
   package var report: URL?
 
+  /// Creates a list of files; nil means that the file is not written.
   package init(preview: URL? = nil, report: URL? = nil) {
     (self.preview, self.report) = (preview, report)
   }

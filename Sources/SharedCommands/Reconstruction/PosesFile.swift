@@ -6,8 +6,9 @@ package struct PosesFile: Encodable {
   struct Entry: Encodable {
     /// Index of the photo in the session.
     var id: Int
+    /// The file name of the photo; the index if it has none.
     var name: String
-    /// The camera's center.
+    /// The camera's center in the model's frame.
     var translation: [Float]
     /// Camera to world, as a quaternion x, y, z, w.
     var rotation: [Float]
@@ -20,6 +21,7 @@ package struct PosesFile: Encodable {
     var focalLength: [Float]
     var principalPoint: [Float]
 
+    /// Creates intrinsics from values in x and y, in pixels.
     package init(focalLength: [Float], principalPoint: [Float]) {
       (self.focalLength, self.principalPoint) = (focalLength, principalPoint)
     }
@@ -45,8 +47,6 @@ package struct PosesFile: Encodable {
 
   /// The file's content.
   func encoded() throws -> Data {
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]
-    return try encoder.encode(self) + Data("\n".utf8)
+    try JSONEncoder.readable.encode(self) + Data("\n".utf8)
   }
 }

@@ -9,7 +9,9 @@ struct HelloPhotogrammetry {
   static func main() async {
     do {
       let arguments = try Arguments(CommandLine.arguments.dropFirst())
-      guard PhotogrammetrySession.isSupported else { throw Failure("This machine is too small.") }
+      guard PhotogrammetrySession.isSupported else {
+        throw Failure("This machine can't reconstruct models.")
+      }
       let session = try PhotogrammetrySession(input: arguments.photos)
       try session.process(requests: [
         .modelFile(url: arguments.model, detail: arguments.detail)

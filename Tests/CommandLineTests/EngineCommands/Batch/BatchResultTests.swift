@@ -33,7 +33,8 @@ import Testing
     let temporary = try TemporaryFolder()
     let file = try temporary.write(Array("first\nlast words\n".utf8), as: "log")
     let silent = BatchResult(.ended(code: 66, last: nil), log: file)
-    #expect(silent.isTransient && silent.error == "The run ended with code 66: last words")
+    #expect(silent.error == "The run ended with code 66; see \(file.path): last words")
+    #expect(silent.isTransient)
     #expect(!BatchResult(.ended(code: 2, last: nil), log: file).isTransient)
   }
 
