@@ -41,7 +41,7 @@ def encoding(files):
 
 
 def hashes():
-    """How fast a file's fingerprint can be made."""
+    """The throughput of hashes for the fingerprints of files."""
     common.title("Hashes of 256 MB")
     data = bytes(1 << 28)
     rows = []

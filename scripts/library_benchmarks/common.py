@@ -22,7 +22,7 @@ def ours(*arguments):
 
 
 def timed(body, repetitions=1):
-    """The result of a call and its CPU seconds, the least of several calls."""
+    """The result of a call and its CPU seconds, the minimum of several calls."""
     best = float("inf")
     for _ in range(repetitions):
         start = time.process_time()

@@ -7,7 +7,8 @@ from library_benchmarks import common
 
 SOURCES = Path(__file__).resolve().parents[2] / "Sources"
 COMPONENTS = {
-    "SIFT": ["CKernels/features/s*", "CKernels/features/describe.inl"],
+    "SIFT": ["CKernels/features/s*", "CKernels/features/describe.inl",
+             "CKernels/features/gaussian_blur.inl"],
     "descriptor matching": ["CKernels/features/matching.cpp", "CKernels/features/nearest*",
                             "CKernels/features/guided.cpp"],
     "image retrieval": ["CKernels/features/retrieval.cpp"],

@@ -72,7 +72,7 @@ def measured(command, output, points):
 
 
 def peak_kilobytes(process):
-    """Peak memory up to now; rusage would count what this script held when it forked."""
+    """Peak memory up to now; rusage would include what this script held when it forked."""
     try:
         status = Path(f"/proc/{process}/status").read_text()
     except OSError:
