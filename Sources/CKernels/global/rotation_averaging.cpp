@@ -134,7 +134,7 @@ void average(RotationGraph& graph, const ck_rotation_averaging_options& options,
   for (int iteration = 0; iteration < options.robust_iterations; ++iteration) {
     step(control, double(options.absolute_iterations + iteration) / total);
     const double scale =
-        std::clamp(3 * graph.median_error(), options.smallest_scale, options.largest_scale);
+        std::clamp(3 * graph.median_error(), options.minimum_scale, options.maximum_scale);
     const double change = graph.move([&](double e) {
       const double s = 1 + e * e / (scale * scale);
       return 1 / (s * s);

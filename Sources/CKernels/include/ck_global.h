@@ -22,7 +22,7 @@ typedef struct {
   /// with the robust loss.
   int32_t absolute_iterations, robust_iterations;
   /// Bounds in radians of the scale of the robust loss, which is three times the median error.
-  double smallest_scale, largest_scale;
+  double minimum_scale, maximum_scale;
   /// Stops when the mean change of a rotation falls below this angle in radians.
   double tolerance;
 } ck_rotation_averaging_options;
