@@ -21,10 +21,15 @@ typedef struct {
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points.
 ///
-/// Positions and normals (3 floats) have the same count. Runs on one dedicated thread because
-/// results of several threads differ between runs; a canceled call returns at once and leaves that
-/// thread to finish in the background. Triangles are counter-clockwise when seen from the side that
-/// the normals point to.
+/// Positions and normals (3 floats) have the same count; points that are not finite or have no
+/// normal are ignored. Triangles are counter-clockwise when seen from the side that the normals
+/// point to. Returns `ck_degenerate` if fewer than four points are left.
+///
+/// The solver runs on a thread of its own, and only on that one, because results of several threads
+/// differ between runs. It cannot be interrupted: a canceled call returns at once, but
+/// its solver runs to the end in the background. Until then it occupies a processor core, and the
+/// memory of the solver and of a copy of the points; another call may start meanwhile. The arrays
+/// of the caller are not used after the call.
 ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
                      const ck_control* control, ck_surface** surface);
 
