@@ -57,6 +57,7 @@ ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* leve
 
 /// Limits of a nearest-neighbor search.
 typedef struct {
+  /// Number of neighbors per query.
   int32_t neighbors;
   /// Search radius, in units of the coordinates; above 0, may be infinite.
   double maximum_distance;
@@ -85,13 +86,13 @@ typedef struct {
   ck_span positions;
   /// Distance in front of each point at which its rays end.
   const float* clearances;
-  /// Point i is visible in `photos[photo_offsets[i]..<photo_offsets[i + 1]]`.
+  /// Point i is visible in the photos `photos[photo_offsets[i]..<photo_offsets[i + 1]]`.
   const uint32_t* photo_offsets;
   const uint16_t* photos;
 } ck_seen_points;
 
 /// Free-space evidence: counts for every cell the photos with a ray through it to a visible point
-/// behind it, up to 255.
+/// behind it, up to 255. Rays are traversed cell by cell (Amanatides and Woo, Eurographics 1987).
 ///
 /// `centers` holds the camera center of each photo (3 floats). Points and camera centers may lie
 /// outside the grid. `counts` holds one byte per cell.
