@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "core/parallel.h"
 #include "surface/photo_refinement.h"
 
@@ -111,10 +112,7 @@ class System {
     for (double value : evidence.slope2) {
       if (value > 0) some.push_back(value);
     }
-    if (some.empty()) return 0;
-    const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
-    std::nth_element(some.begin(), middle, some.end());
-    return *middle;
+    return some.empty() ? 0 : median(some);
   }
 
   /// The height of the mean of its neighbors above a vertex, along the normal.

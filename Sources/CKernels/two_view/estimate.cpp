@@ -4,6 +4,7 @@
 
 #include "ck_two_view.h"
 #include "core/guard.h"
+#include "core/median.h"
 #include "two_view/ransac.h"
 #include "two_view/relative_pose.h"
 #include "two_view/solvers.h"
@@ -188,13 +189,6 @@ Estimate estimate_uncalibrated(const Matches& matches, const RansacOptions& opti
   return estimate;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void write_matrix(const Eigen::Matrix3d& matrix, double* elements) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(elements, 3, 3) = matrix;
 }
@@ -207,7 +201,7 @@ void write(const Estimate& estimate, size_t homography_inliers, ck_two_view_resu
   for (int k = 0; k < 3; ++k) result->translation[k] = estimate.pose.translation[k];
   result->inlier_count = estimate.inliers.size();
   result->homography_inlier_count = homography_inliers;
-  result->median_angle = median(estimate.angles);
+  result->median_angle = estimate.angles.empty() ? 0 : median(estimate.angles);
   result->iterations = estimate.iterations;
 }
 
