@@ -282,10 +282,7 @@ ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_view* view, const
     ck::step(control, 0);
     const ck::texture::Observer observer(*scene, *view, rgb, mask, *options);
     constexpr size_t kChunk = 4096;
-    const size_t count = scene->triangles.size();
-    ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      const size_t end = std::min(count, (chunk + 1) * kChunk);
-      for (size_t t = chunk * kChunk; t < end; ++t) observations[t] = observer.observe(t);
-    });
+    ck::parallel_for_blocks(control, scene->triangles.size(), kChunk,
+                            [&](size_t t) { observations[t] = observer.observe(t); });
   });
 }

@@ -90,32 +90,28 @@ ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rg
     const ck_view& source = view ? *view : no_view;
     const ck::texture::Projection projection(source);
     constexpr size_t kChunk = 512;
-    ck::parallel_for(control, (paint_count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      const size_t end = std::min(paint_count, (chunk + 1) * kChunk);
-      for (size_t k = chunk * kChunk; k < end; ++k) {
-        const ck_paint& paint = paints[k];
-        ck::require(paint.face < atlas->scene.triangles.size(),
-                    "a paint entry refers to a triangle that does not exist");
-        const ck::texture::TexelMap map(atlas->corners.data() +
-                                        6 * static_cast<size_t>(paint.face));
-        if (!map.is_valid) continue;
-        const ck::texture::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
-        atlas->for_each_texel(paint.face, [&](int x, int y, size_t texel) {
-          const Vec3 w = ck::texture::TexelMap::clamped(
-              map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-          const float weight =
-              w.x * paint.weights[0] + w.y * paint.weights[1] + w.z * paint.weights[2];
-          if (weight <= 0) return;
-          Vec3 color =
-              ck::texture::mix(w, ck::texture::offset_at(paint, 0),
-                               ck::texture::offset_at(paint, 1), ck::texture::offset_at(paint, 2));
-          if (rgb) {
-            const Vec3 c = painter.color(x, y);
-            color += Vec3{c.x * gain[0], c.y * gain[1], c.z * gain[2]};
-          }
-          ck::texture::add(*atlas, texel, color * weight);
-        });
-      }
+    ck::parallel_for_blocks(control, paint_count, kChunk, [&](size_t k) {
+      const ck_paint& paint = paints[k];
+      ck::require(paint.face < atlas->scene.triangles.size(),
+                  "a paint entry refers to a triangle that does not exist");
+      const ck::texture::TexelMap map(atlas->corners.data() + 6 * static_cast<size_t>(paint.face));
+      if (!map.is_valid) return;
+      const ck::texture::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
+      atlas->for_each_texel(paint.face, [&](int x, int y, size_t texel) {
+        const Vec3 w = ck::texture::TexelMap::clamped(
+            map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const float weight =
+            w.x * paint.weights[0] + w.y * paint.weights[1] + w.z * paint.weights[2];
+        if (weight <= 0) return;
+        Vec3 color =
+            ck::texture::mix(w, ck::texture::offset_at(paint, 0), ck::texture::offset_at(paint, 1),
+                             ck::texture::offset_at(paint, 2));
+        if (rgb) {
+          const Vec3 c = painter.color(x, y);
+          color += Vec3{c.x * gain[0], c.y * gain[1], c.z * gain[2]};
+        }
+        ck::texture::add(*atlas, texel, color * weight);
+      });
     });
   });
 }
