@@ -47,7 +47,8 @@ void copy_geometry(ck_ray_scene& scene, const ck_mesh& mesh) {
   scene.face_normals.resize(triangle_count);
   for (size_t t = 0; t < triangle_count; ++t) {
     for (size_t i = 0; i < 3; ++i) {
-      require(triangles[3 * t + i] < positions.count, "a triangle names a vertex that isn't there");
+      require(triangles[3 * t + i] < positions.count,
+              "a triangle refers to a vertex that does not exist");
       scene.triangles[t][i] = triangles[3 * t + i];
     }
     const Vec3 a = scene.corner(t, 0);
@@ -118,7 +119,7 @@ bool intersect(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float nea
 ck_status ck_ray_scene_create(const ck_mesh* mesh, const ck_control* control,
                               ck_ray_scene** scene) {
   return ck::guarded([&] {
-    ck::require(mesh && scene, "no place for the scene");
+    ck::require(mesh && scene, "an argument is missing");
     *scene = nullptr;
     ck::require(mesh->positions.count > 0 && mesh->triangle_count > 0, "the mesh has no triangles");
     ck::step(control, 0);

@@ -47,7 +47,7 @@ std::vector<Face> load_faces(const InputMesh& input) {
     const uint32_t* corners = input.triangles + 3 * t;
     Face f = {corners[0], corners[1], corners[2]};
     for (const uint32_t v : f) {
-      require(v < input.positions.count, "a triangle names a vertex that isn't there");
+      require(v < input.positions.count, "a triangle refers to a vertex that does not exist");
     }
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
     std::sort(f.begin(), f.end());

@@ -124,7 +124,7 @@ ck_status ck_photo_refinement_create(const ck_mesh* input,
     for (size_t t = 0; t < triangle_count; ++t) {
       const uint32_t* v = triangles + 3 * t;
       ck::require(std::max({v[0], v[1], v[2]}) < positions.count,
-                  "a triangle names a vertex that isn't there");
+                  "a triangle refers to a vertex that does not exist");
       mesh.triangles.push_back({v[0], v[1], v[2]});
     }
     mesh.find_neighbors();
