@@ -14,7 +14,10 @@ namespace {
 
 /// Levenberg–Marquardt steps within RANSAC and at its end.
 constexpr int kLocalSteps = 8, kFinalSteps = 30;
+/// Largest number of samples for the homography, of which only the number of inliers is used.
+constexpr int kMaximumHomographyIterations = 200;
 
+/// Copies the points of a sample.
 template <size_t N>
 void gather(const Matches& matches, const std::array<size_t, N>& sample, Eigen::Vector2d* first,
             Eigen::Vector2d* second) {
@@ -24,6 +27,7 @@ void gather(const Matches& matches, const std::array<size_t, N>& sample, Eigen::
   }
 }
 
+/// The matches with a Sampson error below `limit`.
 std::vector<size_t> inliers_of(const Eigen::Matrix3d& matrix, const Matches& matches,
                                double limit) {
   std::vector<double> errors(matches.size());
@@ -35,6 +39,7 @@ std::vector<size_t> inliers_of(const Eigen::Matrix3d& matrix, const Matches& mat
   return inliers;
 }
 
+/// Essential matrices for `ransac`.
 struct EssentialEstimator {
   using Model = Eigen::Matrix3d;
   static constexpr size_t kSampleSize = 5;
@@ -59,6 +64,7 @@ struct EssentialEstimator {
   }
 };
 
+/// Fundamental matrices for `ransac`.
 struct FundamentalEstimator {
   using Model = Eigen::Matrix3d;
   static constexpr size_t kSampleSize = 7;
@@ -81,6 +87,7 @@ struct FundamentalEstimator {
   }
 };
 
+/// Homographies for `ransac`.
 struct HomographyEstimator {
   using Model = Eigen::Matrix3d;
   static constexpr size_t kSampleSize = 4;
@@ -127,15 +134,17 @@ Matches subset(const Matches& matches, const std::vector<size_t>& indices) {
 size_t homography_support(const Matches& matches, const RansacOptions& options,
                           const ck_control* control) {
   RansacOptions quick = options;
-  quick.maximum_iterations = std::min(options.maximum_iterations, 200);
+  quick.maximum_iterations = std::min(options.maximum_iterations, kMaximumHomographyIterations);
   const auto result = ransac(HomographyEstimator{matches}, quick, control);
   return result.found ? result.inlier_count : 0;
 }
 
+/// The geometry of two views.
 struct Estimate {
   Eigen::Matrix3d matrix;
   RelativePose pose;
   std::vector<size_t> inliers;
+  /// Triangulation angles of the inliers in radians.
   std::vector<double> angles;
   int iterations = 0;
 };
