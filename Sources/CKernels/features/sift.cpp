@@ -42,7 +42,7 @@ ScaleSpace searched(const Photo& photo, const ck_sift_options& options, const Ke
   input.width = photo.width * (is_doubled ? 2 : 1);
   input.height = photo.height * (is_doubled ? 2 : 1);
   Rows base;
-  while (std::min(input.width, input.height) >= kSmallestOctave) {
+  while (std::min(input.width, input.height) >= kMinimumOctaveSide) {
     step(control, 0.7 * (1 - std::exp2(-2.0 * input.index)));
     Rows next;
     space.octaves.emplace_back();

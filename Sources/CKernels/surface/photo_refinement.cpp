@@ -51,10 +51,11 @@ namespace {
 /// The number of views to compare concurrently: one per thread, fewer for large views, because the
 /// comparison takes a few hundred bytes per pixel.
 size_t views_at_once(const std::vector<RefinementView>& views, const ck_control* control) {
-  constexpr size_t kMostPixels = 24'000'000;
+  constexpr size_t kMaximumPixels = 24'000'000;
   size_t largest = 1;
   for (const RefinementView& view : views) largest = std::max(largest, view.luminance.size());
-  return std::clamp<size_t>(kMostPixels / largest, 1, static_cast<size_t>(thread_count(control)));
+  return std::clamp<size_t>(kMaximumPixels / largest, 1,
+                            static_cast<size_t>(thread_count(control)));
 }
 
 /// Compares the views, several concurrently, and accumulates their evidence in a fixed order.

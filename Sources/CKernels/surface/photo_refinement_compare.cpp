@@ -14,7 +14,7 @@ constexpr float kMinimumCosine = 0.25f;
 /// Correlation from which a window has full weight.
 constexpr float kGoodCorrelation = 0.9f;
 /// Smallest fraction of a window that must be visible in both photos. Empirical.
-constexpr float kLeastCoverage = 0.5f;
+constexpr float kMinimumCoverage = 0.5f;
 /// Threshold of the Huber weights, in standard deviations of the window.
 constexpr float kLargeDifference = 1;
 /// Image border in pixels that interpolation needs around a position.
@@ -125,7 +125,7 @@ class Comparison {
     for (auto& sum : sums_) sum_squares(image_.width, image_.height, options_.radius, &sum);
     const auto side = static_cast<float>(2 * options_.radius + 1);
     for (size_t i = 0; i < valid_.size(); ++i) {
-      if (valid_[i] > 0 && sums_[kCount][i] > kLeastCoverage * side * side) add_evidence(i);
+      if (valid_[i] > 0 && sums_[kCount][i] > kMinimumCoverage * side * side) add_evidence(i);
     }
   }
 

@@ -12,12 +12,12 @@ using texture::dot;
 
 /// Fractions of the median evidence: a vertex with less than the first is not moved; from the
 /// second on its bending term has full weight.
-constexpr double kLeastShare = 0.01, kGoodShare = 0.1;
+constexpr double kMinimumShare = 0.01, kGoodShare = 0.1;
 /// Mean bending around a vertex, relative to the mean edge length, at which the smoothness weight
 /// is halved: reduces smoothing at creases, but not at a single outlier.
 constexpr double kCrease = 0.02;
 /// Largest displacement of a vertex per round, in pixel footprints.
-constexpr float kLongestStep = 0.5f;
+constexpr float kMaximumStep = 0.5f;
 /// Cosine of the largest rotation of a triangle's normal per round.
 constexpr float kMinimumCosine = 0.5f;
 /// Conjugate gradient iterations.
@@ -53,7 +53,7 @@ class System {
     for_all([&](size_t v) { heights[v] = static_cast<float>(bend_at(v) / unit); });
     for (size_t v = 0; v < size_; ++v) {
       const double slope2 = evidence.slope2[v] * unit * unit;
-      if (mesh.is_border[v] || !(slope2 > kLeastShare * median)) continue;
+      if (mesh.is_border[v] || !(slope2 > kMinimumShare * median)) continue;
       is_movable[v] = 1;
       const double sharpness = mean_around(v, heights) / crease;
       const double part = std::min(1.0, slope2 / (kGoodShare * median));
@@ -253,7 +253,7 @@ std::vector<uint8_t> move_vertices(const VertexEvidence& evidence, float smoothn
   System system(*mesh, evidence, smoothness, control);
   auto lengths = system.solve(control);
   for (size_t v = 0; v < lengths.size(); ++v) {
-    const float move = std::clamp(lengths[v], -kLongestStep, kLongestStep);
+    const float move = std::clamp(lengths[v], -kMaximumStep, kMaximumStep);
     lengths[v] = system.is_movable[v] ? move * static_cast<float>(evidence.footprint) : 0;
   }
   Move(lengths, mesh).limit_rotations();

@@ -106,7 +106,7 @@ class Clustering {
         ++pairs;
       }
     }
-    if (pairs * kFewestPairs >= waiting.size()) return parents;
+    if (pairs * kClustersPerPair >= waiting.size()) return parents;
     // Along a gradient of costs hardly any two are each other's cheapest; there the cheapest merge
     // first.
     std::sort(waiting.begin(), waiting.end(), [&](uint32_t a, uint32_t b) {
@@ -249,7 +249,7 @@ class Clustering {
   /// Smallest cosine between the axis of a chart and the normals of the triangles merged into it.
   static constexpr float kAbsorbedCosine = 0.4f;
   /// If there are fewer pairs than one per this number of unpaired clusters, more pairs are formed.
-  static constexpr size_t kFewestPairs = 16;
+  static constexpr size_t kClustersPerPair = 16;
 
   const ChartMesh& mesh_;
   const ck_chart_options& options_;

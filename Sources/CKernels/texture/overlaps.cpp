@@ -12,7 +12,7 @@ namespace {
 constexpr int kMaximumRounds = 6;
 /// Cosine between a triangle's normal and the axis of its chart below which the triangle counts as
 /// back-facing or almost parallel to the axis. Empirical.
-constexpr float kLeaningCosine = 0.1f;
+constexpr float kObliqueCosine = 0.1f;
 
 /// The triangles of each chart, in ascending order.
 std::vector<std::vector<uint32_t>> faces_by_chart(const std::vector<int32_t>& charts,
@@ -46,6 +46,7 @@ class OverlapFinder {
     height_ = static_cast<int>(extent.y / cell_) + 2;
   }
 
+  /// The triangles that overlap one with priority, or are back-facing, in ascending order.
   std::vector<uint32_t> find() const {
     std::vector<uint8_t> taken(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0);
     // Triangles that face the plane have priority, oblique ones are split off.
@@ -136,9 +137,9 @@ void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
 }
 
 /// Whether a triangle is back-facing or almost parallel to the projection axis.
-bool leans_over(const ChartMesh& mesh, uint32_t face, Vec3 axis) {
+bool is_oblique(const ChartMesh& mesh, uint32_t face, Vec3 axis) {
   const Vec3 n = mesh.normals[face];
-  return dot(n, n) > 0 && dot(n, axis) < kLeaningCosine;
+  return dot(n, n) > 0 && dot(n, axis) < kObliqueCosine;
 }
 
 }  // namespace
@@ -154,10 +155,10 @@ void separate_overlaps(const ChartMesh& mesh, std::vector<int32_t>* charts,
       const Vec3 axis = (*axes)[c];
       int32_t spill = -1;
       for (const uint32_t f : OverlapFinder(mesh, faces[c], axis).find()) {
-        const bool leans = leans_over(mesh, f, axis);
+        const bool has_own_axis = is_oblique(mesh, f, axis);
         // Triangles split off stay together for now; the last round makes each a chart.
-        const bool is_alone = leans || round + 1 == kMaximumRounds;
-        if (is_alone || spill < 0) axes->push_back(leans ? mesh.normals[f] : axis);
+        const bool is_alone = has_own_axis || round + 1 == kMaximumRounds;
+        if (is_alone || spill < 0) axes->push_back(has_own_axis ? mesh.normals[f] : axis);
         const auto last = static_cast<int32_t>(axes->size() - 1);
         if (!is_alone && spill < 0) spill = last;
         (*charts)[f] = is_alone ? last : spill;
