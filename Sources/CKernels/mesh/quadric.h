@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace ck::texture {
+namespace ck::mesh {
 
 using Point = std::array<double, 3>;
 
@@ -82,4 +82,4 @@ struct Quadric {
   }
 };
 
-}  // namespace ck::texture
+}  // namespace ck::mesh

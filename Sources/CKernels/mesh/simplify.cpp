@@ -12,7 +12,7 @@
 #include "mesh/quadric.h"
 #include "mesh/surface_fit.h"
 
-namespace ck::texture {
+namespace ck::mesh {
 namespace {
 
 using Face = CollapseMesh::Face;
@@ -322,21 +322,21 @@ class Simplifier {
 };
 
 }  // namespace
-}  // namespace ck::texture
+}  // namespace ck::mesh
 
 ck_status ck_simplify(ck_mutable_mesh* mesh, size_t maximum_triangles, const ck_control* control) {
   return ck::guarded([&] {
     ck::require(mesh && mesh->positions.data && mesh->triangles, "an argument is missing");
     ck::step(control, 0);
-    ck::texture::Simplifier simplifier({mesh->positions, mesh->triangles, mesh->triangle_count});
+    ck::mesh::Simplifier simplifier({mesh->positions, mesh->triangles, mesh->triangle_count});
     // A closed component has at least four triangles: many tiny components would use up the budget.
     simplifier.drop_components(
         mesh->triangle_count,
-        std::max<size_t>(1, maximum_triangles / ck::texture::kTrianglesPerPiece));
+        std::max<size_t>(1, maximum_triangles / ck::mesh::kTrianglesPerPiece));
     // A collapse that is rejected in one pass may be permitted after its surroundings have changed.
     // A limit on triangle shape is harmful: it prevents collapses that would repair slivers of the
     // input.
-    for (const double cosine : ck::texture::kTurnCosines)
+    for (const double cosine : ck::mesh::kTurnCosines)
       simplifier.run(maximum_triangles, cosine, control);
     simplifier.drop_components(maximum_triangles, maximum_triangles);
     simplifier.fit(control);
