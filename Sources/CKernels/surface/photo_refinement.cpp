@@ -31,7 +31,7 @@ void RefinedMesh::find_neighbors() {
     if (end - i != 2) is_border[from] = 1;
     neighbors.push_back(to);
     ++offsets[from + 1];
-    mean_edge += texture::length(positions[to] - positions[from]);
+    mean_edge += length(positions[to] - positions[from]);
   }
   for (size_t v = 0; v < positions.size(); ++v) offsets[v + 1] += offsets[v];
   mean_edge /= static_cast<double>(std::max<size_t>(1, neighbors.size()));
@@ -43,7 +43,7 @@ void RefinedMesh::find_normals() {
     const Vec3 n = doubled_area(t);
     for (uint32_t v : t) normals[v] += n;
   }
-  for (Vec3& n : normals) n = texture::normalized(n);
+  for (Vec3& n : normals) n = normalized(n);
 }
 
 namespace {
@@ -117,7 +117,7 @@ ck_status ck_photo_refinement_create(const ck_mesh* input,
     result->options = *options;
     auto& mesh = result->mesh;
     for (size_t i = 0; i < positions.count; ++i) {
-      const auto p = ck::texture::vec_at(positions, i);
+      const auto p = ck::vec_at(positions, i);
       ck::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                   "a mesh vertex is not finite");
       mesh.positions.push_back(p);

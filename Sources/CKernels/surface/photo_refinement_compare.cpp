@@ -7,8 +7,6 @@
 namespace ck::surface {
 namespace {
 
-using texture::dot;
-
 /// Surface seen at a smaller cosine is not compared.
 constexpr float kMinimumCosine = 0.25f;
 /// Correlation from which a window has full weight.
@@ -165,10 +163,10 @@ class Comparison {
       e.weights[k] = std::clamp(e.weights[k] / sum, 0.0f, 1.0f);
       point += mesh_.positions[t[k]] * e.weights[k];
     }
-    const Vec3 normal = texture::normalized(mesh_.doubled_area(t));
+    const Vec3 normal = normalized(mesh_.doubled_area(t));
     const Vec3 ray = point - view_.projection.center;
     const float slope = dot(normal, ray);
-    const bool is_good = sum != 0 && slope < -kMinimumCosine * texture::length(ray);
+    const bool is_good = sum != 0 && slope < -kMinimumCosine * length(ray);
     if (!is_good || !view_.sees(pixel, 0)) return {SurfaceImage::kNone, {}, 0, 0};
     points_[i] = point;
     moves_[i] = ray * (1 / slope);
@@ -253,7 +251,7 @@ void choose_partners(const RefinedMesh& mesh, int count, std::vector<RefinementV
     std::vector<std::pair<size_t, Vec3>> seeing;
     for (size_t i = 0; i < n; ++i) {
       const RefinementView& view = (*views)[i];
-      const Vec3 ray = texture::normalized(view.projection.center - mesh.positions[v]);
+      const Vec3 ray = normalized(view.projection.center - mesh.positions[v]);
       if (dot(ray, mesh.normals[v]) < kMinimumCosine) continue;
       if (view.sees(view.project(mesh.positions[v]), kMargin)) seeing.push_back({i, ray});
     }

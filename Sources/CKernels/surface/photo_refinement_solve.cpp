@@ -8,8 +8,6 @@
 namespace ck::surface {
 namespace {
 
-using texture::dot;
-
 /// Fractions of the median evidence: a vertex with less than the first is not moved; from the
 /// second on its bending term has full weight.
 constexpr double kMinimumShare = 0.01, kGoodShare = 0.1;
@@ -195,7 +193,7 @@ class Move {
   Move(const std::vector<float>& lengths, RefinedMesh* mesh)
       : mesh_(*mesh), before_(mesh->positions), lengths_(lengths) {
     for (const auto& t : mesh_.triangles) {
-      initial_normals_.push_back(texture::normalized(mesh_.doubled_area(t)));
+      initial_normals_.push_back(normalized(mesh_.doubled_area(t)));
     }
     for (uint32_t v = 0; v < lengths_.size(); ++v) place(v);
   }
@@ -228,7 +226,7 @@ class Move {
   void for_rotated(Body&& body) {
     for (size_t t = 0; t < initial_normals_.size(); ++t) {
       const auto& triangle = mesh_.triangles[t];
-      const Vec3 now = texture::normalized(mesh_.doubled_area(triangle));
+      const Vec3 now = normalized(mesh_.doubled_area(triangle));
       if (dot(now, initial_normals_[t]) < kMinimumCosine) body(triangle);
     }
   }

@@ -275,7 +275,7 @@ ck_status ck_cluster_faces(const ck_mesh* input, const ck_chart_options* options
     ck::step(control, 0);
     const ck::texture::ChartMesh mesh(*input);
     std::vector<int32_t> chart_of_face;
-    std::vector<ck::texture::Vec3> directions;
+    std::vector<ck::Vec3> directions;
     {
       ck::texture::Clustering clustering(mesh, *options);
       clustering.run(control);

@@ -84,11 +84,11 @@ ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rg
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control) {
   return ck::guarded([&] {
-    using ck::texture::Vec3;
+    using ck::Vec3;
     ck::require(atlas && (!rgb || (view && gain)), "an argument is missing");
     const ck_view no_view{};
     const ck_view& source = view ? *view : no_view;
-    const ck::texture::Projection projection(source);
+    const ck::Projection projection(source);
     constexpr size_t kChunk = 512;
     ck::parallel_for_blocks(control, paint_count, kChunk, [&](size_t k) {
       const ck_paint& paint = paints[k];
