@@ -27,6 +27,7 @@ struct ScaleSpace {
   }
 };
 
+/// Searches all octaves, from the largest to the smallest.
 ScaleSpace searched(const Photo& photo, const ck_sift_options& options, const Kernels& kernels,
                     const ck_control* control) {
   const bool is_doubled = options.first_octave < 0;
@@ -75,6 +76,7 @@ std::vector<Extremum> selected(const ScaleSpace& space, const Photo& photo,
   return kept;
 }
 
+/// A feature with one of the orientations of its extremum.
 struct Feature {
   /// In pixels of the photo, and radians.
   float x, y, sigma, orientation;

@@ -24,10 +24,14 @@ constexpr double kPull = 1e-4, kReach = 2;
 /// Cosine of the largest angle by which a collapse may rotate a triangle's normal, in each of the
 /// passes; the last one permits collapses that the others rejected. Empirical.
 constexpr double kTurnCosines[] = {0.2, 0.2, 0.0};
+/// Weight of the fourth power of an edge's length in its cost: among edges without error the
+/// shortest are collapsed first.
+constexpr double kLengthWeight = 1e-9;
 /// The number of components is limited to one per this number of triangles of the result.
 /// Empirical.
 constexpr size_t kTrianglesPerPiece = 16;
 
+/// The vertices; throws if one is not finite.
 std::vector<Point> load_points(const InputMesh& input) {
   std::vector<Point> points(input.positions.count);
   for (size_t i = 0; i < points.size(); ++i) {
@@ -140,6 +144,7 @@ class Simplifier {
     SurfaceFit(input_, homes, &mesh_).run(control);
   }
 
+  /// Writes the compacted mesh.
   void copy(ck_mutable_mesh* result) const {
     const MutableStrided<float> positions(result->positions);
     std::vector<uint32_t> ids(mesh_.vertex_count());
@@ -248,8 +253,7 @@ class Simplifier {
     // The cost is the error that this collapse adds, not the error accumulated before.
     const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
     const Point along = mesh_.point(a) - mesh_.point(b);
-    // Among edges without error the shortest are collapsed first.
-    const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
+    const double cost = added + kLengthWeight * dot(along, along) * dot(along, along);
     queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
   }
 

@@ -22,6 +22,9 @@ constexpr float kMinimumCosine = 0.5f;
 constexpr int kIterations = 40;
 /// Relative reduction of the squared preconditioned residual at which conjugate gradients stop.
 constexpr double kReduction = 1e-6;
+/// Diagonal element of the squared bending operator in the preconditioner: that of a regular mesh
+/// is 1 + 1/6.
+constexpr float kBendingDiagonal = 1.2f;
 /// Units of parallel work.
 constexpr size_t kBlocks = 64;
 
@@ -69,7 +72,7 @@ class System {
     std::vector<float> moves(size_, 0), rest = pull_, scaled(size_), image(size_);
     const auto precondition = [&] {
       for (size_t v = 0; v < size_; ++v) {
-        scaled[v] = is_movable[v] ? rest[v] / (diagonal_[v] + 1.2f * bending_[v]) : 0;
+        scaled[v] = is_movable[v] ? rest[v] / (diagonal_[v] + kBendingDiagonal * bending_[v]) : 0;
       }
     };
     precondition();
@@ -220,8 +223,10 @@ class Move {
   }
 
  private:
+  /// Passes in which the displacements of rotated triangles are averaged.
   static constexpr int kPasses = 8;
 
+  /// Calls `body(triangle)` for the triangles that rotate too far.
   template <typename Body>
   void for_rotated(Body&& body) {
     for (size_t t = 0; t < initial_normals_.size(); ++t) {

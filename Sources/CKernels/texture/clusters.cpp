@@ -15,7 +15,7 @@ namespace ck::texture {
 namespace {
 
 /// Cost of a cluster per area that does not depend on its flatness, so that small clusters merge
-/// first. Empirical.
+/// first.
 constexpr float kPlainCost = 0.02f;
 /// 4π: the ratio of the squared perimeter of a disk to its area.
 constexpr float kDiskIrregularity = 12.566f;

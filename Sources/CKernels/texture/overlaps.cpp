@@ -14,6 +14,12 @@ constexpr int kMaximumRounds = 6;
 /// back-facing or almost parallel to the axis. Empirical.
 constexpr float kObliqueCosine = 0.1f;
 
+/// Cells of the grid per side of a square with the mean area of a triangle, and largest number per
+/// side of the chart.
+constexpr float kCellsPerTriangleSide = 4, kMaximumCells = 2048;
+/// Barycentric weight of all corners from which a cell's center lies well inside a triangle.
+constexpr float kInsideWeight = 1e-3f;
+
 /// The triangles of each chart, in ascending order.
 std::vector<std::vector<uint32_t>> faces_by_chart(const std::vector<int32_t>& charts,
                                                   size_t count) {
@@ -38,10 +44,10 @@ class OverlapFinder {
         high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
       }
     }
-    // About 16 cells per triangle.
-    const float cell = std::sqrt(std::max(area, 1e-30f) / static_cast<float>(faces.size())) / 4;
+    const float cell = std::sqrt(std::max(area, 1e-30f) / static_cast<float>(faces.size())) /
+                       kCellsPerTriangleSide;
     const Vec2 extent = high_ - low_;
-    cell_ = std::max({cell, extent.x / 2048, extent.y / 2048, 1e-12f});
+    cell_ = std::max({cell, extent.x / kMaximumCells, extent.y / kMaximumCells, 1e-12f});
     width_ = static_cast<int>(extent.x / cell_) + 2;
     height_ = static_cast<int>(extent.y / cell_) + 2;
   }
@@ -97,7 +103,7 @@ class OverlapFinder {
         const Vec2 q = Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} - p[0];
         const float w1 = cross(q, p[2] - p[0]) / doubled;
         const float w2 = cross(p[1] - p[0], q) / doubled;
-        if (w1 > 1e-3f && w2 > 1e-3f && w1 + w2 < 0.999f) {
+        if (w1 > kInsideWeight && w2 > kInsideWeight && w1 + w2 < 0.999f) {
           cells->push_back(static_cast<size_t>(y) * static_cast<size_t>(width_) +
                            static_cast<size_t>(x));
         }

@@ -9,11 +9,18 @@ namespace {
 
 /// Steps of the fixed-point colors per gray level.
 constexpr float kSteps = 64;
+/// Largest magnitude of a fixed-point color.
+constexpr int kMaximumColor = 32000;
+/// Samples per side with which a texel averages pixels at most.
+constexpr int kMaximumSamples = 4;
 
+/// A color channel in fixed point.
 int16_t quantized(float value) {
-  return static_cast<int16_t>(std::lround(std::clamp(value * kSteps, -32000.0f, 32000.0f)));
+  constexpr float kLimit = kMaximumColor;
+  return static_cast<int16_t>(std::lround(std::clamp(value * kSteps, -kLimit, kLimit)));
 }
 
+/// The mean of the values at three corners with barycentric weights.
 Vec3 mix(Vec3 weights, Vec3 a, Vec3 b, Vec3 c) {
   return a * weights.x + b * weights.y + c * weights.z;
 }
@@ -32,8 +39,9 @@ class FacePainter {
     const float reach = std::max(std::sqrt(right.x * right.x + right.y * right.y),
                                  std::sqrt(down.x * down.x + down.y * down.y));
     // A texel that spans several pixels averages a corresponding number of samples.
-    samples_ =
-        std::isfinite(reach) ? std::clamp(static_cast<int>(std::ceil(reach - 0.25f)), 1, 4) : 1;
+    samples_ = std::isfinite(reach)
+                   ? std::clamp(static_cast<int>(std::ceil(reach - 0.25f)), 1, kMaximumSamples)
+                   : 1;
   }
 
   Vec3 color(int x, int y) const {
@@ -64,16 +72,18 @@ class FacePainter {
   int samples_ = 1;
 };
 
+/// The color offset at a corner.
 Vec3 offset_at(const ck_paint& paint, int corner) {
   const float* o = paint.offsets + 3 * corner;
   return {o[0], o[1], o[2]};
 }
 
+/// Adds a color to a texel, saturating.
 void add(ck_atlas& atlas, size_t texel, Vec3 color) {
   int16_t* slot = atlas.colors.data() + 3 * texel;
   const int16_t values[3] = {quantized(color.x), quantized(color.y), quantized(color.z)};
   for (int c = 0; c < 3; ++c) {
-    slot[c] = static_cast<int16_t>(std::clamp(slot[c] + values[c], -32000, 32000));
+    slot[c] = static_cast<int16_t>(std::clamp(slot[c] + values[c], -kMaximumColor, kMaximumColor));
   }
 }
 
