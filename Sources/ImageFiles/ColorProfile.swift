@@ -12,7 +12,8 @@ package enum ColorProfile: Hashable, Sendable {
   /// Adobe RGB (1998), which cameras indicate without a profile (DCF 2.0, section 5.3).
   case adobeRGB
 
-  /// Camera profiles are below 4 kB, scanner profiles up to a few hundred kB.
+  /// Size in bytes above which a profile is ignored. Those of cameras have less than 4 kB, those of
+  /// scanners up to a few hundred kB.
   private static let maximumSize = 4 << 20
 
   /// The profile in an image file's content; nil without one, which means sRGB.
@@ -45,16 +46,16 @@ package enum ColorProfile: Hashable, Sendable {
 
   /// The ICC profile of a JPEG, PNG, WebP, HEIF or TIFF file.
   private static func profile(_ reader: ByteReader) -> [UInt8]? {
-    if reader.hasPrefix([0xFF, 0xD8]) { return jpeg(reader) }
-    if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) { return png(reader) }
-    if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+    if reader.isJPEG { return jpeg(reader) }
+    if reader.isPNG { return png(reader) }
+    if reader.isWebP {
       return FileChunks(webP: reader).first { $0.name == "ICCP" }.map {
         Array(reader.bytes[$0.data])
       }
     }
     if HEIFFile.Kind(reader) != nil { return HEIFFile.colorProfile(reader.bytes) }
     guard let tiff = TIFFStructure(reader) else { return nil }
-    return tiff.entries(ofDirectoryAt: tiff.firstDirectory).first { $0.tag == 34675 }
+    return tiff.entries(ofDirectoryAt: tiff.firstDirectory).first { $0.tag == TIFFTag.colorProfile }
       .flatMap { tiff.bytes($0) }
   }
 
@@ -89,14 +90,18 @@ package enum ColorProfile: Hashable, Sendable {
     return profile.isEmpty ? nil : profile
   }
 
+  /// EXIF's value of the color space for sRGB.
+  private static let sRGB = 1
+
   /// EXIF has a value for sRGB only: without it, the interoperability index R03 means Adobe RGB.
   private static func isAdobeRGB(_ reader: ByteReader) -> Bool {
     guard let tiff = TIFFStructure(exifOf: reader),
-      let exif = tiff.integer(of: 34665, in: tiff.firstDirectory),
-      tiff.integer(of: 40961, in: exif) != 1,
-      let interoperability = tiff.integer(of: 40965, in: exif),
-      let kind = tiff.entries(ofDirectoryAt: interoperability).first(where: { $0.tag == 1 })
+      let exif = tiff.integer(of: TIFFTag.exifDirectory, in: tiff.firstDirectory),
+      tiff.integer(of: TIFFTag.colorSpace, in: exif) != sRGB,
+      let interoperability = tiff.integer(of: TIFFTag.interoperabilityDirectory, in: exif),
+      let index = tiff.entries(ofDirectoryAt: interoperability)
+        .first(where: { $0.tag == TIFFTag.interoperabilityIndex })
     else { return false }
-    return tiff.text(kind) == "R03"
+    return tiff.text(index) == "R03"
   }
 }

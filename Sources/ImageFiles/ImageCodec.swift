@@ -5,12 +5,13 @@ import SceneModel
 
 /// Reads and writes image files.
 ///
-/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, detected from their content. Images are
-/// returned as 8-bit sRGB: 16 bits are reduced, gray, palette and CMYK converted, colors of an ICC
-/// profile too, and an alpha channel, which `decodeAlpha` reads, is dropped, which keeps the colors
-/// under transparent pixels. EXIF orientation isn't applied, see `RasterImage.turned`; only the
-/// decoders of TIFF and HEIF files rotate images upright, by the orientation that these files store
-/// themselves.
+/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, detected from their content, as 8-bit sRGB:
+/// samples of 16 bits are reduced; gray, palette and CMYK images and images with an ICC profile are
+/// converted. The alpha channel is dropped without changing the colors of transparent pixels;
+/// `decodeAlpha` reads it.
+///
+/// EXIF orientation isn't applied; `RasterImage.turned(byOrientation:)` does that. Only the
+/// decoders of TIFF and HEIF files rotate images upright, by the orientation in the container.
 package enum ImageCodec {
   /// Sizes above which a file is rejected before decoding.
   package struct Limits: Hashable, Codable, Sendable {
@@ -79,7 +80,7 @@ package enum ImageCodec {
     return alpha.pixels.isEmpty ? nil : alpha
   }
 
-  /// Decodes a TIFF file with one floating-point value per pixel, in row order from the top.
+  /// Decodes a TIFF file with one floating-point value per pixel, the top row first.
   package static func decodeNumbers(
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
@@ -178,7 +179,7 @@ package enum ImageCodec {
     return [UInt8](taking: encoded)
   }
 
-  /// Converts a quality of 0…1, not a number meaning 1.
+  /// Converts a quality of 0…1 to percent; infinity and NaN count as 1.
   private static func percent(_ quality: Float) -> Int32 {
     Int32((min(max(quality.isFinite ? quality : 1, 0), 1) * 100).rounded())
   }

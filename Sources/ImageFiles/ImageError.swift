@@ -7,8 +7,11 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
   case unsupportedFormat(String)
   /// The actual type: "a text file".
   case notAnImage(String)
+  /// Size in pixels.
   case tooLarge(width: Int, height: Int)
+  /// The damage: "its PNG header is damaged or cut off".
   case damaged(String)
+  /// The reason, or advice: "it is not a file".
   case unreadable(String)
 
   package var errorDescription: String? {

@@ -11,8 +11,11 @@ package struct PhotoMetadata: Hashable, Sendable {
   /// EXIF orientation 1…8 that rotates the pixels of the sensor upright, even if the decoder has
   /// already applied it.
   package var sensorOrientation = 1
+  /// Manufacturer of the camera.
   package var make: String?
+  /// Model of the camera.
   package var model: String?
+  /// Model of the lens.
   package var lens: String?
   /// Serial numbers of body and lens.
   package var bodySerialNumber: String?
@@ -26,6 +29,7 @@ package struct PhotoMetadata: Hashable, Sendable {
   /// Size in pixels of the photo as the camera wrote it; programs that resize photos often keep it.
   package var originalWidth: Int?
   package var originalHeight: Int?
+  /// GPS position of the camera.
   package var position: GeographicPosition?
   /// As stored: "2024:05:17 12:34:56".
   package var captureTime: String?
@@ -37,42 +41,48 @@ package struct PhotoMetadata: Hashable, Sendable {
     let reader = ByteReader(bytes)
     guard let tiff = TIFFStructure(exifOf: reader) else { return }
     let image = Fields(tiff, tiff.firstDirectory)
-    let exif = Fields(tiff, image.integer(34665) ?? 0)
-    sensorOrientation = image.integer(274).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
+    let exif = Fields(tiff, image.integer(TIFFTag.exifDirectory) ?? 0)
+    sensorOrientation =
+      image.integer(TIFFTag.orientation).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
     // The decoders of TIFF and HEIF files apply the orientation themselves.
     if TIFFStructure(reader) == nil, HEIFFile.Kind(reader) == nil {
       orientation = sensorOrientation
     }
-    make = image.text(271)
-    model = image.text(272)
-    lens = exif.text(42036)
-    bodySerialNumber = exif.text(42033)
-    lensSerialNumber = exif.text(42037)
-    focalLength = exif.number(37386, in: 0.5...5000)
-    focalLengthIn35mmFilm = exif.number(41989, in: 2...5000)
+    make = image.text(TIFFTag.make)
+    model = image.text(TIFFTag.model)
+    lens = exif.text(TIFFTag.lensModel)
+    bodySerialNumber = exif.text(TIFFTag.bodySerialNumber)
+    lensSerialNumber = exif.text(TIFFTag.lensSerialNumber)
+    focalLength = exif.number(TIFFTag.focalLength, in: 0.5...5000)
+    focalLengthIn35mmFilm = exif.number(TIFFTag.focalLengthIn35mmFilm, in: 2...5000)
     focalPlaneResolution = Self.focalPlaneResolution(exif)
-    originalWidth = exif.integer(40962).flatMap { $0 > 0 ? $0 : nil }
-    originalHeight = exif.integer(40963).flatMap { $0 > 0 ? $0 : nil }
-    captureTime = exif.text(36867) ?? image.text(306)
-    position = Self.position(Fields(tiff, image.integer(34853) ?? 0))
+    originalWidth = exif.integer(TIFFTag.pixelWidth).flatMap { $0 > 0 ? $0 : nil }
+    originalHeight = exif.integer(TIFFTag.pixelHeight).flatMap { $0 > 0 ? $0 : nil }
+    captureTime = exif.text(TIFFTag.dateTimeOriginal) ?? image.text(TIFFTag.dateTime)
+    position = Self.position(Fields(tiff, image.integer(TIFFTag.gpsDirectory) ?? 0))
   }
 
-  /// Resolution units 2 and none: inch; 3: centimeter; 4: millimeter; 5: micrometer.
+  /// Pixels per millimeter. Resolution units 2 and none: inch; 3: centimeter; 4: millimeter; 5:
+  /// micrometer.
   private static func focalPlaneResolution(_ exif: Fields) -> Double? {
-    let millimeters = [2: 25.4, 3: 10, 4: 1, 5: 0.001][exif.integer(41488) ?? 2]
-    guard let millimeters, let value = exif.number(41486, in: 1e-3...1e9) else { return nil }
+    let unit = exif.integer(TIFFTag.focalPlaneResolutionUnit) ?? 2
+    guard let millimeters = [2: 25.4, 3: 10, 4: 1, 5: 0.001][unit],
+      let value = exif.number(TIFFTag.focalPlaneXResolution, in: 1e-3...1e9)
+    else { return nil }
     return value / millimeters
   }
 
+  /// The position; nil for (0, 0), which cameras without reception write.
   private static func position(_ gps: Fields) -> GeographicPosition? {
-    guard let latitude = gps.degrees(2), let longitude = gps.degrees(4),
+    guard let latitude = gps.degrees(TIFFTag.latitude),
+      let longitude = gps.degrees(TIFFTag.longitude),
       latitude <= 90, longitude <= 180, latitude != 0 || longitude != 0
     else { return nil }
-    let altitude = gps.number(6, in: 0...20000)
+    let altitude = gps.number(TIFFTag.altitude, in: 0...20000)
     return GeographicPosition(
-      latitudeDegrees: gps.text(1) == "S" ? -latitude : latitude,
-      longitudeDegrees: gps.text(3) == "W" ? -longitude : longitude,
-      altitude: altitude.map { gps.integer(5) == 1 ? -$0 : $0 })
+      latitudeDegrees: gps.text(TIFFTag.latitudeReference) == "S" ? -latitude : latitude,
+      longitudeDegrees: gps.text(TIFFTag.longitudeReference) == "W" ? -longitude : longitude,
+      altitude: altitude.map { gps.integer(TIFFTag.altitudeReference) == 1 ? -$0 : $0 })
   }
 }
 

@@ -12,6 +12,14 @@
 namespace ck {
 namespace {
 
+static_assert(kCameraSize == kPoseSize, "cameras and poses share one type of parameter block");
+
+/// Ceres stops at a gradient with a smaller maximum norm, or a smaller relative change of the
+/// parameters.
+constexpr double kGradientTolerance = 1e-10, kParameterTolerance = 1e-10;
+/// Largest number of conjugate gradient iterations per step.
+constexpr int kMaximumLinearIterations = 100;
+
 /// Reports the progress of Ceres and passes cancellation to it.
 class ControlCallback final : public ceres::IterationCallback {
  public:
@@ -49,8 +57,8 @@ class Adjustment {
     ceres::Solver::Options solver;
     solver.max_num_iterations = options_.maximum_iterations;
     solver.function_tolerance = options_.function_tolerance;
-    solver.gradient_tolerance = 1e-10;
-    solver.parameter_tolerance = 1e-10;
+    solver.gradient_tolerance = kGradientTolerance;
+    solver.parameter_tolerance = kParameterTolerance;
     solver.num_threads = 1;
     solver.logging_type = ceres::SILENT;
     solver.callbacks.push_back(&callback);
@@ -60,7 +68,7 @@ class Adjustment {
                                     ? ceres::SPARSE_SCHUR
                                     : ceres::ITERATIVE_SCHUR;
     solver.preconditioner_type = ceres::SCHUR_JACOBI;
-    solver.max_linear_solver_iterations = 100;
+    solver.max_linear_solver_iterations = kMaximumLinearIterations;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem_, &summary);
     return summary;
@@ -110,10 +118,11 @@ class Adjustment {
   Vector3 translation(size_t i) { return Eigen::Map<const Vector3>(pose(i) + 4); }
   double* point(size_t i) const { return MutableStrided<double>(bundle_.points)[i]; }
 
+  /// Copies cameras and poses to the parameter blocks.
   void load() {
     for (size_t i = 0; i < bundle_.camera_count; ++i) {
       const ck_camera& c = bundle_.cameras[i];
-      require(c.fx > 0 && c.fy > 0, "a camera without a focal length");
+      require(c.fx > 0 && c.fy > 0, "a camera has no focal length");
       blocks_.push_back({c.fx, c.cx, c.cy, c.k1, c.k2, c.p1, c.p2});
       aspects_.push_back(c.fy / c.fx);
     }
@@ -126,13 +135,14 @@ class Adjustment {
     used_photos_.resize(bundle_.photo_count);
   }
 
+  /// Adds a residual per observation; points that are adjusted are eliminated first.
   void add_observations() {
     std::vector<bool> used_points(bundle_.points.count);
     for (size_t i = 0; i < bundle_.observation_count; ++i) {
       const ck_observation& o = bundle_.observations[i];
       require(o.photo >= 0 && size_t(o.photo) < bundle_.photo_count && o.point >= 0 &&
                   size_t(o.point) < bundle_.points.count,
-              "an observation names a photo or point that isn't there");
+              "an observation refers to a photo or point that does not exist");
       const int32_t index = bundle_.photo_cameras[o.photo];
       require(index >= 0 && size_t(index) < bundle_.camera_count,
               "a photo refers to a camera that does not exist");
@@ -155,6 +165,7 @@ class Adjustment {
     }
   }
 
+  /// Fixes what the freedom of cameras and poses excludes.
   void constrain() {
     for (size_t i = 0; i < bundle_.photo_count; ++i) {
       if (!used_photos_[i]) continue;
@@ -193,19 +204,19 @@ class Adjustment {
     double* block = camera(i);
     ordering_->AddElementToGroup(block, 1);
     const uint32_t freedom = bundle_.camera_freedom[i];
-    const uint32_t bits[camera_size] = {
+    const uint32_t bits[kCameraSize] = {
         ck_free_focal_length, ck_free_principal_point, ck_free_principal_point, ck_free_k1,
         ck_free_k2,           ck_free_tangential,      ck_free_tangential};
     std::vector<int> constant;
-    for (int k = 0; k < camera_size; ++k) {
+    for (int k = 0; k < kCameraSize; ++k) {
       if (!(freedom & bits[k])) constant.push_back(k);
     }
-    if (constant.size() == camera_size) {
+    if (constant.size() == kCameraSize) {
       problem_.SetParameterBlockConstant(block);
       return;
     }
     if (!constant.empty()) {
-      manifolds_.push_back(std::make_unique<ceres::SubsetManifold>(camera_size, constant));
+      manifolds_.push_back(std::make_unique<ceres::SubsetManifold>(kCameraSize, constant));
       problem_.SetManifold(block, manifolds_.back().get());
     }
     problem_.AddResidualBlock(new CameraPriorCost(bundle_.camera_priors[i]), nullptr, block);
@@ -217,7 +228,7 @@ class Adjustment {
   std::vector<std::unique_ptr<ceres::Manifold>> manifolds_;
   /// Cameras, then poses, in one buffer: Ceres orders parameter blocks by address, and sums depend
   /// on the order.
-  std::vector<std::array<double, 7>> blocks_;
+  std::vector<std::array<double, kPoseSize>> blocks_;
   std::vector<double> aspects_;
   std::vector<bool> used_cameras_, used_photos_;
   std::shared_ptr<ceres::ParameterBlockOrdering> ordering_;
@@ -260,17 +271,17 @@ ck_status ck_reprojection_jacobians(const ck_camera* camera, const ck_pose* pose
     require(residual && pose_jacobian && point_jacobian && camera_jacobian && camera && pose &&
                 point && pixel,
             "missing argument");
-    const double p[pose_size] = {pose->qx, pose->qy, pose->qz, pose->qw,
+    const double p[kPoseSize] = {pose->qx, pose->qy, pose->qz, pose->qw,
                                  pose->tx, pose->ty, pose->tz};
-    const double c[camera_size] = {camera->fx, camera->cx, camera->cy, camera->k1,
+    const double c[kCameraSize] = {camera->fx, camera->cx, camera->cy, camera->k1,
                                    camera->k2, camera->p1, camera->p2};
     const double* parameters[3] = {p, point, c};
-    double ambient[2 * pose_size];
+    double ambient[2 * kPoseSize];
     double* jacobians[3] = {ambient, point_jacobian, camera_jacobian};
     ReprojectionCost(pixel[0], pixel[1], camera->fy / camera->fx)
         .Evaluate(parameters, residual, jacobians);
     for (int row = 0; row < 2; ++row) {
-      std::copy(ambient + row * pose_size, ambient + row * pose_size + 6, pose_jacobian + 6 * row);
+      std::copy(ambient + row * kPoseSize, ambient + row * kPoseSize + 6, pose_jacobian + 6 * row);
     }
   });
 }

@@ -11,15 +11,15 @@ bool PoseManifold::Plus(const double* x, const double* delta, double* x_plus_del
   }
   const Eigen::Quaterniond q(x[3], x[0], x[1], x[2]);
   const Eigen::Quaterniond r = (exponential({full[0], full[1], full[2]}) * q).normalized();
-  const double result[pose_size] = {r.x(),          r.y(),          r.z(),         r.w(),
+  const double result[kPoseSize] = {r.x(),          r.y(),          r.z(),         r.w(),
                                     x[4] + full[3], x[5] + full[4], x[6] + full[5]};
-  std::copy(result, result + pose_size, x_plus_delta);
+  std::copy(result, result + kPoseSize, x_plus_delta);
   return true;
 }
 
 bool PoseManifold::PlusJacobian(const double*, double* jacobian) const {
   const int size = TangentSize();
-  std::fill(jacobian, jacobian + pose_size * size, 0.0);
+  std::fill(jacobian, jacobian + kPoseSize * size, 0.0);
   for (int i = 0, column = 0; i < 6; ++i) {
     if (i - 3 != fixed_axis_ || i < 3) jacobian[i * size + column++] = 1;
   }
@@ -39,9 +39,9 @@ bool PoseManifold::Minus(const double* y, const double* x, double* y_minus_x) co
 
 bool PoseManifold::MinusJacobian(const double*, double* jacobian) const {
   const int size = TangentSize();
-  std::fill(jacobian, jacobian + pose_size * size, 0.0);
+  std::fill(jacobian, jacobian + kPoseSize * size, 0.0);
   for (int i = 0, row = 0; i < 6; ++i) {
-    if (i - 3 != fixed_axis_ || i < 3) jacobian[pose_size * row++ + i] = 1;
+    if (i - 3 != fixed_axis_ || i < 3) jacobian[kPoseSize * row++ + i] = 1;
   }
   return true;
 }
@@ -71,7 +71,7 @@ bool ReprojectionCost::Evaluate(double const* const* parameters, double* residua
 
   const Eigen::Matrix<double, 2, 3> by_point = project_jacobian(camera, point);
   if (jacobians[0]) {
-    Eigen::Map<Eigen::Matrix<double, 2, pose_size, Eigen::RowMajor>> j(jacobians[0]);
+    Eigen::Map<Eigen::Matrix<double, 2, kPoseSize, Eigen::RowMajor>> j(jacobians[0]);
     for (int row = 0; row < 2; ++row) {
       j.block<1, 3>(row, 0) = rotated.cross(by_point.row(row).transpose()).transpose();
     }
@@ -83,7 +83,7 @@ bool ReprojectionCost::Evaluate(double const* const* parameters, double* residua
     j.noalias() = by_point * rotation.toRotationMatrix();
   }
   if (jacobians[2]) {
-    Eigen::Map<Eigen::Matrix<double, 2, camera_size, Eigen::RowMajor>> j(jacobians[2]);
+    Eigen::Map<Eigen::Matrix<double, 2, kCameraSize, Eigen::RowMajor>> j(jacobians[2]);
     const double r2 = p.squaredNorm(), xy = 2 * p.x() * p.y();
     j << d.x(), 1, 0, r2 * p.x(), r2 * r2 * p.x(), xy, r2 + 2 * p.x() * p.x(), aspect_ * d.y(), 0,
         1, r2 * p.y(), r2 * r2 * p.y(), r2 + 2 * p.y() * p.y(), xy;
@@ -105,8 +105,8 @@ bool CameraPriorCost::Evaluate(double const* const* parameters, double* residual
                                double** jacobians) const {
   for (int i = 0; i < 5; ++i) residuals[i] = weight_[i] * (parameters[0][i] - mean_[i]);
   if (jacobians && jacobians[0]) {
-    std::fill(jacobians[0], jacobians[0] + 5 * camera_size, 0.0);
-    for (int i = 0; i < 5; ++i) jacobians[0][i * camera_size + i] = weight_[i];
+    std::fill(jacobians[0], jacobians[0] + 5 * kCameraSize, 0.0);
+    for (int i = 0; i < 5; ++i) jacobians[0][i * kCameraSize + i] = weight_[i];
   }
   return true;
 }

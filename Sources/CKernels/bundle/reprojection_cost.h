@@ -9,9 +9,9 @@
 namespace ck {
 
 /// Parameters of a pose: quaternion x, y, z, w, then the translation.
-constexpr int pose_size = 7;
+constexpr int kPoseSize = 7;
 /// Parameters of a camera: fx (fy in constant proportion), cx, cy, k1, k2, p1, p2.
-constexpr int camera_size = 7;
+constexpr int kCameraSize = 7;
 
 /// The tangent space of a pose: a rotation vector applied from the left, then the translation.
 ///
@@ -22,7 +22,7 @@ class PoseManifold final : public ceres::Manifold {
   /// `fixed_axis` 0…2 holds one component of the translation constant; −1 none.
   explicit PoseManifold(int fixed_axis) : fixed_axis_(fixed_axis) {}
 
-  int AmbientSize() const override { return pose_size; }
+  int AmbientSize() const override { return kPoseSize; }
   int TangentSize() const override { return fixed_axis_ < 0 ? 6 : 5; }
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override;
   bool PlusJacobian(const double* x, double* jacobian) const override;
@@ -36,7 +36,7 @@ class PoseManifold final : public ceres::Manifold {
 /// The reprojection error of one observation with analytic derivatives.
 ///
 /// Parameter blocks: pose, point, camera.
-class ReprojectionCost final : public ceres::SizedCostFunction<2, pose_size, 3, camera_size> {
+class ReprojectionCost final : public ceres::SizedCostFunction<2, kPoseSize, 3, kCameraSize> {
  public:
   /// `aspect` is fy / fx.
   ReprojectionCost(double x, double y, double aspect) : pixel_(x, y), aspect_(aspect) {}
@@ -50,7 +50,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<2, pose_size, 3, 
 };
 
 /// Deviation of the camera parameters from their priors, in standard deviations.
-class CameraPriorCost final : public ceres::SizedCostFunction<5, camera_size> {
+class CameraPriorCost final : public ceres::SizedCostFunction<5, kCameraSize> {
  public:
   explicit CameraPriorCost(const ck_camera_prior& prior);
 

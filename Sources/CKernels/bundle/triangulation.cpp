@@ -12,6 +12,19 @@
 namespace ck {
 namespace {
 
+/// Tracks per unit of parallel work.
+constexpr size_t kTracks = 512;
+/// Largest number of pairs of rays that are tried as hypotheses.
+constexpr size_t kMaximumHypotheses = 60;
+/// Largest number of rounds of refining a point and selecting its inliers again.
+constexpr int kRounds = 3;
+/// Largest number of Gauss–Newton steps, and the relative decrease of the cost below which they
+/// stop.
+constexpr int kSteps = 8;
+constexpr double kTolerance = 1e-6;
+/// Smallest determinant of the normal equations of rays that determine a point.
+constexpr double kMinimumDeterminant = 1e-12;
+
 /// The photos' cameras, and their poses with rotations as matrices.
 struct Views {
   std::vector<Pose> poses;
@@ -26,6 +39,13 @@ struct Views {
   }
 
   const ck_camera& camera(int photo) const { return raw.cameras[raw.photo_cameras[photo]]; }
+
+  /// The reprojection error of a point in pixels; infinite behind the camera.
+  double error(const ck_observation& observation, const Vector3& point) const {
+    const Vector3 p = poses[observation.photo] * point;
+    if (!(p.z() > kMinimumDepth)) return std::numeric_limits<double>::infinity();
+    return (project(camera(observation.photo), p) - Vector2(observation.x, observation.y)).norm();
+  }
 };
 
 /// One track with its viewing rays.
@@ -33,7 +53,8 @@ struct Track {
   const Views& views;
   const ck_observation* observations;
   size_t count;
-  std::vector<Vector3> directions;  // unit vectors in the world
+  /// Unit vectors in the world frame.
+  std::vector<Vector3> directions;
 
   Track(const Views& views, const ck_observation* observations, size_t count)
       : views(views), observations(observations), count(count) {
@@ -45,12 +66,7 @@ struct Track {
     }
   }
 
-  double error(const Vector3& point, size_t i) const {
-    const int photo = observations[i].photo;
-    const Vector3 p = views.poses[photo] * point;
-    if (!(p.z() > 1e-9)) return std::numeric_limits<double>::infinity();
-    return (project(views.camera(photo), p) - Vector2(observations[i].x, observations[i].y)).norm();
-  }
+  double error(const Vector3& point, size_t i) const { return views.error(observations[i], point); }
 
   /// The point with the smallest sum of squared distances to the chosen rays.
   bool intersect(const std::vector<size_t>& chosen, Vector3& point) const {
@@ -62,7 +78,7 @@ struct Track {
       a += m;
       b += m * views.centers[observations[i].photo];
     }
-    if (!(a.determinant() > 1e-12)) return false;
+    if (!(a.determinant() > kMinimumDeterminant)) return false;
     point = a.inverse() * b;
     return point.allFinite();
   }
@@ -70,7 +86,7 @@ struct Track {
   /// Gauss–Newton on the reprojection errors of the chosen observations.
   void refine(const std::vector<size_t>& chosen, Vector3& point) const {
     double cost = squares(chosen, point);
-    for (int iteration = 0; iteration < 8; ++iteration) {
+    for (int iteration = 0; iteration < kSteps; ++iteration) {
       Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
       Vector3 g = Vector3::Zero();
       for (const size_t i : chosen) {
@@ -87,13 +103,14 @@ struct Track {
       if (!next.allFinite()) return;
       const double next_cost = squares(chosen, next);
       if (!(next_cost < cost)) return;
-      const bool converged = cost - next_cost < 1e-6 * cost;
+      const bool converged = cost - next_cost < kTolerance * cost;
       point = next;
       cost = next_cost;
       if (converged) return;
     }
   }
 
+  /// The sum of the squared reprojection errors of the chosen observations.
   double squares(const std::vector<size_t>& chosen, const Vector3& point) const {
     double sum = 0;
     for (const size_t i : chosen) {
@@ -103,6 +120,7 @@ struct Track {
     return sum;
   }
 
+  /// The angle between two viewing rays in radians.
   double angle(size_t i, size_t j) const {
     return std::atan2(directions[i].cross(directions[j]).norm(), directions[i].dot(directions[j]));
   }
@@ -128,6 +146,7 @@ struct Track {
     return chosen;
   }
 
+  /// The sum of the squared reprojection errors, each truncated.
   double score(const Vector3& point, double maximum_square) const {
     double sum = 0;
     for (size_t i = 0; i < count; ++i) {
@@ -142,10 +161,11 @@ struct Track {
     const double maximum_square = maximum_error * maximum_error;
     double best_score = std::numeric_limits<double>::infinity();
     Vector3 best = Vector3::Zero();
-    // Pairs in order of descending distance within the track, up to a fixed number.
+    // Pairs in order of descending distance within the track.
     size_t tried = 0;
-    for (size_t separation = count - 1; separation >= 1 && tried < 60; --separation) {
-      for (size_t i = 0; i + separation < count && tried < 60; ++i) {
+    for (size_t separation = count - 1; separation >= 1 && tried < kMaximumHypotheses;
+         --separation) {
+      for (size_t i = 0; i + separation < count && tried < kMaximumHypotheses; ++i) {
         if (angle(i, i + separation) < minimum_angle) continue;
         ++tried;
         Vector3 point;
@@ -174,7 +194,7 @@ struct Track {
     }
     if (count < 3) return false;
     chosen = robust_inliers(options.maximum_error, options.minimum_angle);
-    for (int round = 0; round < 3; ++round) {
+    for (int round = 0; round < kRounds; ++round) {
       if (chosen.size() < 2 || !intersect(chosen, point)) return false;
       refine(chosen, point);
       const std::vector<size_t> next = inliers(point, options.maximum_error);
@@ -188,21 +208,13 @@ struct Track {
 void check(const ck_tracks& tracks, const ck_posed_photos* photos) {
   const auto [offsets, count, observations] = tracks;
   require(offsets && observations && photos && photos->cameras && photos->poses, "missing tracks");
-  for (size_t t = 0; t < count; ++t) require(offsets[t] <= offsets[t + 1], "bad offsets");
+  for (size_t t = 0; t < count; ++t)
+    require(offsets[t] <= offsets[t + 1], "the offsets of the tracks are not ascending");
   for (int32_t i = 0; i < offsets[count]; ++i) {
     require(observations[i].photo >= 0 &&
                 static_cast<size_t>(observations[i].photo) < photos->photo_count,
-            "an observation names a photo that isn't there");
+            "an observation refers to a photo that does not exist");
   }
-}
-
-/// Calls `body(track index)` in blocks, so that progress reporting is negligible.
-template <typename Body>
-void for_each_track(const ck_control* control, size_t count, Body&& body) {
-  constexpr size_t block = 512;
-  parallel_for(control, (count + block - 1) / block, [&](size_t b) {
-    for (size_t t = b * block; t < std::min(count, (b + 1) * block); ++t) body(t);
-  });
 }
 
 }  // namespace
@@ -218,7 +230,7 @@ ck_status ck_triangulate(const ck_tracks* tracks, const ck_posed_photos* photos,
     check(*tracks, photos);
     const Views prepared(*photos);
     const MutableStrided<double> points(positions);
-    for_each_track(control, tracks->count, [&](size_t t) {
+    parallel_for_blocks(control, tracks->count, kTracks, [&](size_t t) {
       const int32_t begin = tracks->offsets[t], end = tracks->offsets[t + 1];
       std::fill(inliers + begin, inliers + end, uint8_t(0));
       const Track track(prepared, tracks->observations + begin, static_cast<size_t>(end - begin));
@@ -243,24 +255,20 @@ ck_status ck_measure_tracks(const ck_tracks* tracks, ck_span positions,
     const auto [offsets, count, observations] = *tracks;
     const Views prepared(*photos);
     const Strided<double> points(positions);
-    for_each_track(control, count, [&, offsets = offsets, observations = observations](size_t t) {
+    const auto measure = [&, offsets = offsets, observations = observations](size_t t) {
       const double* p = points[t];
       const Vector3 point(p[0], p[1], p[2]);
       std::vector<Vector3> rays;
       double cosine = 1;
       for (int32_t i = offsets[t]; i < offsets[t + 1]; ++i) {
-        const int photo = observations[i].photo;
-        const Vector3 q = prepared.poses[photo] * point;
-        errors[i] = q.z() > 1e-9 ? (project(prepared.camera(photo), q) -
-                                    Vector2(observations[i].x, observations[i].y))
-                                       .norm()
-                                 : std::numeric_limits<double>::infinity();
+        errors[i] = prepared.error(observations[i], point);
         if (!(errors[i] <= maximum_error)) continue;
-        const Vector3 ray = (point - prepared.centers[photo]).normalized();
+        const Vector3 ray = (point - prepared.centers[observations[i].photo]).normalized();
         for (const Vector3& other : rays) cosine = std::min(cosine, ray.dot(other));
         rays.push_back(ray);
       }
       angles[t] = rays.size() < 2 ? 0 : std::acos(std::clamp(cosine, -1.0, 1.0));
-    });
+    };
+    parallel_for_blocks(control, count, kTracks, measure);
   });
 }

@@ -91,4 +91,14 @@ void parallel_for(const ck_control* control, size_t count, Body&& body,
   if (error) std::rethrow_exception(error);
 }
 
+/// Calls `body(i)` for every i in 0..<count like `parallel_for`, in units of `block` consecutive
+/// numbers, so that the cost of distributing work and reporting progress is negligible.
+template <typename Body>
+void parallel_for_blocks(const ck_control* control, size_t count, size_t block, Body&& body) {
+  parallel_for(control, (count + block - 1) / block, [&](size_t b) {
+    const size_t end = std::min(count, (b + 1) * block);
+    for (size_t i = b * block; i < end; ++i) body(i);
+  });
+}
+
 }  // namespace ck

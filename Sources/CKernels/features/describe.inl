@@ -8,10 +8,18 @@
 namespace ck::sift {
 namespace {
 
+/// Cells per side of the window.
 constexpr int kCells = 16;
+/// Directions per histogram of a descriptor.
 constexpr int kDirections = 8;
+/// Histograms per side of a descriptor.
 constexpr int kBins = 4;
+/// Directions of the histogram from which the orientation is determined.
 constexpr int kPeakBins = 36;
+/// Smallest height of a further orientation's peak, relative to the highest (Lowe, IJCV 2004).
+constexpr float kPeakRatio = 0.8f;
+/// Upper bound of an element of a descriptor, relative to its norm (Lowe, IJCV 2004).
+constexpr float kMaximumElement = 0.2f;
 
 /// Side of a cell in units of the feature's σ: the window extends 4.5 σ from the feature, as in
 /// Lowe's orientation assignment.
@@ -23,6 +31,7 @@ constexpr float kCellsOfBin = kCells / 5.0f;
 
 const F16 kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
+/// Weights that are the same for all features.
 struct Tables {
   /// Weight of each cell for the orientation: a Gaussian of 1.5 σ.
   float orientation[kCells][kCells];
@@ -199,6 +208,7 @@ void direction_histogram(const Window& window, float* histogram) {
   }
 }
 
+/// A peak of the histogram; the angle is in radians.
 struct Peak {
   float height, angle;
 };
@@ -206,7 +216,7 @@ struct Peak {
 int orient(const Octave& octave, const Extremum& extremum, float* orientations) {
   float h[kPeakBins];
   direction_histogram(Window(octave, extremum, kOrientationCell, 0), h);
-  const float least = 0.8f * *std::max_element(h, h + kPeakBins);
+  const float least = kPeakRatio * *std::max_element(h, h + kPeakBins);
   Peak peaks[kPeakBins];
   int count = 0;
   for (int i = 0; i < kPeakBins; ++i) {
@@ -271,11 +281,6 @@ CK_INLINE void pool_rows(const Gradients& g, RowBins& bins) {
   }
 }
 
-CK_INLINE F4 quarter_sums(const F16& v) {
-  const F8 half = v.lo + v.hi;
-  return half.lo + half.hi;
-}
-
 /// Values in the order bin row, direction, bin column.
 CK_INLINE void pool_columns(const RowBins& bins, float* values) {
   const Tables& t = tables();
@@ -298,25 +303,20 @@ CK_INLINE void pool_columns(const RowBins& bins, float* values) {
   }
 }
 
-CK_INLINE float sum_of(const F16& v) {
-  const F4 q = quarter_sums(v);
-  return (q.x + q.z) + (q.y + q.w);
-}
-
-/// Clamps values to 0.2 of the norm (Lowe), then converts to root-SIFT bytes.
+/// Clamps values to `kMaximumElement` of the norm, then converts to root-SIFT bytes.
 CK_INLINE void write_bytes(const float* values, uint8_t* bytes) {
   F16 v[8], square = 0, total = 0;
   for (int i = 0; i < 8; ++i) {
     v[i] = load(values + 16 * i);
     square += v[i] * v[i];
   }
-  const F16 limit = 0.2f * std::sqrt(sum_of(square));
+  const F16 limit = kMaximumElement * std::sqrt(sum(square));
   for (int i = 0; i < 8; ++i) {
     v[i] = __builtin_elementwise_min(v[i], limit);
     total += v[i];
   }
-  const float sum = sum_of(total);
-  const float factor = sum > 0 ? 512.0f * 512.0f / sum : 0;
+  const float total_sum = sum(total);
+  const float factor = total_sum > 0 ? 512.0f * 512.0f / total_sum : 0;
   for (int i = 0; i < 8; ++i) {
     const F16 root = __builtin_elementwise_sqrt(v[i] * factor) + 0.5f;
     const I16 whole = __builtin_convertvector(__builtin_elementwise_min(root, F16(255.0f)), I16);

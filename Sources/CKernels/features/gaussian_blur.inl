@@ -13,6 +13,7 @@ CK_INLINE int mirrored(int i, int count) {
 
 // ---- Gray rows of the photo -----------------------------------------------------------------
 
+/// A row of the photo as luma (Rec. 601), 0…255.
 void gray_row(const Photo& photo, int y, float* out) {
   const uint8_t* p = photo.pixels + static_cast<size_t>(y) * photo.stride;
   if (photo.channels == 1) {
@@ -75,7 +76,9 @@ constexpr int kGroup = 4;
 /// Columns around a row that the blur along x reads.
 constexpr int kMargin = 64;
 
+/// A Gaussian filter, truncated at 3 σ.
 struct Gaussian {
+  /// Number of taps on each side of the center.
   int radius = 0;
   /// From the center outwards.
   std::vector<float> taps;
@@ -138,6 +141,7 @@ CK_INLINE F16 blurred(const float* p, const float* taps, int radius) {
   return sum;
 }
 
+/// Mirrors `radius` values beyond both ends of a row.
 void mirror_ends(float* row, int width, int radius) {
   for (int i = 1; i <= radius; ++i) {
     row[-i] = row[mirrored(-i, width)];
@@ -153,6 +157,7 @@ struct RowOutputs {
   uint16_t* kept = nullptr;
 };
 
+/// Blurs a row along x and writes all destinations; `known` as above.
 template <int known>
 void blur_row(const float* row, const Gaussian& gaussian, int width, const RowOutputs& out) {
   const int radius = known > 0 ? known : gaussian.radius;
@@ -170,6 +175,7 @@ void blur_row(const float* row, const Gaussian& gaussian, int width, const RowOu
   }
 }
 
+/// The two passes of a blur.
 struct Blur {
   decltype(&blur_columns<0>) columns;
   decltype(&blur_row<0>) row;

@@ -9,8 +9,10 @@
 namespace ck {
 namespace {
 
+/// Largest number of descriptors per side.
 constexpr size_t kMaximumCount = 65536;
 
+/// A match and its ratio of squared distances, best to second best: the lower, the better.
 struct Match {
   double quality;
   int32_t first, second;

@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "ck_features.h"
 #include "ck_matching.h"
 #include "core/guard.h"
 
 namespace ck {
 
-constexpr size_t kDescriptorLength = 128;
+/// Bytes of a descriptor.
+constexpr size_t kDescriptorLength = CK_DESCRIPTOR_LENGTH;
 /// Upper bound of squared distances; also the distance to a missing neighbor.
 constexpr uint32_t kFar = 1u << 20;
 /// Bits of a packed key for the index; the others hold the squared distance.
@@ -69,9 +71,12 @@ size_t write_mutual_matches(const NearestTable& table, double ratio, double maxi
 NearestTable nearest_two(const uint8_t* rows, size_t row_count, const uint8_t* columns,
                          size_t column_count, ck_instructions requested, const ck_control* control);
 
+/// The smallest multiple of `step` that is at least `count`.
 inline size_t rounded_up(size_t count, size_t step) { return (count + step - 1) / step * step; }
 
+/// Squared distance of two descriptors.
 uint32_t squared_distance(const uint8_t* a, const uint8_t* b);
+/// The same result with AVX2, which the processor must support.
 uint32_t squared_distance_avx2(const uint8_t* a, const uint8_t* b);
 
 /// Squared length of a descriptor.
@@ -83,6 +88,7 @@ struct alignas(4 * Lanes) LaneState {
   uint32_t best[Lanes], second[Lanes];
 };
 
+/// States without keys.
 template <size_t Lanes>
 std::vector<LaneState<Lanes>> empty_states(size_t count) {
   LaneState<Lanes> empty;

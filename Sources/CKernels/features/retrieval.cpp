@@ -63,6 +63,7 @@ void move_words(const uint8_t* descriptors, const std::vector<uint32_t>& nearest
   }
 }
 
+/// Scales a vector to length 1; zeros stay zeros.
 void scale_to_unit_length(float* values, size_t count) {
   double squares = 0;
   for (size_t k = 0; k < count; ++k) squares += double{values[k]} * values[k];
@@ -71,6 +72,7 @@ void scale_to_unit_length(float* values, size_t count) {
   for (size_t k = 0; k < count; ++k) values[k] *= factor;
 }
 
+/// Another vector with its similarity; the most similar comes first.
 struct Neighbor {
   float similarity;
   int32_t index;

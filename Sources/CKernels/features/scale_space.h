@@ -129,7 +129,7 @@ struct Kernels {
 
 constexpr int kMaximumOrientations = 4;
 /// Smallest width and height of an octave.
-constexpr int kSmallestOctave = 16;
+constexpr int kMinimumOctaveSide = 16;
 
 const Kernels& portable_kernels();
 const Kernels& avx2_kernels();

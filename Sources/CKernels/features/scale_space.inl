@@ -26,6 +26,7 @@ struct Quadratic {
   }
 };
 
+/// The differences around a sample: `p[s][r]` points to the sample's column in layer s and row r.
 CK_INLINE Quadratic quadratic(const float* const (&p)[3][3]) {
   Quadratic q;
   const float* m = p[1][1];
@@ -40,6 +41,7 @@ CK_INLINE Quadratic quadratic(const float* const (&p)[3][3]) {
   return q;
 }
 
+/// Whether the ratio of the principal curvatures exceeds the limit (Lowe, IJCV 2004, section 4.1).
 CK_INLINE bool is_edge(const Quadratic& q, double limit) {
   const double trace = q.xx + q.yy, determinant = q.xx * q.yy - q.xy * q.xy;
   return determinant <= 0 || trace * trace * limit >= (limit + 1) * (limit + 1) * determinant;
@@ -51,6 +53,13 @@ CK_INLINE bool is_edge(const Quadratic& q, double limit) {
 constexpr int kBorder = 5;
 /// Rows above and below an extremum that its refinement may read.
 constexpr int kReach = 3;
+/// Fraction of the contrast threshold that a sample must exceed: interpolation increases the value,
+/// but by a much smaller factor.
+constexpr float kCandidateFactor = 0.6f;
+/// Largest number of refinement steps of an extremum, and the offset in samples from which a step
+/// moves to the neighbor.
+constexpr int kMaximumSteps = 5;
+constexpr double kStepOffset = 0.6;
 
 class OctaveSearch {
  public:
@@ -245,8 +254,7 @@ CK_INLINE F16 largest_of_plane(const Rows& rows, int x, int y, const I16& sign) 
 void OctaveSearch::scan_layer(int layer, int y) {
   const Rows& plane = differences_[layer];
   const float *above = plane[y - 1], *row = plane[y], *below = plane[y + 1];
-  // The interpolated value is larger, but by much less than this factor.
-  const float threshold = 0.6f * search_.threshold;
+  const float threshold = kCandidateFactor * search_.threshold;
   const int end = width_ - kBorder;
   for (int x = kBorder; x < end; x += 16) {
     const F16 value = load(row + x);
@@ -271,12 +279,14 @@ void OctaveSearch::scan_layer(int layer, int y) {
 }
 
 /// −1, 0 or 1: step to a neighbor that is clearly nearer to the extremum.
-CK_INLINE int step_towards(double offset) { return offset > 0.6 ? 1 : offset < -0.6 ? -1 : 0; }
+CK_INLINE int step_towards(double offset) {
+  return offset > kStepOffset ? 1 : offset < -kStepOffset ? -1 : 0;
+}
 
 /// Fits a quadratic, moves to its extremum, and keeps it if it is strong and not on an edge.
 bool OctaveSearch::refine(int layer, int x, int y) {
   const int first_row = y;
-  for (int iteration = 0; iteration < 5; ++iteration) {
+  for (int iteration = 0; iteration < kMaximumSteps; ++iteration) {
     const float* p[3][3];
     for (int s = 0; s < 3; ++s) {
       for (int r = 0; r < 3; ++r) p[s][r] = at(layer + s - 1, y + r - 1, x);
@@ -287,7 +297,7 @@ bool OctaveSearch::refine(int layer, int x, int y) {
     const int dx = step_towards(o[0]), dy = step_towards(o[1]);
     // Clamped, because the adjacent octaves may miss extrema beyond the first and last layer.
     const int next_layer = std::clamp(layer + step_towards(o[2]), 1, search_.layers);
-    if ((dx == 0 && dy == 0 && next_layer == layer) || iteration == 4) {
+    if ((dx == 0 && dy == 0 && next_layer == layer) || iteration == kMaximumSteps - 1) {
       return keep(q, o, layer, x, y);
     }
     x += dx;
@@ -301,6 +311,7 @@ bool OctaveSearch::refine(int layer, int x, int y) {
   return false;
 }
 
+/// Appends an extremum unless it is too far from its sample, too weak or on an edge.
 bool OctaveSearch::keep(const Quadratic& q, const double* o, int layer, int x, int y) {
   if (std::abs(o[0]) > 1 || std::abs(o[1]) > 1 || std::abs(o[2]) > 1) return false;
   const double contrast = std::abs(q.value + 0.5 * (q.gx * o[0] + q.gy * o[1] + q.gs * o[2]));

@@ -27,6 +27,7 @@ struct ScaleSpace {
   }
 };
 
+/// Searches all octaves, from the largest to the smallest.
 ScaleSpace searched(const Photo& photo, const ck_sift_options& options, const Kernels& kernels,
                     const ck_control* control) {
   const bool is_doubled = options.first_octave < 0;
@@ -42,7 +43,7 @@ ScaleSpace searched(const Photo& photo, const ck_sift_options& options, const Ke
   input.width = photo.width * (is_doubled ? 2 : 1);
   input.height = photo.height * (is_doubled ? 2 : 1);
   Rows base;
-  while (std::min(input.width, input.height) >= kSmallestOctave) {
+  while (std::min(input.width, input.height) >= kMinimumOctaveSide) {
     step(control, 0.7 * (1 - std::exp2(-2.0 * input.index)));
     Rows next;
     space.octaves.emplace_back();
@@ -75,6 +76,7 @@ std::vector<Extremum> selected(const ScaleSpace& space, const Photo& photo,
   return kept;
 }
 
+/// A feature with one of the orientations of its extremum.
 struct Feature {
   /// In pixels of the photo, and radians.
   float x, y, sigma, orientation;

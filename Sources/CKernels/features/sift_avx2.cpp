@@ -13,7 +13,7 @@
 namespace ck::sift {
 namespace {
 
-inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
+CK_INLINE uint32_t lane_bits(const I16& lanes) {
   __m256 halves[2];
   __builtin_memcpy(halves, &lanes, sizeof halves);
   return static_cast<uint32_t>(_mm256_movemask_ps(halves[0])) |
@@ -21,8 +21,7 @@ inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
 }
 
 /// Gathers each pixel together with its right neighbor.
-inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base,
-                                                  const I16& index) {
+CK_INLINE void gather(U16& out, const uint16_t* base, const I16& index) {
   const int* words = reinterpret_cast<const int*>(base);
   __m256i lanes[2];
   __builtin_memcpy(lanes, &index, sizeof lanes);

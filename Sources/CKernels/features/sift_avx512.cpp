@@ -14,15 +14,14 @@
 namespace ck::sift {
 namespace {
 
-inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
+CK_INLINE uint32_t lane_bits(const I16& lanes) {
   __m512i word;
   __builtin_memcpy(&word, &lanes, sizeof word);
   return _mm512_movepi32_mask(word);
 }
 
 /// Gathers each pixel together with its right neighbor.
-inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base,
-                                                  const I16& index) {
+CK_INLINE void gather(U16& out, const uint16_t* base, const I16& index) {
   __m512i lanes;
   __builtin_memcpy(&lanes, &index, sizeof lanes);
   lanes = _mm512_i32gather_epi32(lanes, base, 2);

@@ -9,14 +9,13 @@
 namespace ck::sift {
 namespace {
 
-inline __attribute__((always_inline)) uint32_t lane_bits(const I16& lanes) {
+CK_INLINE uint32_t lane_bits(const I16& lanes) {
   uint32_t bits = 0;
   for (int i = 0; i < 16; ++i) bits |= static_cast<uint32_t>(lanes[i] != 0) << i;
   return bits;
 }
 
-inline __attribute__((always_inline)) void gather(U16& out, const uint16_t* base,
-                                                  const I16& index) {
+CK_INLINE void gather(U16& out, const uint16_t* base, const I16& index) {
   for (int i = 0; i < 16; ++i) {
     out[i] = uint32_t{base[index[i]]} | uint32_t{base[index[i] + 1]} << 16;
   }

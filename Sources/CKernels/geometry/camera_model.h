@@ -12,23 +12,30 @@ namespace ck {
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 
+/// Smallest depth, in world units, of a point in front of a camera.
+constexpr double kMinimumDepth = 1e-9;
+
 /// `cameraFromWorld` with the rotation as a matrix.
 struct Pose {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   Vector3 translation = Vector3::Zero();
 
   Vector3 operator*(const Vector3& point) const { return rotation * point + translation; }
+  /// The camera center in the world frame.
   Vector3 center() const { return -rotation.transpose() * translation; }
 };
 
+/// The rotation of a pose, normalized to unit length.
 inline Eigen::Quaterniond quaternion_of(const ck_pose& pose) {
   return Eigen::Quaterniond(pose.qw, pose.qx, pose.qy, pose.qz).normalized();
 }
 
+/// Converts a pose of the C interface.
 inline Pose pose_from(const ck_pose& pose) {
   return {quaternion_of(pose).toRotationMatrix(), Vector3(pose.tx, pose.ty, pose.tz)};
 }
 
+/// Converts to a pose of the C interface.
 inline ck_pose pose_to(const Eigen::Quaterniond& q, const Vector3& t) {
   return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
 }

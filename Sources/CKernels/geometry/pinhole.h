@@ -9,11 +9,12 @@
 #include "geometry/pose.h"
 #include "geometry/vec.h"
 
-namespace ck::texture {
+namespace ck {
 
 /// A view as a 3 × 4 projection matrix: homogeneous pixel coordinates are affine in the world.
 struct Projection {
   double rows[3][4];
+  /// The camera center in the world frame.
   Vec3 center;
   /// Rotation of `cameraFromWorld`, row-major.
   std::array<double, 9> rotation;
@@ -62,4 +63,4 @@ inline Vec3 sample_rgb(const uint8_t* rgb, int width, int height, float x, float
   return {channel(0), channel(1), channel(2)};
 }
 
-}  // namespace ck::texture
+}  // namespace ck

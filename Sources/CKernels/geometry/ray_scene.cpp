@@ -12,7 +12,7 @@ ck_ray_scene::~ck_ray_scene() {
   if (device) rtcReleaseDevice(device);
 }
 
-namespace ck::texture {
+namespace ck {
 namespace {
 
 RTCRay make_ray(Vec3 origin, Vec3 direction, float near, float far) {
@@ -29,6 +29,7 @@ RTCRay make_ray(Vec3 origin, Vec3 direction, float near, float far) {
   return ray;
 }
 
+/// Copies the mesh and computes what is derived from it.
 void copy_geometry(ck_ray_scene& scene, const ck_mesh& mesh) {
   const auto [positions, triangles, triangle_count] = mesh;
   scene.positions.resize(positions.count);
@@ -47,7 +48,8 @@ void copy_geometry(ck_ray_scene& scene, const ck_mesh& mesh) {
   scene.face_normals.resize(triangle_count);
   for (size_t t = 0; t < triangle_count; ++t) {
     for (size_t i = 0; i < 3; ++i) {
-      require(triangles[3 * t + i] < positions.count, "a triangle names a vertex that isn't there");
+      require(triangles[3 * t + i] < positions.count,
+              "a triangle refers to a vertex that does not exist");
       scene.triangles[t][i] = triangles[3 * t + i];
     }
     const Vec3 a = scene.corner(t, 0);
@@ -55,6 +57,7 @@ void copy_geometry(ck_ray_scene& scene, const ck_mesh& mesh) {
   }
 }
 
+/// Builds the bounding volume hierarchy.
 void build(ck_ray_scene& scene) {
   // With one thread the hierarchy is the same in every run.
   scene.device = rtcNewDevice("threads=1,set_affinity=0");
@@ -113,18 +116,18 @@ bool intersect(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float nea
   return true;
 }
 
-}  // namespace ck::texture
+}  // namespace ck
 
 ck_status ck_ray_scene_create(const ck_mesh* mesh, const ck_control* control,
                               ck_ray_scene** scene) {
   return ck::guarded([&] {
-    ck::require(mesh && scene, "no place for the scene");
+    ck::require(mesh && scene, "an argument is missing");
     *scene = nullptr;
     ck::require(mesh->positions.count > 0 && mesh->triangle_count > 0, "the mesh has no triangles");
     ck::step(control, 0);
     auto result = std::make_unique<ck_ray_scene>();
-    ck::texture::copy_geometry(*result, *mesh);
-    ck::texture::build(*result);
+    ck::copy_geometry(*result, *mesh);
+    ck::build(*result);
     *scene = result.release();
   });
 }

@@ -11,10 +11,10 @@
 
 /// A triangle mesh with its bounding volume hierarchy.
 struct ck_ray_scene {
-  std::vector<ck::texture::Vec3> positions;
+  std::vector<ck::Vec3> positions;
   std::vector<std::array<uint32_t, 3>> triangles;
   /// Unit normals of the triangles; zero for degenerate ones.
-  std::vector<ck::texture::Vec3> face_normals;
+  std::vector<ck::Vec3> face_normals;
   /// Length of the diagonal of the bounding box.
   float diagonal = 0;
   RTCDevice device = nullptr;
@@ -25,15 +25,16 @@ struct ck_ray_scene {
   ck_ray_scene& operator=(const ck_ray_scene&) = delete;
   ~ck_ray_scene();
 
-  ck::texture::Vec3 corner(size_t triangle, int i) const {
+  /// The position of corner 0…2 of a triangle.
+  ck::Vec3 corner(size_t triangle, int i) const {
     return positions[triangles[triangle][static_cast<size_t>(i)]];
   }
-  ck::texture::Vec3 centroid(size_t t) const {
+  ck::Vec3 centroid(size_t t) const {
     return (corner(t, 0) + corner(t, 1) + corner(t, 2)) * (1.0f / 3);
   }
 };
 
-namespace ck::texture {
+namespace ck {
 
 /// Intersection of a ray with the surface.
 struct Hit {
@@ -50,4 +51,4 @@ bool is_occluded(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float n
 bool intersect(const ck_ray_scene& scene, Vec3 origin, Vec3 direction, float near, float far,
                Hit* hit);
 
-}  // namespace ck::texture
+}  // namespace ck

@@ -5,7 +5,7 @@
 
 #include "core/span.h"
 
-namespace ck::texture {
+namespace ck {
 
 /// Three floats with vector arithmetic.
 struct Vec3 {
@@ -18,10 +18,13 @@ struct Vec3 {
   Vec3& operator+=(Vec3 o) { return *this = *this + o; }
 };
 
+/// Dot product.
 inline float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// Cross product.
 inline Vec3 cross(Vec3 a, Vec3 b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+/// Euclidean norm.
 inline float length(Vec3 a) { return std::sqrt(dot(a, a)); }
 
 /// Scales to unit length; the zero vector stays zero.
@@ -36,6 +39,7 @@ inline Vec3 vec_at(const ck_span& span, size_t index) {
   return {p[0], p[1], p[2]};
 }
 
+/// Two floats with vector arithmetic.
 struct Vec2 {
   float x = 0, y = 0;
 
@@ -44,6 +48,7 @@ struct Vec2 {
   Vec2 operator*(float s) const { return {x * s, y * s}; }
 };
 
+/// The z component of the cross product: twice the signed area of the triangle (0, a, b).
 inline float cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 
 /// Two unit vectors that form a right-handed orthonormal frame with the unit vector `n` as third.
@@ -53,4 +58,4 @@ inline void frame_around(Vec3 n, Vec3* u, Vec3* v) {
   *v = cross(n, *u);
 }
 
-}  // namespace ck::texture
+}  // namespace ck

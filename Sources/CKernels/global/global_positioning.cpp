@@ -13,6 +13,13 @@
 namespace ck {
 namespace {
 
+/// Levenberg–Marquardt with Nielsen's update of the damping (1999): its initial value, its bounds,
+/// and the bounds of the diagonal elements that it is proportional to, as in Ceres.
+constexpr double kInitialDamping = 1e-4, kMinimumDamping = 1e-12, kMaximumDamping = 1e12;
+constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
+/// Lower bound of the factor of a direction, which is positive in front of the camera.
+constexpr double kMinimumFactor = 1e-5;
+
 /// The unknowns: camera centers, points and one factor per direction.
 struct Unknowns {
   std::vector<Vector3> centers, points;
@@ -40,7 +47,7 @@ class Positioning {
   ck_positioning_summary solve(const ck_control* control) {
     double cost = this->cost(unknowns_);
     ck_positioning_summary summary = {cost, cost, 0, false};
-    double damping = 1e-4, growth = 2;
+    double damping = kInitialDamping, growth = 2;
     for (int iteration = 0; iteration < options_.maximum_iterations; ++iteration) {
       step(control, double(iteration) / options_.maximum_iterations);
       ++summary.iterations;
@@ -52,11 +59,12 @@ class Positioning {
       if (!is_solved || !(next_cost < cost)) {
         damping *= growth;
         growth *= 2;
-        if (damping > 1e12) break;
+        if (damping > kMaximumDamping) break;
         continue;
       }
       const double gain = (cost - next_cost) / std::max(expected, 1e-300);
-      damping = std::max(1e-12, damping * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
+      damping =
+          std::max(kMinimumDamping, damping * std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3)));
       growth = 2;
       unknowns_ = std::move(next);
       summary.converged = cost - next_cost < options_.function_tolerance * cost;
@@ -77,6 +85,7 @@ class Positioning {
     Vector3 right;
   };
 
+  /// The vector from the camera center to the point of direction k.
   Vector3 offset(const Unknowns& unknowns, size_t k) const {
     return unknowns.points[size_t(directions_[k].point)] -
            unknowns.centers[size_t(directions_[k].photo)];
@@ -114,6 +123,7 @@ class Positioning {
     return blocks;
   }
 
+  /// The sum of the Huber losses.
   double cost(const Unknowns& unknowns) const {
     const double h = options_.huber_width;
     double sum = 0;
@@ -137,8 +147,9 @@ class Positioning {
     }
   }
 
+  /// A diagonal element of the normal equations with its damping.
   static double damped(double diagonal, double damping) {
-    return diagonal + damping * std::clamp(diagonal, 1e-6, 1e32);
+    return diagonal + damping * std::clamp(diagonal, kMinimumDiagonal, kMaximumDiagonal);
   }
 
   /// One damped Gauss–Newton step. `expected` receives the predicted decrease of the cost.
@@ -175,11 +186,12 @@ class Positioning {
     const Vector3& y = offsets_[k];
     const double d = unknowns_.factors[k];
     const double change = y.dot(residuals_[k] - d * move) / damped(y.squaredNorm(), damping);
-    next.factors[k] = std::max(1e-5, d + change);
+    next.factors[k] = std::max(kMinimumFactor, d + change);
     const Vector3 predicted = residuals_[k] - d * move - change * y;
     return weights_[k] * (residuals_[k].squaredNorm() - predicted.squaredNorm()) / 2;
   }
 
+  /// Computes the terms of all directions, with their factors eliminated.
   void eliminate_factors(double damping) {
     for (size_t k = 0; k < count_; ++k) {
       const Vector3& y = offsets_[k];
@@ -272,7 +284,7 @@ Unknowns read(const ck_mutable_span& centers, const ck_mutable_span& points,
     const ck_direction& d = directions[k];
     require(d.photo >= 0 && size_t(d.photo) < centers.count && d.point >= 0 &&
                 size_t(d.point) < points.count && (k == 0 || d.point >= directions[k - 1].point),
-            "a direction names a photo or point that isn't there");
+            "a direction refers to a photo or point that does not exist");
   }
   unknowns.factors.assign(direction_count, 1);
   return unknowns;

@@ -5,6 +5,7 @@
 #include "ck_global.h"
 #include "core/eigen_sparse.h"
 #include "core/guard.h"
+#include "core/median.h"
 #include "core/span.h"
 #include "geometry/camera_model.h"
 
@@ -80,13 +81,10 @@ class RotationGraph {
     return sum / double(std::max<Eigen::Index>(1, size));
   }
 
-  double median_error() const {
-    std::vector<double> angles = this->angles();
-    const auto middle = angles.begin() + std::ptrdiff_t(angles.size() / 2);
-    std::nth_element(angles.begin(), middle, angles.end());
-    return *middle;
-  }
+  /// The median residual in radians.
+  double median_error() const { return median(angles()); }
 
+  /// The residual of every pair in radians.
   std::vector<double> angles() const {
     std::vector<double> angles;
     for (const Vector3& error : errors_) angles.push_back(error.norm());
@@ -121,20 +119,25 @@ class RotationGraph {
   Eigen::SimplicialLDLT<Matrix> solver_;
 };
 
+/// Lower bound of the residual in the weights of L1 averaging, so that they are finite: in radians,
+/// and as a fraction of the median residual.
+constexpr double kMinimumResidual = 1e-6, kMinimumShareOfMedian = 0.1;
+/// Scale of the robust loss, as a multiple of the median residual.
+constexpr double kScaleFactor = 3;
+
 /// L1 averaging by iteratively reweighted least squares, then the robust loss of Geman and McClure.
 void average(RotationGraph& graph, const ck_rotation_averaging_options& options,
              const ck_control* control) {
   const int total = options.absolute_iterations + options.robust_iterations;
   for (int iteration = 0; iteration < options.absolute_iterations; ++iteration) {
     step(control, double(iteration) / total);
-    // Lower bound on the error, so that the weight is finite.
-    const double floor = std::max(1e-6, 0.1 * graph.median_error());
+    const double floor = std::max(kMinimumResidual, kMinimumShareOfMedian * graph.median_error());
     if (graph.move([&](double e) { return 1 / std::max(e, floor); }) < options.tolerance) break;
   }
   for (int iteration = 0; iteration < options.robust_iterations; ++iteration) {
     step(control, double(options.absolute_iterations + iteration) / total);
-    const double scale =
-        std::clamp(3 * graph.median_error(), options.smallest_scale, options.largest_scale);
+    const double scale = std::clamp(kScaleFactor * graph.median_error(), options.minimum_scale,
+                                    options.maximum_scale);
     const double change = graph.move([&](double e) {
       const double s = 1 + e * e / (scale * scale);
       return 1 / (s * s);

@@ -5,12 +5,14 @@
 
 #include "ck_image.h"
 
+/// Pixels, or other numbers, without padding, top row first.
 struct ck_image {
   int32_t width = 0;
   int32_t height = 0;
   std::vector<uint8_t> pixels;
 };
 
+/// The bytes of a file or of a block of a file.
 struct ck_bytes {
   std::vector<uint8_t> data;
 };

@@ -9,12 +9,14 @@
 
 namespace {
 
+/// Deleter of a profile.
 struct Close {
   using pointer = cmsHPROFILE;
   void operator()(cmsHPROFILE profile) const { cmsCloseProfile(profile); }
 };
 using Profile = std::unique_ptr<void, Close>;
 
+/// Deleter of a transform.
 struct Delete {
   using pointer = cmsHTRANSFORM;
   void operator()(cmsHTRANSFORM transform) const { cmsDeleteTransform(transform); }
@@ -32,16 +34,19 @@ Profile adobe_rgb() {
   return Profile(cmsCreateRGBProfile(&white, &primaries, curves));
 }
 
-/// Whether no color of a 9 × 9 × 9 lattice changes by more than two 8-bit steps.
+/// Largest change of a channel, in 8-bit steps, at which two color spaces count as equal.
+constexpr int kTolerance = 2;
+
+/// Whether no color of a 9 × 9 × 9 lattice changes by more than the tolerance.
 bool is_identity(cmsHTRANSFORM transform) {
-  constexpr int steps = 9;
-  for (int i = 0; i < steps * steps * steps; ++i) {
-    const int levels[] = {i % steps, i / steps % steps, i / (steps * steps)};
+  constexpr int kSteps = 9;
+  for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
+    const int levels[] = {i % kSteps, i / kSteps % kSteps, i / (kSteps * kSteps)};
     uint8_t before[3], after[3];
-    for (int c = 0; c < 3; ++c) before[c] = static_cast<uint8_t>(levels[c] * 255 / (steps - 1));
+    for (int c = 0; c < 3; ++c) before[c] = static_cast<uint8_t>(levels[c] * 255 / (kSteps - 1));
     cmsDoTransform(transform, before, after, 1);
     for (int c = 0; c < 3; ++c) {
-      if (std::abs(before[c] - after[c]) > 2) return false;
+      if (std::abs(before[c] - after[c]) > kTolerance) return false;
     }
   }
   return true;

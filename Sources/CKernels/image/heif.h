@@ -8,6 +8,7 @@
 
 namespace ck::heif {
 
+/// Deleter that calls a function of libheif.
 template <auto free>
 struct Free {
   template <typename T>
@@ -30,6 +31,7 @@ inline void check(const heif_error& error) {
   throw std::runtime_error(error.message);
 }
 
+/// An empty context that decodes on the calling thread.
 inline Context make_context() {
   Context context(heif_context_alloc());
   if (!context) throw std::bad_alloc();

@@ -15,8 +15,9 @@ namespace ck {
 namespace {
 
 /// Files with more scans than any camera writes would only occupy the decoder.
-constexpr int maximum_scans = 100;
+constexpr int kMaximumScans = 100;
 
+/// The error handler of a decoder, and what it has reported.
 struct Errors {
   jpeg_error_mgr base;
   std::jmp_buf jump;
@@ -45,7 +46,7 @@ void on_message(j_common_ptr info, int level) {
 
 void on_progress(j_common_ptr info) {
   auto* decoder = reinterpret_cast<j_decompress_ptr>(info);
-  if (decoder->input_scan_number > maximum_scans) ERREXIT(info, JERR_BAD_PROGRESSION);
+  if (decoder->input_scan_number > kMaximumScans) ERREXIT(info, JERR_BAD_PROGRESSION);
 }
 
 /// Converts CMYK to RGB. Adobe stores CMYK inverted: 255 is no ink.
@@ -58,7 +59,8 @@ void write_rgb_of_inverted_cmyk(const uint8_t* cmyk, size_t count, uint8_t* rgb)
   }
 }
 
-/// The part that `longjmp` may leave: it owns nothing that needs a destructor.
+/// Decodes the pixels; false with a message on an error. `longjmp` may leave this part, so it owns
+/// nothing that needs a destructor; `row` is its buffer for a row of CMYK.
 bool read(jpeg_decompress_struct& decoder, Errors& errors, const uint8_t* bytes, size_t count,
           int reduction, const ck_decode_limits& limits, ck_image& image,
           std::vector<uint8_t>& row) {

@@ -15,8 +15,10 @@ namespace {
 
 /// Compression level of libdeflate: higher levels take much more time for little gain in size.
 constexpr int kLevel = 5;
+/// Number of filter types.
 constexpr size_t kFilters = 5;
 
+/// The predictor of filter type 4 (Paeth).
 uint8_t paeth(int left, int above, int corner) {
   const int estimate = left + above - corner;
   const int a = std::abs(estimate - left), b = std::abs(estimate - above);
@@ -70,6 +72,7 @@ class FilteredRow {
   std::array<std::vector<uint8_t>, kFilters> filtered_;
 };
 
+/// All rows, each preceded by its filter type.
 std::vector<uint8_t> filtered(const uint8_t* pixels, size_t width, size_t height, size_t channels) {
   const size_t size = width * channels;
   std::vector<uint8_t> result((size + 1) * height);
@@ -82,6 +85,7 @@ std::vector<uint8_t> filtered(const uint8_t* pixels, size_t width, size_t height
   return result;
 }
 
+/// The bytes as a zlib stream.
 std::vector<uint8_t> compressed(const std::vector<uint8_t>& bytes) {
   const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
       libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
@@ -93,6 +97,7 @@ std::vector<uint8_t> compressed(const std::vector<uint8_t>& bytes) {
   return result;
 }
 
+/// Appends a number, the most significant byte first.
 void append(uint32_t number, std::vector<uint8_t>* file) {
   for (int shift = 24; shift >= 0; shift -= 8) {
     file->push_back(static_cast<uint8_t>(number >> shift));

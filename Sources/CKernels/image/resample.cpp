@@ -7,6 +7,7 @@
 
 namespace {
 
+/// A matrix over the memory of an input, which must not be written to.
 cv::Mat wrap(const ck_pixels& image) {
   ck::require(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4,
               "the image has no pixels");
@@ -66,7 +67,7 @@ ck_status ck_image_orient(const ck_pixels* source, int32_t orientation,
     ck::require(destination->width == (swaps ? source->height : source->width) &&
                     destination->height == (swaps ? source->width : source->height) &&
                     destination->channels == source->channels,
-                "the destination does not have the size of the turned image");
+                "the destination does not have the size of the rotated image");
     cv::Mat to = wrap(*destination);
     cv::Mat transposed;
     if (swaps) {
@@ -107,9 +108,9 @@ ck_status ck_image_undistort(const ck_pixels* source, const ck_camera* source_ca
     const cv::Mat from = wrap(*source);
     cv::Mat whole = wrap(*destination);
     // In bands, so that the maps stay small.
-    constexpr int band = 256;
-    for (int first = 0; first < to.height; first += band) {
-      const int last = std::min(first + band, to.height);
+    constexpr int kBand = 256;
+    for (int first = 0; first < to.height; first += kBand) {
+      const int last = std::min(first + kBand, to.height);
       cv::Mat map_x(last - first, to.width, CV_32F), map_y(last - first, to.width, CV_32F);
       fill_maps(*source_camera, to, first, last, map_x, map_y);
       cv::Mat rows = whole.rowRange(first, last);

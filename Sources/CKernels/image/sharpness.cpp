@@ -6,14 +6,21 @@
 
 #include "ck_image.h"
 #include "core/guard.h"
+#include "core/median.h"
 #include "core/opencv.h"
 
 namespace {
 
 /// Side of the blocks in pixels.
-constexpr int block = 32;
+constexpr int kBlock = 32;
 /// Standard deviation in pixels of the blur that the image is compared with.
-constexpr double blur = 1.5;
+constexpr double kBlur = 1.5;
+/// One of this number of blocks is measured, those with the strongest gradients: sky and walls
+/// contain no information about focus.
+constexpr size_t kBlocksPerMeasured = 4;
+/// Smallest gradient energy of a block with texture after the blur: the sum over its pixels of the
+/// squared differences of the pixels on both sides, in gray levels squared.
+constexpr double kMinimumTexture = kBlock * kBlock;
 
 /// Structure tensor: sums over a block of the products of the gradient's components.
 struct Tensor {
@@ -27,8 +34,8 @@ struct Tensor {
 
 Tensor tensor(const cv::Mat& image, int left, int top) {
   Tensor sum;
-  const int bottom = std::min(top + block, image.rows - 1);
-  const int right = std::min(left + block, image.cols - 1);
+  const int bottom = std::min(top + kBlock, image.rows - 1);
+  const int right = std::min(left + kBlock, image.cols - 1);
   for (int y = std::max(top, 1); y < bottom; ++y) {
     const float* above = image.ptr<float>(y - 1);
     const float* row = image.ptr<float>(y);
@@ -44,12 +51,6 @@ Tensor tensor(const cv::Mat& image, int left, int top) {
   return sum;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace
 
 ck_status ck_image_sharpness(const ck_pixels* gray, double* sharpness) {
@@ -59,27 +60,25 @@ ck_status ck_image_sharpness(const ck_pixels* gray, double* sharpness) {
     const cv::Mat bytes(height, width, CV_8U, const_cast<uint8_t*>(data), row_stride);
     cv::Mat image, blurred;
     bytes.convertTo(image, CV_32F);
-    ck::on_one_thread([&] { cv::GaussianBlur(image, blurred, cv::Size(), blur); });
+    ck::on_one_thread([&] { cv::GaussianBlur(image, blurred, cv::Size(), kBlur); });
     struct Block {
       Tensor before, after;
       size_t index;
     };
     std::vector<Block> blocks;
-    for (int y = 0; y + block <= height; y += block) {
-      for (int x = 0; x + block <= width; x += block) {
+    for (int y = 0; y + kBlock <= height; y += kBlock) {
+      for (int x = 0; x + kBlock <= width; x += kBlock) {
         blocks.push_back({tensor(image, x, y), tensor(blurred, x, y), blocks.size()});
       }
     }
     if (blocks.empty()) throw ck::Degenerate("the image is too small to measure its sharpness");
-    // The quarter of the blocks with the strongest gradients: sky and walls contain no information
-    // about focus.
-    const size_t used = std::max<size_t>(1, blocks.size() / 4);
+    const size_t used = std::max<size_t>(1, blocks.size() / kBlocksPerMeasured);
     std::sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) {
       const double x = a.after.trace(), y = b.after.trace();
       return x != y ? x > y : a.index < b.index;
     });
     blocks.resize(used);
-    if (blocks.front().after.trace() < block * block) {
+    if (blocks.front().after.trace() < kMinimumTexture) {
       throw ck::Degenerate("the image has no texture");
     }
     double least = INFINITY;
@@ -90,7 +89,7 @@ ck_status ck_image_sharpness(const ck_pixels* gray, double* sharpness) {
         const double left = b.after.along(cosine, sine);
         if (left > 0) ratios.push_back(b.before.along(cosine, sine) / left - 1);
       }
-      if (!ratios.empty()) least = std::min(least, median(ratios));
+      if (!ratios.empty()) least = std::min(least, ck::median(ratios));
     }
     *sharpness = std::isfinite(least) ? least : 0;
   });

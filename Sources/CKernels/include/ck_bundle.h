@@ -37,10 +37,13 @@ ck_status ck_measure_tracks(const ck_tracks* tracks, ck_span positions,
 
 /// Camera parameters that bundle adjustment may change, as bits.
 typedef enum {
+  /// fx, and fy in proportion.
   ck_free_focal_length = 1,
   ck_free_k1 = 2,
   ck_free_k2 = 4,
+  /// cx and cy.
   ck_free_principal_point = 8,
+  /// p1 and p2.
   ck_free_tangential = 16,
 } ck_camera_freedom;
 
@@ -48,10 +51,11 @@ typedef enum {
 ///
 /// A standard deviation of 0 disables the prior.
 typedef struct {
+  /// fx and the principal point in pixels.
   double focal_length, cx, cy;
-  /// Standard deviation relative to the focal length.
+  /// Standard deviation of fx, relative to `focal_length`.
   double focal_deviation;
-  /// Standard deviation in pixels.
+  /// Standard deviation of cx and of cy in pixels.
   double principal_point_deviation;
   /// Standard deviation of k1 and k2 about zero.
   double radial_deviation;
@@ -71,9 +75,11 @@ typedef struct {
   ck_camera* cameras;
   /// Bits of `ck_camera_freedom` for each camera.
   const uint32_t* camera_freedom;
+  /// One for each camera.
   const ck_camera_prior* camera_priors;
   size_t camera_count;
   ck_pose* poses;
+  /// Index into `cameras` for each photo.
   const int32_t* photo_cameras;
   /// `ck_pose_freedom` for each photo.
   const uint8_t* pose_freedom;
@@ -88,6 +94,7 @@ typedef struct {
 
 /// Options of bundle adjustment.
 typedef struct {
+  /// Largest number of Levenberg–Marquardt iterations.
   int32_t maximum_iterations;
   /// Residual at which the Huber loss changes from quadratic to linear, in pixels.
   double huber_width;
@@ -104,6 +111,7 @@ typedef struct {
   /// Robust cost in pixels squared.
   double initial_cost, final_cost;
   int32_t iterations;
+  /// Whether the solver stopped before the largest number of iterations.
   bool converged;
 } ck_bundle_summary;
 
@@ -111,7 +119,8 @@ typedef struct {
 /// synthesis", 1999) with Ceres.
 ///
 /// The ratio of fx and fy is constant. Runs on one thread so that the sums do not depend on the
-/// number of threads.
+/// number of threads. Returns `ck_failed` if the solver fails or a camera diverges; then, and after
+/// cancellation, cameras and poses are unchanged, but points may have moved.
 ck_status ck_bundle_adjust(ck_bundle* bundle, const ck_bundle_options* options,
                            const ck_control* control, ck_bundle_summary* summary);
 

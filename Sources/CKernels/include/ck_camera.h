@@ -12,14 +12,16 @@ extern "C" {
 /// `pixel = (fx, fy) · distorted (x / z, y / z) + (cx, cy)`; the pixel origin is the corner of the
 /// top-left pixel. x points right, y down, z forward.
 typedef struct {
+  /// Focal lengths and principal point in pixels.
   double fx, fy, cx, cy;
-  /// Radial and tangential distortion.
+  /// Coefficients of radial (k) and tangential (p) distortion.
   double k1, k2, p1, p2;
-  /// Pixels of the photo.
+  /// Size of the photo in pixels.
   int32_t width, height;
 } ck_camera;
 
-/// `cameraFromWorld`: a unit quaternion and a translation in world units.
+/// `cameraFromWorld`, `x_camera = R · x_world + t`: a unit quaternion and a translation in world
+/// units.
 typedef struct {
   double qx, qy, qz, qw;
   double tx, ty, tz;

@@ -9,13 +9,16 @@
 extern "C" {
 #endif
 
-/// Status of a kernel call.
+/// Status of a kernel call. Unless it is `ck_ok`, the contents of the outputs are unspecified.
 typedef enum {
   ck_ok = 0,
+  /// `should_continue` returned false.
   ck_canceled = 1,
+  /// A pointer is null, a value is out of range, or two arguments contradict each other.
   ck_invalid_argument = 2,
   /// The input is valid but does not determine a result.
   ck_degenerate = 3,
+  /// Any other failure: a damaged file, or an error of a library.
   ck_failed = 4,
   /// Memory allocation failed; a later call with the same input may succeed.
   ck_out_of_memory = 5,
@@ -49,6 +52,7 @@ typedef struct {
 /// 8-bit pixels, top row first, channels interleaved, `row_stride` bytes from one row to the next.
 typedef struct {
   const uint8_t* data;
+  /// Size in pixels.
   int32_t width, height;
   /// 1: gray, 3: RGB, 4: RGBA.
   int32_t channels;

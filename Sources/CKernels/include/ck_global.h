@@ -21,16 +21,17 @@ typedef struct {
   /// Iterations of L1 averaging (reweighted to minimize the sum of angles), followed by iterations
   /// with the robust loss.
   int32_t absolute_iterations, robust_iterations;
-  /// Bounds in radians of the scale of the robust loss, which is three times the median error.
-  double smallest_scale, largest_scale;
+  /// Bounds in radians of the scale of the robust loss, which is three times the median residual.
+  double minimum_scale, maximum_scale;
   /// Stops when the mean change of a rotation falls below this angle in radians.
   double tolerance;
 } ck_rotation_averaging_options;
 
-/// Averages relative rotations: L1 averaging first, then a robust loss (Chatterjee and Govindu,
-/// "Efficient and robust large-scale rotation averaging", ICCV 2013).
+/// Averages relative rotations: L1 averaging first, then the robust loss of Geman and McClure
+/// (Chatterjee and Govindu, "Efficient and robust large-scale rotation averaging", ICCV 2013).
 ///
-/// The pairs must connect all photos; photo 0 keeps its rotation. `rotations` holds a quaternion of
+/// Photo 0 keeps its rotation. Returns `ck_degenerate` if the pairs do not connect all photos.
+/// `rotations` holds a quaternion of
 /// `cameraFromWorld` (4 doubles x, y, z, w) for each photo; on entry, the initial values. `errors`
 /// receives the angular residual of each pair in radians.
 ck_status ck_average_rotations(const ck_relative_rotation* pairs, size_t pair_count,
@@ -47,6 +48,7 @@ typedef struct {
 
 /// Options of global positioning.
 typedef struct {
+  /// Largest number of Levenberg–Marquardt iterations.
   int32_t maximum_iterations;
   /// Residual at which the Huber loss changes from quadratic to linear; residuals approximate sines
   /// of angles.
@@ -59,6 +61,7 @@ typedef struct {
 typedef struct {
   double initial_cost, final_cost;
   int32_t iterations;
+  /// Whether the relative decrease of the cost fell below `function_tolerance`.
   bool converged;
 } ck_positioning_summary;
 
@@ -67,8 +70,8 @@ typedef struct {
 /// c, points X and one factor d > 0 per direction, where ρ is the Huber loss.
 ///
 /// The directions are grouped by point, ascending. `centers` and `points` (3 doubles) hold the
-/// initial values on entry; the gauge of the result (a similarity: position, orientation and scale)
-/// is arbitrary. Runs on one thread.
+/// initial values on entry; the position and scale of the result are arbitrary (gauge freedom), its
+/// orientation is that of the directions. Runs on one thread.
 ck_status ck_position_globally(const ck_direction* directions, size_t direction_count,
                                const ck_positioning_options* options, const ck_control* control,
                                ck_mutable_span centers, ck_mutable_span points,

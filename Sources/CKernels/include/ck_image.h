@@ -66,8 +66,8 @@ void ck_image_free(ck_image* image);
 
 /// Properties of the primary image of a HEIF file, in upright orientation.
 typedef struct {
-  int32_t width;
-  int32_t height;
+  /// Size in pixels.
+  int32_t width, height;
   bool has_alpha;
 } ck_heif_info;
 
@@ -109,14 +109,18 @@ typedef enum {
 
 /// Converts RGB pixels in place to sRGB (IEC 61966-2-1) with relative colorimetric intent; values
 /// outside the sRGB gamut are clipped. Does nothing if the color space equals sRGB within two 8-bit
-/// steps, or if the profile is damaged or not an RGB profile.
+/// steps, or if the profile is damaged or not an RGB profile. `profile` is null for a color space
+/// without one.
 ck_status ck_image_convert_to_srgb(uint8_t* pixels, size_t pixel_count, ck_color_space color_space,
                                    const uint8_t* profile, size_t profile_count);
 
-/// Inflates a zlib stream to at most `maximum` bytes.
-ck_status ck_inflate(const uint8_t* bytes, size_t byte_count, size_t maximum, ck_bytes** inflated);
+/// Inflates a zlib stream (RFC 1950); fails if it is damaged or has more than `maximum_count`
+/// bytes.
+ck_status ck_inflate(const uint8_t* bytes, size_t byte_count, size_t maximum_count,
+                     ck_bytes** inflated);
 
-/// Encodes gray, RGB or RGBA (JPEG: gray or RGB). `quality` is 0…100 and used by JPEG only.
+/// Encodes gray, RGB or RGBA as PNG, or gray or RGB as JPEG, without padding between rows.
+/// `quality` is 0…100 and used by JPEG only. The same pixels give the same bytes.
 ck_status ck_image_encode(const ck_pixels* pixels, ck_codec codec, int32_t quality,
                           ck_bytes** encoded);
 
@@ -150,8 +154,8 @@ ck_status ck_image_dilate(const ck_pixels* source, int32_t radius,
                           const ck_mutable_pixels* destination);
 
 /// Sharpness of a gray image: the relative loss of gradient energy of its textured parts under a
-/// slight blur, in the direction that loses least; about 0.2 for a blurred photo, 1.5 and more for
-/// a sharp one.
+/// slight blur, in the direction that loses least (after Crete et al., "The blur effect", SPIE
+/// 2007); about 0.2 for a blurred photo, 1.5 and more for a sharp one.
 ///
 /// Returns `ck_degenerate` for an image without texture.
 ck_status ck_image_sharpness(const ck_pixels* gray, double* sharpness);

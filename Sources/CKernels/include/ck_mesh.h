@@ -26,8 +26,12 @@ typedef struct {
 
 /// Simplifies a mesh by edge collapse with quadric error metrics (Garland and Heckbert, SIGGRAPH
 /// 1997) until at most `maximum_triangles` are left, then fits the vertices to the original surface
-/// (after Hoppe et al., SIGGRAPH 1993). Preserves the topology and never folds the surface; it may
-/// therefore stop at more triangles.
+/// (after Hoppe et al., SIGGRAPH 1993).
+///
+/// Collapses preserve the topology and do not fold the surface. Where they do not suffice, the
+/// components with the smallest areas are removed; the largest one is kept, even if it has more
+/// triangles than requested. Before that, degenerate and duplicate triangles are removed, and so
+/// are the smallest components if there are more than one per 16 requested triangles.
 ///
 /// Positions and triangles are moved and compacted in place; on return the counts of `mesh` are
 /// those of the simplified mesh.

@@ -27,7 +27,7 @@ void ck_patches_halve(const uint8_t* luma, int32_t width, int32_t height, uint8_
 /// least the standard deviation of rounding.
 float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height);
 
-/// A sparse point in a reference view: pixel position and inverse depth.
+/// A sparse point in a reference view: pixel position, and inverse depth 1 / z in the camera frame.
 typedef struct {
   float x, y, inverse_depth;
 } ck_patch_seed;
@@ -67,8 +67,9 @@ typedef struct {
 /// Reconstructs the patches of one reference view, coarse to fine (Furukawa and Ponce, PAMI 2010,
 /// with one plane per pixel as in Bleyer et al., BMVC 2011).
 ///
-/// `sources` are at most 8 views, the best first. `patches` holds `width × height` values of the
-/// reference. Runs on one thread; may be called for several views at once.
+/// `sources` are 1 to 8 views, the best first. `patches` holds `width × height` values of the
+/// reference. Returns `ck_degenerate` if no seed has a positive inverse depth. Runs on one thread;
+/// may be called for several views at once.
 ck_status ck_patches_reconstruct(const ck_patch_view* reference, const ck_patch_view* sources,
                                  size_t source_count, const ck_patch_seed* seeds, size_t seed_count,
                                  const ck_patch_options* options, const ck_control* control,
@@ -95,8 +96,8 @@ typedef struct {
 /// `coarse` holds the filtered patches of the reference halved by `ck_patches_halve`, with half its
 /// focal lengths and principal point; its neighbors were the halved `sources`, in the same order.
 /// Each patch is compared with the sources that are consistent with the surrounding coarse patches
-/// (its visible photos; Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width ×
-/// height` values.
+/// (its visibility; Furukawa and Ponce, PAMI 2010, section 3.1). `patches` holds `width × height`
+/// values.
 ck_status ck_patches_refine(const ck_patch_view* reference, const ck_patch_view* sources,
                             size_t source_count, const ck_patch_map* coarse,
                             const ck_patch_options* options, const ck_control* control,
@@ -138,7 +139,8 @@ typedef struct {
 /// The state of a rejected patch is 0, that of an accepted one the logarithm of its footprint,
 /// which determines the view that resolves a surface element best. `states` holds `width × height`
 /// bytes, and so does `visibility` unless it is null; `neighbors` are the views to compare with,
-/// the best first. Runs on one thread; may be called for several views at once.
+/// the best first, at most 8 if `visibility` is not null. Runs on one thread; may be called for
+/// several views at once.
 ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* neighbors,
                             size_t neighbor_count, const ck_patch_filter_options* options,
                             const ck_control* control, uint8_t* states, uint8_t* visibility);
@@ -150,23 +152,27 @@ ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* n
 /// surrounding patches. Finally patches are smoothed; the weaker the texture, the stronger the
 /// smoothing.
 ///
-/// All maps have states; `completed` holds `width × height` patches, which have to be filtered
-/// again. Runs on one thread.
+/// There are at most 8 neighbors, and all maps have states; `completed` holds `width × height`
+/// patches, which have to be filtered again. Runs on one thread.
 ck_status ck_patches_complete(const ck_patch_map* reference, const ck_patch_map* neighbors,
                               size_t neighbor_count, const ck_patch_options* options,
                               const ck_control* control, ck_patch* completed);
 
 /// A fused patch.
 typedef struct {
+  /// World frame.
   float position[3];
+  /// Unit vector in the world frame, toward the photos.
   float normal[3];
+  /// RGB.
   uint8_t color[3];
+  /// Number of elements of `photos` that are set.
   uint8_t photo_count;
   /// Mean ZNCC of the patches that were fused.
   float consistency;
   /// Side of a reference pixel at the depth of the patch, in world units.
   float footprint;
-  /// Photos that are consistent with the patch, ascending.
+  /// Identifiers of the photos that are consistent with the patch, ascending; the first 16.
   uint16_t photos[16];
 } ck_fused_patch;
 
@@ -175,7 +181,8 @@ typedef struct {
 /// A surface element seen by several views becomes a point of the view with the smallest footprint,
 /// on a tie of the lowest photo. Each view determines its points independently, so views can be
 /// fused in any order, or concurrently. `fused` has room for `capacity` points; the number of
-/// accepted patches of the view is sufficient. Runs on one thread.
+/// accepted patches of the view is sufficient, and with too few the call fails with
+/// `ck_invalid_argument`. Runs on one thread.
 ck_status ck_patches_fuse(const ck_patch_map* reference, const ck_patch_map* neighbors,
                           size_t neighbor_count, const ck_patch_filter_options* options,
                           const ck_control* control, ck_fused_patch* fused, size_t capacity,

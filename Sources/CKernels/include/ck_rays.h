@@ -11,7 +11,10 @@ extern "C" {
 /// A triangle mesh with a ray casting structure. Immutable; may be used by several threads.
 typedef struct ck_ray_scene ck_ray_scene;
 
-/// Builds a ray casting structure; copies the arrays. Free with `ck_ray_scene_free`.
+/// Builds a ray casting structure with Embree; copies the arrays. Free with `ck_ray_scene_free`.
+///
+/// Returns `ck_invalid_argument` for a mesh without triangles, or with vertices that are not
+/// finite.
 ck_status ck_ray_scene_create(const ck_mesh* mesh, const ck_control* control, ck_ray_scene** scene);
 
 /// Frees the scene; null does nothing.

@@ -44,9 +44,10 @@ typedef struct {
 /// Extracts templates from a photo with 1, 3 (RGB) or 4 channels.
 ///
 /// `samples` receives `CK_TEMPLATE_SAMPLES` values per location: 64 times the luma 0…255. `valid`
-/// is set to 1 if the square lies within the photo and has texture in two directions.
+/// is set to 1 for each location whose square lies within the photo and has texture in two
+/// directions, to 0 for the others.
 ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_location* locations,
-                               size_t place_count, uint16_t* samples, uint8_t* valid);
+                               size_t location_count, uint16_t* samples, uint8_t* valid);
 
 /// Locates templates in a photo by least squares matching (Gruen, "Adaptive least squares
 /// correlation", 1985) of position, gain and offset, in the inverse compositional form (Baker and

@@ -10,7 +10,8 @@ extern "C" {
 /// Solves the perspective-three-point problem (Persson and Nordberg, "Lambda Twist", ECCV 2018).
 ///
 /// `rays` are three vectors (x, y, z) of any length in the camera frame, `points` three points in
-/// the world. `poses` holds at least four elements. Degenerate input gives no pose.
+/// the world. `poses` has room for four elements and receives `cameraFromWorld`. Degenerate input
+/// gives no pose.
 ck_status ck_p3p(const double* rays, const double* points, ck_pose* poses, size_t* pose_count);
 
 /// Options of pose estimation.
@@ -31,7 +32,8 @@ typedef struct {
 /// truncated squared reprojection error).
 ///
 /// `pixels` (2 doubles) and `points` (3 doubles, world frame) have the same count. `inliers` holds
-/// as many bytes, which are set to 1 or 0.
+/// as many bytes, which are set to 1 or 0. Returns `ck_degenerate` for fewer than four points, and
+/// if no pose has enough inliers.
 ck_status ck_resect(const ck_camera* camera, ck_span pixels, ck_span points,
                     const ck_resection_options* options, const ck_control* control, ck_pose* pose,
                     uint8_t* inliers, size_t* inlier_count);

@@ -21,10 +21,15 @@ typedef struct {
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points.
 ///
-/// Positions and normals (3 floats) have the same count. Runs on one dedicated thread because
-/// results of several threads differ between runs; a canceled call returns at once and leaves that
-/// thread to finish in the background. Triangles are counter-clockwise when seen from the side that
-/// the normals point to.
+/// Positions and normals (3 floats) have the same count; points that are not finite or have no
+/// normal are ignored. Triangles are counter-clockwise when seen from the side that the normals
+/// point to. Returns `ck_degenerate` if fewer than four points are left.
+///
+/// The solver runs on a thread of its own, and only on that one, because results of several threads
+/// differ between runs. It cannot be interrupted: a canceled call returns at once, but
+/// its solver runs to the end in the background. Until then it occupies a processor core, and the
+/// memory of the solver and of a copy of the points; another call may start meanwhile. The arrays
+/// of the caller are not used after the call.
 ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
                      const ck_control* control, ck_surface** surface);
 
@@ -52,6 +57,7 @@ ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* leve
 
 /// Limits of a nearest-neighbor search.
 typedef struct {
+  /// Number of neighbors per query.
   int32_t neighbors;
   /// Search radius, in units of the coordinates; above 0, may be infinite.
   double maximum_distance;
@@ -80,13 +86,13 @@ typedef struct {
   ck_span positions;
   /// Distance in front of each point at which its rays end.
   const float* clearances;
-  /// Point i is visible in `photos[photo_offsets[i]..<photo_offsets[i + 1]]`.
+  /// Point i is visible in the photos `photos[photo_offsets[i]..<photo_offsets[i + 1]]`.
   const uint32_t* photo_offsets;
   const uint16_t* photos;
 } ck_seen_points;
 
 /// Free-space evidence: counts for every cell the photos with a ray through it to a visible point
-/// behind it, up to 255.
+/// behind it, up to 255. Rays are traversed cell by cell (Amanatides and Woo, Eurographics 1987).
 ///
 /// `centers` holds the camera center of each photo (3 floats). Points and camera centers may lie
 /// outside the grid. `counts` holds one byte per cell.

@@ -9,8 +9,8 @@ extern "C" {
 
 // Entry points for tests of the code that kernels share. Not for any other use.
 
-/// Runs the loop over 0..<`count` that all kernels share, on a system that refuses to create more
-/// than `available_threads` threads.
+/// Runs the loop over 0..<`count` that all kernels share, on a simulated system that refuses to
+/// create more than `available_threads` threads.
 ///
 /// `visits` holds `count` elements; element i is incremented when the loop's body runs for i. The
 /// body of element `failing` throws; `SIZE_MAX` for none. `created_threads` receives the number of

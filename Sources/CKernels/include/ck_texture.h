@@ -29,7 +29,8 @@ typedef struct {
 /// weights of edges between different labels is small: a Potts model, minimized by sequential
 /// tree-reweighted message passing (Kolmogorov, PAMI 2006).
 ///
-/// `choices` receives the index of each node's selected candidate, −1 for nodes without candidates.
+/// An iteration passes messages forward and backward once. `choices` receives the index of each
+/// node's selected candidate among its candidates, −1 for nodes without candidates.
 ck_status ck_select_labels(const ck_label_problem* problem, size_t iterations,
                            const ck_control* control, int32_t* choices);
 
@@ -54,7 +55,7 @@ typedef struct {
 /// Solves a system for several right-hand sides by conjugate gradients; the initial value is zero.
 ///
 /// `values` holds `size × channels` numbers, row-major: the right-hand sides on entry, the
-/// solutions on return.
+/// solutions on return. Returns `ck_degenerate` if there is no finite solution.
 ck_status ck_solve_sparse(const ck_sparse_matrix* matrix, size_t channels,
                           const ck_conjugate_gradient_options* options, const ck_control* control,
                           double* values);
@@ -105,6 +106,7 @@ typedef struct {
 /// Packs charts into square pages at the largest common scale that fits, by their shapes rather
 /// than their bounding boxes. `corners` are the plane coordinates of each triangle's three corners
 /// (6 floats); `density` scales each chart relative to the others (1: the common scale).
+/// `placements` holds one element per chart. Returns `ck_degenerate` if the charts do not fit.
 ck_status ck_pack_charts(const float* corners, const int32_t* charts, size_t triangle_count,
                          const float* density, size_t chart_count, const ck_pack_options* options,
                          const ck_control* control, ck_chart_placement* placements);
@@ -114,7 +116,8 @@ typedef struct ck_atlas ck_atlas;
 
 /// Creates an atlas page. `corners` are the texel coordinates of each triangle's three corners (6
 /// floats). Texels up to `gutter` outside a chart are assigned to its boundary triangles, so that
-/// texture filtering across the boundary finds their color.
+/// texture filtering across the boundary finds their color. Copies the corners; the scene must
+/// outlive the atlas. Free with `ck_atlas_free`.
 ck_status ck_atlas_create(const ck_ray_scene* scene, const float* corners, size_t triangle_count,
                           int32_t side, int32_t gutter, const ck_control* control,
                           ck_atlas** atlas);
@@ -131,13 +134,16 @@ size_t ck_atlas_overlap_count(const ck_atlas* atlas);
 /// Contribution of a view to a triangle: at each corner a weight, and a color offset that is added
 /// to the photo's color. The weights of a corner over all views add up to 1.
 typedef struct {
+  /// Index of the triangle.
   uint32_t face;
+  /// One per corner.
   float weights[3];
+  /// RGB in gray levels (0…255) for each corner.
   float offsets[9];
 } ck_paint;
 
-/// Adds a view's colors, multiplied by `gain` per channel. If `rgb` is null, only the offsets are
-/// painted.
+/// Adds a view's colors, multiplied by `gain` (3 floats, one per channel). `rgb` has 3 bytes per
+/// pixel; if it is null, only the offsets are painted, and `view` and `gain` may be null.
 ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rgb,
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control);
@@ -155,6 +161,7 @@ typedef struct {
   /// 12 floats per triangle: at each corner the unit tangent (along u) and the sign of the
   /// bitangent.
   const float* corner_tangents;
+  /// The surface before simplification.
   const ck_ray_scene* dense;
   /// One normal (3 floats) for each position of `dense`.
   ck_span dense_normals;

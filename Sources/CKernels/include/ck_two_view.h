@@ -10,14 +10,15 @@ extern "C" {
 // Points are (x, y) pairs at depth 1 on the viewing rays: undistorted pixels, minus the principal
 // point, divided by the focal length. Matrices M satisfy x₂ᵀ M x₁ = 0 and are row-major.
 
-/// Five-point solver: all essential matrices that five matches determine (Nistér, PAMI 2004); both
-/// arrays hold 5 points.
+/// Five-point solver: all essential matrices that five matches determine (Nistér, PAMI 2004).
 ///
-/// `matrices` holds 20 × 9 numbers, each matrix of Frobenius norm 1.
+/// `first` and `second` hold 5 points, `matrices` 20 × 9 numbers: matrices of Frobenius norm 1.
 ck_status ck_five_point(const double* first, const double* second, double* matrices, size_t* count);
 
-/// Seven-point solver: all fundamental matrices that seven matches determine; `matrices` holds 6 ×
-/// 9 numbers, each matrix of Frobenius norm 1.
+/// Seven-point solver: all fundamental matrices that seven matches determine (Hartley and
+/// Zisserman, "Multiple View Geometry", 2003, ch. 11).
+///
+/// `first` and `second` hold 7 points, `matrices` 6 × 9 numbers: matrices of Frobenius norm 1.
 ck_status ck_seven_point(const double* first, const double* second, double* matrices,
                          size_t* count);
 
@@ -50,13 +51,14 @@ typedef struct {
   /// Quaternion x, y, z, w of the rotation of second-from-first; if uncalibrated, that of the
   /// nearest essential matrix.
   double rotation[4];
-  /// Unit vector of second-from-first.
+  /// Translation of second-from-first, of unit length.
   double translation[3];
   size_t inlier_count;
   /// Number of the inliers that a single homography explains as well.
   size_t homography_inlier_count;
   /// Median triangulation angle of the inliers, in radians.
   double median_angle;
+  /// Number of samples drawn.
   int32_t iterations;
 } ck_two_view_result;
 
@@ -64,15 +66,15 @@ typedef struct {
 /// MSAC score, sampling that prefers the first matches (after PROSAC, Chum and Matas, CVPR 2005),
 /// and refinement of the Sampson error.
 ///
-/// Matches are sorted by quality, the best first. `inliers` holds one byte per match. Returns
-/// `ck_degenerate` if no model is found.
+/// Matches are sorted by quality, the best first. `inliers` holds one byte per match, which is set
+/// to 1 or 0. Returns `ck_degenerate` if no model is found.
 ck_status ck_two_view_estimate(const ck_point_pairs* pairs, const ck_two_view_options* options,
                                const ck_control* control, ck_two_view_result* result,
                                uint8_t* inliers);
 
 /// Options of the focal length cost.
 typedef struct {
-  /// The fundamental matrix of the matches; initializes the search for the pose.
+  /// The fundamental matrix of the matches, row-major; initializes the search for the pose.
   double fundamental[9];
   /// Limit of a match's Sampson error, in units of the points.
   double maximum_error;
@@ -80,7 +82,7 @@ typedef struct {
 
 /// Cost of hypotheses about the focal length: for each factor, the sum of min(Sampson error²,
 /// limit²), in squared units of the points, of the best pose when the focal length is `factor`
-/// times the assumed one.
+/// times the assumed one. `costs` holds one number per factor.
 ck_status ck_focal_length_costs(const ck_point_pairs* pairs, const double* factors,
                                 size_t factor_count, const ck_focal_length_options* options,
                                 const ck_control* control, double* costs);

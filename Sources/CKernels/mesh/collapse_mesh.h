@@ -10,7 +10,7 @@
 
 #include "mesh/quadric.h"
 
-namespace ck::texture {
+namespace ck::mesh {
 
 /// A mesh with vertex–triangle incidence. The corners (3 · triangle + 0…2) at a vertex form a ring
 /// (circular list), so that two vertices can be merged without allocation.
@@ -179,4 +179,4 @@ class CollapseMesh {
   uint32_t mark_ = 0;
 };
 
-}  // namespace ck::texture
+}  // namespace ck::mesh

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-namespace ck::texture {
+namespace ck::mesh {
 
 /// A candidate edge collapse. It is outdated once the version of an end has changed.
 struct Collapse {
@@ -81,4 +81,4 @@ class CollapseQueue {
   uint32_t free_ = kNone, lowest_ = kStacks;
 };
 
-}  // namespace ck::texture
+}  // namespace ck::mesh

@@ -3,8 +3,9 @@
 #include <array>
 #include <cmath>
 
-namespace ck::texture {
+namespace ck::mesh {
 
+/// A point or vector.
 using Point = std::array<double, 3>;
 
 inline Point operator-(const Point& a, const Point& b) {
@@ -58,6 +59,7 @@ struct Quadric {
     return *this;
   }
 
+  /// The value at a point.
   double operator()(const Point& p) const {
     const double ax = xx * p[0] + xy * p[1] + xz * p[2];
     const double ay = xy * p[0] + yy * p[1] + yz * p[2];
@@ -82,4 +84,4 @@ struct Quadric {
   }
 };
 
-}  // namespace ck::texture
+}  // namespace ck::mesh

@@ -12,7 +12,7 @@
 #include "mesh/quadric.h"
 #include "mesh/surface_fit.h"
 
-namespace ck::texture {
+namespace ck::mesh {
 namespace {
 
 using Face = CollapseMesh::Face;
@@ -24,10 +24,14 @@ constexpr double kPull = 1e-4, kReach = 2;
 /// Cosine of the largest angle by which a collapse may rotate a triangle's normal, in each of the
 /// passes; the last one permits collapses that the others rejected. Empirical.
 constexpr double kTurnCosines[] = {0.2, 0.2, 0.0};
+/// Weight of the fourth power of an edge's length in its cost: among edges without error the
+/// shortest are collapsed first.
+constexpr double kLengthWeight = 1e-9;
 /// The number of components is limited to one per this number of triangles of the result.
 /// Empirical.
 constexpr size_t kTrianglesPerPiece = 16;
 
+/// The vertices; throws if one is not finite.
 std::vector<Point> load_points(const InputMesh& input) {
   std::vector<Point> points(input.positions.count);
   for (size_t i = 0; i < points.size(); ++i) {
@@ -47,7 +51,7 @@ std::vector<Face> load_faces(const InputMesh& input) {
     const uint32_t* corners = input.triangles + 3 * t;
     Face f = {corners[0], corners[1], corners[2]};
     for (const uint32_t v : f) {
-      require(v < input.positions.count, "a triangle names a vertex that isn't there");
+      require(v < input.positions.count, "a triangle refers to a vertex that does not exist");
     }
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) continue;
     std::sort(f.begin(), f.end());
@@ -140,6 +144,7 @@ class Simplifier {
     SurfaceFit(input_, homes, &mesh_).run(control);
   }
 
+  /// Writes the compacted mesh.
   void copy(ck_mutable_mesh* result) const {
     const MutableStrided<float> positions(result->positions);
     std::vector<uint32_t> ids(mesh_.vertex_count());
@@ -248,8 +253,7 @@ class Simplifier {
     // The cost is the error that this collapse adds, not the error accumulated before.
     const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
     const Point along = mesh_.point(a) - mesh_.point(b);
-    // Among edges without error the shortest are collapsed first.
-    const double cost = added + 1e-9 * dot(along, along) * dot(along, along);
+    const double cost = added + kLengthWeight * dot(along, along) * dot(along, along);
     queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
   }
 
@@ -322,21 +326,21 @@ class Simplifier {
 };
 
 }  // namespace
-}  // namespace ck::texture
+}  // namespace ck::mesh
 
 ck_status ck_simplify(ck_mutable_mesh* mesh, size_t maximum_triangles, const ck_control* control) {
   return ck::guarded([&] {
     ck::require(mesh && mesh->positions.data && mesh->triangles, "an argument is missing");
     ck::step(control, 0);
-    ck::texture::Simplifier simplifier({mesh->positions, mesh->triangles, mesh->triangle_count});
+    ck::mesh::Simplifier simplifier({mesh->positions, mesh->triangles, mesh->triangle_count});
     // A closed component has at least four triangles: many tiny components would use up the budget.
     simplifier.drop_components(
         mesh->triangle_count,
-        std::max<size_t>(1, maximum_triangles / ck::texture::kTrianglesPerPiece));
+        std::max<size_t>(1, maximum_triangles / ck::mesh::kTrianglesPerPiece));
     // A collapse that is rejected in one pass may be permitted after its surroundings have changed.
     // A limit on triangle shape is harmful: it prevents collapses that would repair slivers of the
     // input.
-    for (const double cosine : ck::texture::kTurnCosines)
+    for (const double cosine : ck::mesh::kTurnCosines)
       simplifier.run(maximum_triangles, cosine, control);
     simplifier.drop_components(maximum_triangles, maximum_triangles);
     simplifier.fit(control);

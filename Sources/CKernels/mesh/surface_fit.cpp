@@ -5,7 +5,7 @@
 
 #include "core/guard.h"
 
-namespace ck::texture {
+namespace ck::mesh {
 namespace {
 
 /// Rounds of projecting the samples, and sweeps of moving the vertices in each.
@@ -183,4 +183,4 @@ void SurfaceFit::move(uint32_t v, const Point& p) {
   if (keeps_orientation) mesh_.move(v, p);
 }
 
-}  // namespace ck::texture
+}  // namespace ck::mesh

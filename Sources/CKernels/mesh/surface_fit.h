@@ -9,7 +9,7 @@
 #include "core/span.h"
 #include "mesh/collapse_mesh.h"
 
-namespace ck::texture {
+namespace ck::mesh {
 
 /// The caller's mesh.
 struct InputMesh {
@@ -67,4 +67,4 @@ class SurfaceFit {
   std::vector<Point> starts_;  ///< initial positions of the movable vertices
 };
 
-}  // namespace ck::texture
+}  // namespace ck::mesh

@@ -69,7 +69,7 @@ Comparison Pyramids::compare(int level, const InverseDepthRange& range, float ma
 }
 
 void check_views(const ck_patch_view& reference, size_t source_count) {
-  require(source_count >= 1 && source_count <= kMaxSources, "1 to 8 sources are needed");
+  require(source_count >= 1 && source_count <= kMaximumSources, "1 to 8 sources are needed");
   require(std::min(reference.camera.width, reference.camera.height) >= 16, "the view is too small");
 }
 

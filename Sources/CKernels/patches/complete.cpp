@@ -265,7 +265,7 @@ ck_status ck_patches_complete(const ck_patch_map* reference, const ck_patch_map*
     ck::require(completed && reference && reference->states && options &&
                     (neighbors || neighbor_count == 0),
                 "missing argument");
-    ck::require(neighbor_count <= kMaxSources, "at most 8 neighbors");
+    ck::require(neighbor_count <= kMaximumSources, "at most 8 neighbors");
     for (size_t i = 0; i < neighbor_count; ++i)
       ck::require(neighbors[i].states, "a neighbor has no filter states");
     complete(completed, *reference, neighbors, neighbor_count, *options, control);

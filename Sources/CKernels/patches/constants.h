@@ -3,8 +3,8 @@
 namespace ck::patches {
 
 // Constants of patch stereo that are not options, the same for all levels and views. Those marked
-// "empirical" were chosen by trial while the method was developed; the comment refers to the
-// measurement in BENCHMARKS.md if there is one. Changing any of them changes results.
+// "empirical" were chosen by trial; the comment refers to the measurement in BENCHMARKS.md if there
+// is one. Changing any of them changes results.
 
 /// Lower bound of the cost (1 − ZNCC) of a weakly textured patch; patches of this cost are not
 /// propagated into holes. Empirical.
@@ -36,12 +36,12 @@ constexpr float kPerturbedDepth = 0.02f, kPerturbedSlant = 0.7f;
 
 /// Bounds of the area of a reference pixel in pixels of a source: smaller areas contain no detail,
 /// larger ones cause aliasing. Empirical.
-constexpr float kSmallestFootprint = 0.1f, kLargestFootprint = 8.0f;
+constexpr float kMinimumFootprint = 0.1f, kMaximumFootprint = 8.0f;
 
 /// A source takes part in a Gauss–Newton step if its cost is below `factor · best + offset`: a
 /// source with a much higher cost than the best one is occluded. Weights by cost instead gave an
 /// F-score of 0.962 at 0.5 mm, against 0.966 (BENCHMARKS.md, boot at half resolution). Empirical.
-constexpr float kVoterFactor = 1.5f, kVoterOffset = 0.05f;
+constexpr float kVisibleCostFactor = 1.5f, kVisibleCostOffset = 0.05f;
 
 /// Cosine of the largest angle between a patch's normal and its viewing ray: 80°.
 constexpr float kGrazingCosine = 0.17f;
@@ -67,6 +67,6 @@ constexpr float kFusionCostOffset = 0.05f;
 constexpr float kIslandDepthStep = 0.02f;
 
 /// Lower bound of the cosine in the footprint of a slanted patch. Empirical.
-constexpr float kLeastFootprintCosine = 0.1f;
+constexpr float kMinimumFootprintCosine = 0.1f;
 
 }  // namespace ck::patches

@@ -15,6 +15,7 @@ struct Sweep {
   int refinement_steps = 0;
   /// The grid holds patches of a coarser level, which are kept where they are better.
   bool may_inherit = false;
+  /// Seed of the perturbations.
   uint32_t seed = 0;
 };
 

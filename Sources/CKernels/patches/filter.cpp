@@ -29,7 +29,7 @@ uint8_t footprint_class(const ck_patch_view& view, const ck_patch& p, int x, int
   const float nz = p.inverse_depth - p.gradient_x * dx - p.gradient_y * dy;
   const float normal = nx * nx + ny * ny + nz * nz;
   const float ray = dx * dx / (fx * fx) + dy * dy / (fy * fy) + 1;
-  const float cosine = std::max(kLeastFootprintCosine, p.inverse_depth / std::sqrt(normal * ray));
+  const float cosine = std::max(kMinimumFootprintCosine, p.inverse_depth / std::sqrt(normal * ray));
   // The side is 1 / (w · fx · sqrt(cosine)); four steps per octave, centered on 128.
   const float steps = -4 * std::log2(p.inverse_depth * fx) - 2 * std::log2(cosine);
   return static_cast<uint8_t>(std::clamp(std::floor(steps) + 128, 1.0f, 255.0f));
@@ -204,7 +204,7 @@ ck_status ck_patches_filter(const ck_patch_map* reference, const ck_patch_map* n
     using namespace ck::patches;
     ck::require(states && reference && options && (neighbors || neighbor_count == 0),
                 "missing argument");
-    ck::require(!visibility || neighbor_count <= kMaxSources, "at most 8 neighbors");
+    ck::require(!visibility || neighbor_count <= kMaximumSources, "at most 8 neighbors");
     VisibilityFilter(*reference, neighbors, neighbor_count, *options)
         .run(states, visibility, control);
     const DepthEdgeFilter depth_edges(options->depth_edge_contrast);

@@ -11,7 +11,7 @@
 namespace ck::patches {
 namespace {
 
-constexpr size_t kMaxPhotos = sizeof(ck_fused_patch::photos) / sizeof(uint16_t);
+constexpr size_t kMaximumPhotos = sizeof(ck_fused_patch::photos) / sizeof(uint16_t);
 
 /// A view's estimate of the surface behind a pixel of the reference.
 struct Estimate {
@@ -168,7 +168,7 @@ class Fusion {
   /// Lists the reference and the consistent neighbors that see the plane from the front.
   void list_photos(ck_fused_patch& result) const {
     const auto add = [&](int photo) {
-      if (result.photo_count < kMaxPhotos) {
+      if (result.photo_count < kMaximumPhotos) {
         result.photos[result.photo_count++] = static_cast<uint16_t>(photo);
       }
     };

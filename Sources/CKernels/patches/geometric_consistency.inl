@@ -59,6 +59,7 @@ CK_INLINE void prefetch(const RelativeProjection& t, const PatchRow& row, int st
   for (int i = 0; i < 16; i += kPatchesOfLine) __builtin_prefetch(t.patches + cell[i]);
 }
 
+/// Tests the patches of a vector.
 void check_vector(const RelativeProjection& t, const ConsistencyThresholds& a, const PatchRow& row,
                   ConsistencyRow& results, int start) {
   const F16 w = load(&row.w[start]), gx = load(&row.gx[start]), gy = load(&row.gy[start]);
@@ -108,9 +109,10 @@ void check_vector(const RelativeProjection& t, const ConsistencyThresholds& a, c
   store(&results.distance[start], distance);
 }
 
+/// Tests a row of patches, with the patches of a later vector prefetched.
 void check_row(const RelativeProjection& projection, const ConsistencyThresholds& thresholds,
                const PatchRow& row, ConsistencyRow& results) {
-  constexpr int kAhead = 64;
+  constexpr int kAhead = 64;  // cells
   for (int start = 0; start < row.width; start += 16) {
     if (start + kAhead < row.width) prefetch(projection, row, start + kAhead);
     const F16 w = load(&row.w[start]);

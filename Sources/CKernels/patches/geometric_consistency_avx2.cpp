@@ -10,7 +10,7 @@
 namespace ck::patches {
 namespace {
 /// Gathers with a stride of four floats, the size of `ck_patch`.
-inline __attribute__((always_inline)) void gather(F16& out, const float* base, const I16& index) {
+CK_INLINE void gather(F16& out, const float* base, const I16& index) {
   const I16 word = index * 4;
   __m256i lanes[2];
   __builtin_memcpy(lanes, &word, sizeof lanes);

@@ -5,7 +5,7 @@
 
 namespace ck::patches {
 namespace {
-inline __attribute__((always_inline)) void gather(F16& out, const float* base, const I16& index) {
+CK_INLINE void gather(F16& out, const float* base, const I16& index) {
   for (int i = 0; i < 16; ++i) out[i] = base[4 * static_cast<ptrdiff_t>(index[i])];
 }
 }  // namespace

@@ -16,12 +16,6 @@ const F16 kDx = {-2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2, -2, -1, 1, 2};
 const F16 kProximity = {0.368f, 0.535f, 0.535f, 0.368f, 0.535f, 0.779f, 0.779f, 0.535f,
                         0.535f, 0.779f, 0.779f, 0.535f, 0.368f, 0.535f, 0.535f, 0.368f};
 
-CK_INLINE float sum(const F16& v) {
-  const F8 a = v.lo + v.hi;
-  const F4 b = a.lo + a.hi;
-  return (b.x + b.z) + (b.y + b.w);
-}
-
 CK_INLINE F8 absolute(const F8& v) { return __builtin_elementwise_abs(v); }
 
 /// Projection of a patch into each source: its center and the affine map of the texel offsets.
@@ -29,8 +23,8 @@ struct Footprints {
   F8 u, v, ax, ay, bx, by;
   /// Derivative of the patch's position with respect to inverse depth, in pixels of the reference.
   F8 motion_x, motion_y;
-  /// −1 where the patch lies within the source, is not mirrored and its area changes by a factor of
-  /// 0.1…8.
+  /// −1 where the patch lies within the source, is not mirrored, and the area of a pixel is within
+  /// `kMinimumFootprint`…`kMaximumFootprint`.
   I8 is_valid;
 };
 
@@ -53,7 +47,7 @@ CK_INLINE void locate(const Warps& t, int x, int y, const Plane& p, Footprints& 
   const F8 area = f.ax * f.by - f.ay * f.bx;
   const F8 eu = 2.0f * (absolute(f.ax) + absolute(f.bx));
   const F8 ev = 2.0f * (absolute(f.ay) + absolute(f.by));
-  f.is_valid = (qz > 1e-6f) & (area > kSmallestFootprint) & (area < kLargestFootprint) &
+  f.is_valid = (qz > 1e-6f) & (area > kMinimumFootprint) & (area < kMaximumFootprint) &
                (f.u - eu > 0.5f) & (f.v - ev > 0.5f) & (f.u + eu < load8(t.limit_u)) &
                (f.v + ev < load8(t.limit_v));
   const F8 du = (ex - f.u * ez) * inverse_z, dv = (ey - f.v * ez) * inverse_z;
@@ -82,27 +76,19 @@ CK_INLINE F16 by_source(const float* values) {
   return __builtin_shufflevector(v, v, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3);
 }
 
-/// Sums over the sources.
-CK_INLINE F4 fold(const F16& v) {
-  const F8 a = v.lo + v.hi;
-  return a.lo + a.hi;
-}
-
-CK_INLINE float sum(const F4& v) { return (v.x + v.z) + (v.y + v.w); }
-
 /// By bit mask: the sources in the slots of two groups, as lane indices; free slots repeat the
 /// first source.
 ///
 /// Evaluated at compile time: code of this file must not run before the processor is known.
 struct Slots {
-  uint8_t sources[256][kMaxSources] = {};
+  uint8_t sources[256][kMaximumSources] = {};
   constexpr Slots() {
     for (int mask = 1; mask < 256; ++mask) {
       int slot = 0;
-      for (int s = 0; s < kMaxSources; ++s) {
+      for (int s = 0; s < kMaximumSources; ++s) {
         if (mask >> s & 1) sources[mask][slot++] = static_cast<uint8_t>(s);
       }
-      for (; slot < kMaxSources; ++slot) sources[mask][slot] = sources[mask][0];
+      for (; slot < kMaximumSources; ++slot) sources[mask][slot] = sources[mask][0];
     }
   }
 };
@@ -283,7 +269,8 @@ CK_INLINE void conclude(const Comparison& c, Trial& trial, int count, const Mome
   store(samples.inverse_deviation, inverse_deviation);
   // Sources with a much higher cost than the best one are occluded and do not contribute to the
   // step.
-  samples.visible_slots = mask(costs < std::min(1.0f, kVoterFactor * first + kVoterOffset));
+  samples.visible_slots =
+      mask(costs < std::min(1.0f, kVisibleCostFactor * first + kVisibleCostOffset));
   samples.group_count = (count + kSlots - 1) / kSlots;
 }
 
@@ -345,10 +332,11 @@ bool step(const ReferencePatch& patch, const Samples& samples, const Plane& plan
     }
   }
   const F4 dx = {-2, -1, 1, 2};
-  const F4 h = fold(squares), hy = fold(squares_y), b = fold(products);
+  // A quarter of a vector holds the texels of one source: these are sums over the sources.
+  const F4 h = quarter_sums(squares), hy = quarter_sums(squares_y), b = quarter_sums(products);
   const float h00 = sum(h), h01 = sum(h * dx), h11 = sum(h * dx * dx);
-  const float h02 = sum(hy), h12 = sum(hy * dx), h22 = sum(fold(squares_yy));
-  const float b0 = -sum(b), b1 = -sum(b * dx), b2 = -sum(fold(products_y));
+  const float h02 = sum(hy), h12 = sum(hy * dx), h22 = sum(quarter_sums(squares_yy));
+  const float b0 = -sum(b), b1 = -sum(b * dx), b2 = -sum(quarter_sums(products_y));
   // Levenberg damping: poorly determined directions do not change.
   const float damping = 1e-3f * (h00 + h11 + h22) + 1e-20f;
   const float a00 = h00 + damping, a11 = h11 + damping, a22 = h22 + damping;

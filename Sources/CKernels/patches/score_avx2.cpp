@@ -13,8 +13,7 @@
 
 namespace ck::patches {
 namespace {
-inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base,
-                                                  const I16& index) {
+CK_INLINE void gather(I16& out, const uint32_t* base, const I16& index) {
   const int* words = reinterpret_cast<const int*>(base);
   __m256i lanes[2];
   __builtin_memcpy(lanes, &index, sizeof lanes);
@@ -28,13 +27,13 @@ struct Lanes {
   __m256i lo, hi;
 };
 
-inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) {
+CK_INLINE Lanes lanes_of(const uint8_t* sources) {
   const __m128i each = _mm_set_epi8(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
   const __m128i bytes = _mm_shuffle_epi8(_mm_loadu_si32(sources), each);
   return {_mm256_cvtepu8_epi32(bytes), _mm256_cvtepu8_epi32(_mm_srli_si128(bytes, 8))};
 }
 
-inline __attribute__((always_inline)) F16 spread(const F8& values, const Lanes& lanes) {
+CK_INLINE F16 spread(const F8& values, const Lanes& lanes) {
   __m256 from, to[2];
   __builtin_memcpy(&from, &values, sizeof from);
   to[0] = _mm256_permutevar8x32_ps(from, lanes.lo);
@@ -44,7 +43,7 @@ inline __attribute__((always_inline)) F16 spread(const F8& values, const Lanes& 
   return out;
 }
 
-inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t* sources) {
+CK_INLINE F8 permute(const F8& values, const uint8_t* sources) {
   __m256 from;
   __builtin_memcpy(&from, &values, sizeof from);
   const __m256 to = _mm256_permutevar8x32_ps(from, _mm256_cvtepu8_epi32(_mm_loadu_si64(sources)));
@@ -53,7 +52,7 @@ inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t
   return out;
 }
 
-inline __attribute__((always_inline)) unsigned mask(const I8& lanes) {
+CK_INLINE unsigned mask(const I8& lanes) {
   __m256 signs;
   __builtin_memcpy(&signs, &lanes, sizeof signs);
   return static_cast<unsigned>(_mm256_movemask_ps(signs));

@@ -14,8 +14,7 @@
 
 namespace ck::patches {
 namespace {
-inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base,
-                                                  const I16& index) {
+CK_INLINE void gather(I16& out, const uint32_t* base, const I16& index) {
   __m512i lanes;
   __builtin_memcpy(&lanes, &index, sizeof lanes);
   lanes = _mm512_i32gather_epi32(lanes, base, 4);
@@ -25,13 +24,13 @@ inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base
 /// Permutation of eight sources to 16 lanes, four for each of four sources.
 using Lanes = __m512i;
 
-inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) {
+CK_INLINE Lanes lanes_of(const uint8_t* sources) {
   __m128i bytes = _mm_loadu_si32(sources);
   const __m128i each = _mm_set_epi8(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
   return _mm512_cvtepu8_epi32(_mm_shuffle_epi8(bytes, each));
 }
 
-inline __attribute__((always_inline)) F16 spread(const F8& values, const Lanes& lanes) {
+CK_INLINE F16 spread(const F8& values, const Lanes& lanes) {
   __m256 from;
   __builtin_memcpy(&from, &values, sizeof from);
   const __m512 to = _mm512_permutexvar_ps(lanes, _mm512_broadcast_f32x8(from));
@@ -40,7 +39,7 @@ inline __attribute__((always_inline)) F16 spread(const F8& values, const Lanes& 
   return out;
 }
 
-inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t* sources) {
+CK_INLINE F8 permute(const F8& values, const uint8_t* sources) {
   __m256 from;
   __builtin_memcpy(&from, &values, sizeof from);
   const __m256i lanes = _mm256_cvtepu8_epi32(_mm_loadu_si64(sources));
@@ -50,7 +49,7 @@ inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t
   return out;
 }
 
-inline __attribute__((always_inline)) unsigned mask(const I8& lanes) {
+CK_INLINE unsigned mask(const I8& lanes) {
   __m256 signs;
   __builtin_memcpy(&signs, &lanes, sizeof signs);
   return static_cast<unsigned>(_mm256_movemask_ps(signs));

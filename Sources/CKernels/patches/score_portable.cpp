@@ -9,17 +9,16 @@
 
 namespace ck::patches {
 namespace {
-inline __attribute__((always_inline)) void gather(I16& out, const uint32_t* base,
-                                                  const I16& index) {
+CK_INLINE void gather(I16& out, const uint32_t* base, const I16& index) {
   for (int i = 0; i < 16; ++i) out[i] = static_cast<int32_t>(base[index[i]]);
 }
 
 /// Permutation of eight sources to 16 lanes, four for each of four sources.
 using Lanes = const uint8_t*;
 
-inline __attribute__((always_inline)) Lanes lanes_of(const uint8_t* sources) { return sources; }
+CK_INLINE Lanes lanes_of(const uint8_t* sources) { return sources; }
 
-inline __attribute__((always_inline)) F16 spread(const F8& values, Lanes lanes) {
+CK_INLINE F16 spread(const F8& values, Lanes lanes) {
   float from[8];
   __builtin_memcpy(from, &values, sizeof from);
   F16 out;
@@ -30,7 +29,7 @@ inline __attribute__((always_inline)) F16 spread(const F8& values, Lanes lanes) 
   return out;
 }
 
-inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t* sources) {
+CK_INLINE F8 permute(const F8& values, const uint8_t* sources) {
   float from[8];
   __builtin_memcpy(from, &values, sizeof from);
   F8 out;
@@ -38,7 +37,7 @@ inline __attribute__((always_inline)) F8 permute(const F8& values, const uint8_t
   return out;
 }
 
-inline __attribute__((always_inline)) unsigned mask(const I8& lanes) {
+CK_INLINE unsigned mask(const I8& lanes) {
   unsigned bits = 0;
   for (int i = 0; i < 8; ++i) bits |= static_cast<unsigned>(lanes[i] < 0) << i;
   return bits;

@@ -16,6 +16,8 @@ constexpr float kOutlierDeviations = 5;
 /// Number of averaging passes; the spacing of the averaged patches doubles with each.
 constexpr int kPasses = 4;
 
+/// Lower bound of the information of a patch.
+constexpr float kMinimumInformation = 0.05f;
 /// Radius in pixels of the window in which texture is measured.
 constexpr int kRadius = 2;
 
@@ -47,8 +49,7 @@ class Information {
       // Noise variance in gray levels squared: at least one, because of rounding and compression,
       // plus the unexplained variance.
       const float noise = 1 + 2 * std::min(1.0f, costs[x]) * variance;
-      constexpr float kLeast = 0.05f;  // lower bound of the information
-      const float information = kLeast + 0.25f * kTexel * energy / noise;
+      const float information = kMinimumInformation + 0.25f * kTexel * energy / noise;
       result[x] = planes[x].w > 0 && costs[x] < kNoPatch ? information : 0;
     }
   }

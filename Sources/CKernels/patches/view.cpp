@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "core/halve.h"
 #include "geometry/pose.h"
 
 namespace ck::patches {
@@ -22,7 +23,7 @@ Image half(const Image& image) {
   result.width = image.width / 2;
   result.height = image.height / 2;
   result.luma.resize(result.pixel_count());
-  ck_patches_halve(image.luma.data(), image.width, image.height, result.luma.data());
+  halve(image.luma.data(), image.width, image.height, result.luma.data());
   return result;
 }
 
@@ -98,13 +99,5 @@ void add_source(Warps& warps, const ck_patch_view& reference, const ck_patch_vie
 }  // namespace ck::patches
 
 void ck_patches_halve(const uint8_t* luma, int32_t width, int32_t height, uint8_t* result) {
-  for (int y = 0; y < height / 2; ++y) {
-    const uint8_t* upper = luma + static_cast<ptrdiff_t>(2 * y) * width;
-    const uint8_t* lower = upper + width;
-    uint8_t* out = result + static_cast<ptrdiff_t>(y) * (width / 2);
-    for (int x = 0; x < width / 2; ++x) {
-      const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
-      out[x] = static_cast<uint8_t>((sum + 2) / 4);
-    }
-  }
+  ck::halve(luma, width, height, result);
 }

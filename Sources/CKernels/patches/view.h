@@ -9,7 +9,7 @@
 namespace ck::patches {
 
 /// Largest number of source views of a reference.
-constexpr int kMaxSources = 8;
+constexpr int kMaximumSources = 8;
 /// Number of texels of a patch: 4 × 4 pixels of the reference at these offsets.
 constexpr int kTexels = 16;
 constexpr int kTexelOffsets[4] = {-2, -1, 1, 2};
@@ -48,12 +48,12 @@ struct PixelTransfer {
 /// Lanes without source are zero and therefore never valid.
 struct alignas(32) Warps {
   int count = 0;
-  float column0[3][kMaxSources] = {}, column1[3][kMaxSources] = {};
-  float base[3][kMaxSources] = {}, epipole[3][kMaxSources] = {};
+  float column0[3][kMaximumSources] = {}, column1[3][kMaximumSources] = {};
+  float base[3][kMaximumSources] = {}, epipole[3][kMaximumSources] = {};
   /// Largest pixel coordinates that can be sampled.
-  float limit_u[kMaxSources] = {}, limit_v[kMaxSources] = {};
+  float limit_u[kMaximumSources] = {}, limit_v[kMaximumSources] = {};
   /// Start of a source's packed pixels in `texels`, and its width.
-  int offset[kMaxSources] = {}, stride[kMaxSources] = {};
+  int offset[kMaximumSources] = {}, stride[kMaximumSources] = {};
   std::vector<uint32_t> texels;
 };
 

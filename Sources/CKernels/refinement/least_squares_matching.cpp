@@ -141,10 +141,10 @@ LumaPyramid pyramid_of(const ck_pixels& photo) {
 }  // namespace ck
 
 ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_location* locations,
-                               size_t place_count, uint16_t* samples, uint8_t* valid) {
+                               size_t location_count, uint16_t* samples, uint8_t* valid) {
   return ck::guarded([&] {
     const ck::LumaPyramid image = ck::pyramid_of(*photo);
-    for (size_t i = 0; i < place_count; ++i) {
+    for (size_t i = 0; i < location_count; ++i) {
       const ck_template_location& p = locations[i];
       float values[CK_TEMPLATE_SAMPLES];
       uint16_t* out = samples + i * CK_TEMPLATE_SAMPLES;

@@ -5,12 +5,16 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
+#include "core/halve.h"
 #include "core/opencv.h"
 
 namespace ck {
 namespace {
 
+/// Largest number of levels.
 constexpr int kLevels = 4;
+/// Smallest side in pixels of a level that is halved once more.
+constexpr int kMinimumSide = 32;
 
 using Float4 = float __attribute__((vector_size(16)));
 using Byte4 = uint8_t __attribute__((vector_size(4)));
@@ -42,7 +46,8 @@ LumaPyramid::LumaPyramid(const uint8_t* pixels, int width, int height, int chann
     });
   }
   levels_.push_back(std::move(base));
-  while (levels_.size() < kLevels && std::min(levels_.back().width, levels_.back().height) >= 32) {
+  while (levels_.size() < kLevels &&
+         std::min(levels_.back().width, levels_.back().height) >= kMinimumSide) {
     add_half();
   }
 }
@@ -51,15 +56,7 @@ void LumaPyramid::add_half() {
   const Level& full = levels_.back();
   Level half{full.width / 2, full.height / 2, {}};
   half.pixels.resize(static_cast<size_t>(half.width) * half.height);
-  for (int y = 0; y < half.height; ++y) {
-    const uint8_t* upper = full.pixels.data() + static_cast<size_t>(2 * y) * full.width;
-    const uint8_t* lower = upper + full.width;
-    uint8_t* out = half.pixels.data() + static_cast<size_t>(y) * half.width;
-    for (int x = 0; x < half.width; ++x) {
-      const int sum = upper[2 * x] + upper[2 * x + 1] + lower[2 * x] + lower[2 * x + 1];
-      out[x] = static_cast<uint8_t>((sum + 2) / 4);
-    }
-  }
+  halve(full.pixels.data(), full.width, full.height, half.pixels.data());
   levels_.push_back(std::move(half));
 }
 

@@ -13,6 +13,20 @@
 namespace ck {
 namespace {
 
+/// Levenberg–Marquardt: initial damping, its bounds, and the relative decrease of the cost below
+/// which it stops.
+constexpr double kInitialDamping = 1e-4, kMinimumDamping = 1e-12, kMaximumDamping = 1e6;
+constexpr double kTolerance = 1e-8;
+/// Largest number of steps within RANSAC and at its end.
+constexpr int kLocalSteps = 8, kFinalSteps = 20;
+/// The Huber loss changes from quadratic to linear at the error limit divided by this number within
+/// RANSAC, and at most at this number of pixels at its end.
+constexpr double kLocalHuberDivisor = 3, kMaximumHuberWidth = 1;
+/// Smallest number of hypotheses: a minimal sample is never exact.
+constexpr int kMinimumIterations = 30;
+/// Number of hypotheses between two progress reports.
+constexpr int kReportInterval = 50;
+
 /// The 2D–3D correspondences of a photo.
 struct Resection {
   const ck_camera& camera;
@@ -20,6 +34,7 @@ struct Resection {
   std::vector<Vector2> pixels;
   /// Unit rays in the camera frame.
   std::vector<Vector3> rays;
+  /// Square of the largest reprojection error of an inlier.
   double maximum_square;
 
   size_t size() const { return points.size(); }
@@ -27,7 +42,7 @@ struct Resection {
   /// The squared reprojection error in pixels squared; infinite behind the camera.
   double square_error(const Pose& pose, size_t i) const {
     const Vector3 p = pose * points[i];
-    if (!(p.z() > 1e-9)) return std::numeric_limits<double>::infinity();
+    if (!(p.z() > kMinimumDepth)) return std::numeric_limits<double>::infinity();
     return (project(camera, p) - pixels[i]).squaredNorm();
   }
 
@@ -75,7 +90,7 @@ struct Resection {
     for (size_t i = 0; i < size(); ++i) {
       const Vector3 rotated = pose.rotation * points[i];
       const Vector3 p = rotated + pose.translation;
-      if (!(p.z() > 1e-9)) {
+      if (!(p.z() > kMinimumDepth)) {
         cost += maximum_square;
         continue;
       }
@@ -99,7 +114,7 @@ struct Resection {
 
   /// Levenberg–Marquardt on the inliers.
   Pose refine(Pose pose, int iterations, double huber) const {
-    double lambda = 1e-4;
+    double lambda = kInitialDamping;
     Eigen::Matrix<double, 6, 6> h;
     Eigen::Matrix<double, 6, 1> g;
     double cost = normal_equations(pose, huber, h, g);
@@ -116,16 +131,16 @@ struct Resection {
       Eigen::Matrix<double, 6, 1> next_g;
       const double next_cost = normal_equations(next, huber, next_h, next_g);
       if (next_cost < cost) {
-        const bool converged = cost - next_cost < 1e-8 * cost;
+        const bool converged = cost - next_cost < kTolerance * cost;
         pose = next;
         cost = next_cost;
         h = next_h;
         g = next_g;
-        lambda = std::max(1e-12, lambda / 10);
+        lambda = std::max(kMinimumDamping, lambda / 10);
         if (converged) break;
       } else {
         lambda *= 10;
-        if (lambda > 1e6) break;
+        if (lambda > kMaximumDamping) break;
       }
     }
     return pose;
@@ -141,16 +156,17 @@ int needed_iterations(double inlier_ratio, double confidence) {
   return n > 1e9 ? std::numeric_limits<int>::max() : static_cast<int>(std::ceil(n));
 }
 
+/// LO-RANSAC: the pose with the lowest score; false if no sample determines one.
 bool search(const Resection& problem, const ck_resection_options& options,
             const ck_control* control, Pose& best) {
   Random random(options.seed);
   double best_score = std::numeric_limits<double>::infinity();
-  // A minimal sample is never exact, so the number of iterations has a lower bound.
-  const int least = std::min(options.maximum_iterations, 30);
+  const int least = std::min(options.maximum_iterations, kMinimumIterations);
   int limit = options.maximum_iterations;
   std::array<Pose, 4> poses;
   for (int iteration = 0; iteration < std::max(least, limit); ++iteration) {
-    if (iteration % 50 == 0) step(control, double(iteration) / options.maximum_iterations);
+    if (iteration % kReportInterval == 0)
+      step(control, double(iteration) / options.maximum_iterations);
     int found = 0;
     if (!problem.sample(random, poses, found)) continue;
     for (int k = 0; k < found; ++k) {
@@ -158,7 +174,8 @@ bool search(const Resection& problem, const ck_resection_options& options,
       if (!(score < best_score)) continue;
       best = poses[k];
       best_score = score;
-      const Pose local = problem.refine(poses[k], 8, std::sqrt(problem.maximum_square) / 3);
+      const Pose local = problem.refine(poses[k], kLocalSteps,
+                                        std::sqrt(problem.maximum_square) / kLocalHuberDivisor);
       score = problem.score(local, best_score);
       if (score < best_score) {
         best = local;
@@ -199,7 +216,7 @@ ck_status ck_resect(const ck_camera* camera, ck_span pixels, ck_span points,
     Pose best;
     if (!search(problem, *options, control, best))
       throw Degenerate("no pose agrees with the points");
-    best = problem.refine(best, 20, std::min(1.0, options->maximum_error));
+    best = problem.refine(best, kFinalSteps, std::min(kMaximumHuberWidth, options->maximum_error));
     for (size_t i = 0; i < count; ++i) {
       inliers[i] = problem.square_error(best, i) <= problem.maximum_square;
       *inlier_count += inliers[i];

@@ -98,7 +98,7 @@ std::vector<std::vector<uint32_t>> points_of_photos(const ck_seen_points& seen,
   std::vector<std::vector<uint32_t>> points(photo_count);
   for (size_t i = 0; i < seen.positions.count; ++i) {
     for (uint32_t k = seen.photo_offsets[i]; k < seen.photo_offsets[i + 1]; ++k) {
-      ck::require(seen.photos[k] < photo_count, "a point names a photo that does not exist");
+      ck::require(seen.photos[k] < photo_count, "a point refers to a photo that does not exist");
       points[seen.photos[k]].push_back(static_cast<uint32_t>(i));
     }
   }

@@ -31,7 +31,7 @@ void RefinedMesh::find_neighbors() {
     if (end - i != 2) is_border[from] = 1;
     neighbors.push_back(to);
     ++offsets[from + 1];
-    mean_edge += texture::length(positions[to] - positions[from]);
+    mean_edge += length(positions[to] - positions[from]);
   }
   for (size_t v = 0; v < positions.size(); ++v) offsets[v + 1] += offsets[v];
   mean_edge /= static_cast<double>(std::max<size_t>(1, neighbors.size()));
@@ -43,7 +43,7 @@ void RefinedMesh::find_normals() {
     const Vec3 n = doubled_area(t);
     for (uint32_t v : t) normals[v] += n;
   }
-  for (Vec3& n : normals) n = texture::normalized(n);
+  for (Vec3& n : normals) n = normalized(n);
 }
 
 namespace {
@@ -51,10 +51,11 @@ namespace {
 /// The number of views to compare concurrently: one per thread, fewer for large views, because the
 /// comparison takes a few hundred bytes per pixel.
 size_t views_at_once(const std::vector<RefinementView>& views, const ck_control* control) {
-  constexpr size_t kMostPixels = 24'000'000;
+  constexpr size_t kMaximumPixels = 24'000'000;
   size_t largest = 1;
   for (const RefinementView& view : views) largest = std::max(largest, view.luminance.size());
-  return std::clamp<size_t>(kMostPixels / largest, 1, static_cast<size_t>(thread_count(control)));
+  return std::clamp<size_t>(kMaximumPixels / largest, 1,
+                            static_cast<size_t>(thread_count(control)));
 }
 
 /// Compares the views, several concurrently, and accumulates their evidence in a fixed order.
@@ -116,7 +117,7 @@ ck_status ck_photo_refinement_create(const ck_mesh* input,
     result->options = *options;
     auto& mesh = result->mesh;
     for (size_t i = 0; i < positions.count; ++i) {
-      const auto p = ck::texture::vec_at(positions, i);
+      const auto p = ck::vec_at(positions, i);
       ck::require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z),
                   "a mesh vertex is not finite");
       mesh.positions.push_back(p);
@@ -124,7 +125,7 @@ ck_status ck_photo_refinement_create(const ck_mesh* input,
     for (size_t t = 0; t < triangle_count; ++t) {
       const uint32_t* v = triangles + 3 * t;
       ck::require(std::max({v[0], v[1], v[2]}) < positions.count,
-                  "a triangle names a vertex that isn't there");
+                  "a triangle refers to a vertex that does not exist");
       mesh.triangles.push_back({v[0], v[1], v[2]});
     }
     mesh.find_neighbors();

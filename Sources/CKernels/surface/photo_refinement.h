@@ -11,8 +11,6 @@
 
 namespace ck::surface {
 
-using texture::Vec3;
-
 /// A mesh with the connectivity and normals that the refinement uses.
 struct RefinedMesh {
   std::vector<Vec3> positions;
@@ -33,7 +31,7 @@ struct RefinedMesh {
   /// The normal of a triangle, with twice its area as length.
   Vec3 doubled_area(const std::array<uint32_t, 3>& t) const {
     const Vec3 a = positions[t[0]];
-    return texture::cross(positions[t[1]] - a, positions[t[2]] - a);
+    return cross(positions[t[1]] - a, positions[t[2]] - a);
   }
 };
 
@@ -43,7 +41,7 @@ struct RefinementView {
   static constexpr int kShrink = 2;
 
   ck_view view;
-  texture::Projection projection;
+  Projection projection;
   std::vector<uint8_t> luminance;
   /// The smallest depth of the surface around each square of pixels; 0 outside the mask, infinity
   /// where there is no surface.

@@ -7,14 +7,12 @@
 namespace ck::surface {
 namespace {
 
-using texture::dot;
-
 /// Surface seen at a smaller cosine is not compared.
 constexpr float kMinimumCosine = 0.25f;
 /// Correlation from which a window has full weight.
 constexpr float kGoodCorrelation = 0.9f;
 /// Smallest fraction of a window that must be visible in both photos. Empirical.
-constexpr float kLeastCoverage = 0.5f;
+constexpr float kMinimumCoverage = 0.5f;
 /// Threshold of the Huber weights, in standard deviations of the window.
 constexpr float kLargeDifference = 1;
 /// Image border in pixels that interpolation needs around a position.
@@ -125,7 +123,7 @@ class Comparison {
     for (auto& sum : sums_) sum_squares(image_.width, image_.height, options_.radius, &sum);
     const auto side = static_cast<float>(2 * options_.radius + 1);
     for (size_t i = 0; i < valid_.size(); ++i) {
-      if (valid_[i] > 0 && sums_[kCount][i] > kLeastCoverage * side * side) add_evidence(i);
+      if (valid_[i] > 0 && sums_[kCount][i] > kMinimumCoverage * side * side) add_evidence(i);
     }
   }
 
@@ -165,10 +163,10 @@ class Comparison {
       e.weights[k] = std::clamp(e.weights[k] / sum, 0.0f, 1.0f);
       point += mesh_.positions[t[k]] * e.weights[k];
     }
-    const Vec3 normal = texture::normalized(mesh_.doubled_area(t));
+    const Vec3 normal = normalized(mesh_.doubled_area(t));
     const Vec3 ray = point - view_.projection.center;
     const float slope = dot(normal, ray);
-    const bool is_good = sum != 0 && slope < -kMinimumCosine * texture::length(ray);
+    const bool is_good = sum != 0 && slope < -kMinimumCosine * length(ray);
     if (!is_good || !view_.sees(pixel, 0)) return {SurfaceImage::kNone, {}, 0, 0};
     points_[i] = point;
     moves_[i] = ray * (1 / slope);
@@ -253,7 +251,7 @@ void choose_partners(const RefinedMesh& mesh, int count, std::vector<RefinementV
     std::vector<std::pair<size_t, Vec3>> seeing;
     for (size_t i = 0; i < n; ++i) {
       const RefinementView& view = (*views)[i];
-      const Vec3 ray = texture::normalized(view.projection.center - mesh.positions[v]);
+      const Vec3 ray = normalized(view.projection.center - mesh.positions[v]);
       if (dot(ray, mesh.normals[v]) < kMinimumCosine) continue;
       if (view.sees(view.project(mesh.positions[v]), kMargin)) seeing.push_back({i, ray});
     }

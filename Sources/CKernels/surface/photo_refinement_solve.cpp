@@ -1,28 +1,30 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/median.h"
 #include "core/parallel.h"
 #include "surface/photo_refinement.h"
 
 namespace ck::surface {
 namespace {
 
-using texture::dot;
-
 /// Fractions of the median evidence: a vertex with less than the first is not moved; from the
 /// second on its bending term has full weight.
-constexpr double kLeastShare = 0.01, kGoodShare = 0.1;
+constexpr double kMinimumShare = 0.01, kGoodShare = 0.1;
 /// Mean bending around a vertex, relative to the mean edge length, at which the smoothness weight
 /// is halved: reduces smoothing at creases, but not at a single outlier.
 constexpr double kCrease = 0.02;
 /// Largest displacement of a vertex per round, in pixel footprints.
-constexpr float kLongestStep = 0.5f;
+constexpr float kMaximumStep = 0.5f;
 /// Cosine of the largest rotation of a triangle's normal per round.
 constexpr float kMinimumCosine = 0.5f;
 /// Conjugate gradient iterations.
 constexpr int kIterations = 40;
 /// Relative reduction of the squared preconditioned residual at which conjugate gradients stop.
 constexpr double kReduction = 1e-6;
+/// Diagonal element of the squared bending operator in the preconditioner: that of a regular mesh
+/// is 1 + 1/6.
+constexpr float kBendingDiagonal = 1.2f;
 /// Units of parallel work.
 constexpr size_t kBlocks = 64;
 
@@ -52,7 +54,7 @@ class System {
     for_all([&](size_t v) { heights[v] = static_cast<float>(bend_at(v) / unit); });
     for (size_t v = 0; v < size_; ++v) {
       const double slope2 = evidence.slope2[v] * unit * unit;
-      if (mesh.is_border[v] || !(slope2 > kLeastShare * median)) continue;
+      if (mesh.is_border[v] || !(slope2 > kMinimumShare * median)) continue;
       is_movable[v] = 1;
       const double sharpness = mean_around(v, heights) / crease;
       const double part = std::min(1.0, slope2 / (kGoodShare * median));
@@ -70,7 +72,7 @@ class System {
     std::vector<float> moves(size_, 0), rest = pull_, scaled(size_), image(size_);
     const auto precondition = [&] {
       for (size_t v = 0; v < size_; ++v) {
-        scaled[v] = is_movable[v] ? rest[v] / (diagonal_[v] + 1.2f * bending_[v]) : 0;
+        scaled[v] = is_movable[v] ? rest[v] / (diagonal_[v] + kBendingDiagonal * bending_[v]) : 0;
       }
     };
     precondition();
@@ -111,10 +113,7 @@ class System {
     for (double value : evidence.slope2) {
       if (value > 0) some.push_back(value);
     }
-    if (some.empty()) return 0;
-    const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
-    std::nth_element(some.begin(), middle, some.end());
-    return *middle;
+    return some.empty() ? 0 : median(some);
   }
 
   /// The height of the mean of its neighbors above a vertex, along the normal.
@@ -197,7 +196,7 @@ class Move {
   Move(const std::vector<float>& lengths, RefinedMesh* mesh)
       : mesh_(*mesh), before_(mesh->positions), lengths_(lengths) {
     for (const auto& t : mesh_.triangles) {
-      initial_normals_.push_back(texture::normalized(mesh_.doubled_area(t)));
+      initial_normals_.push_back(normalized(mesh_.doubled_area(t)));
     }
     for (uint32_t v = 0; v < lengths_.size(); ++v) place(v);
   }
@@ -224,13 +223,15 @@ class Move {
   }
 
  private:
+  /// Passes in which the displacements of rotated triangles are averaged.
   static constexpr int kPasses = 8;
 
+  /// Calls `body(triangle)` for the triangles that rotate too far.
   template <typename Body>
   void for_rotated(Body&& body) {
     for (size_t t = 0; t < initial_normals_.size(); ++t) {
       const auto& triangle = mesh_.triangles[t];
-      const Vec3 now = texture::normalized(mesh_.doubled_area(triangle));
+      const Vec3 now = normalized(mesh_.doubled_area(triangle));
       if (dot(now, initial_normals_[t]) < kMinimumCosine) body(triangle);
     }
   }
@@ -255,7 +256,7 @@ std::vector<uint8_t> move_vertices(const VertexEvidence& evidence, float smoothn
   System system(*mesh, evidence, smoothness, control);
   auto lengths = system.solve(control);
   for (size_t v = 0; v < lengths.size(); ++v) {
-    const float move = std::clamp(lengths[v], -kLongestStep, kLongestStep);
+    const float move = std::clamp(lengths[v], -kMaximumStep, kMaximumStep);
     lengths[v] = system.is_movable[v] ? move * static_cast<float>(evidence.footprint) : 0;
   }
   Move(lengths, mesh).limit_rotations();

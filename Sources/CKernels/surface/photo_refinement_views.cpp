@@ -6,9 +6,13 @@
 namespace ck::surface {
 namespace {
 
+/// The depth where there is no surface.
 constexpr float kFar = std::numeric_limits<float>::infinity();
 /// Depth tolerance of the occlusion test, in pixel footprints.
 constexpr float kTolerance = 5;
+/// Tolerance of the barycentric weights of a pixel center in a triangle, so that no pixel falls
+/// between two triangles.
+constexpr float kInsideTolerance = 1e-5f;
 
 /// Calls `visit(x, y, depth)` for all pixels whose center lies in the triangle `p` (x, y, 1 /
 /// depth).
@@ -30,8 +34,9 @@ void rasterize(const std::array<Vec3, 3>& p, int width, int height, Visit&& visi
       const float dx = static_cast<float>(x) + 0.5f - a.x, dy = static_cast<float>(y) + 0.5f - a.y;
       const float w1 = (dx * (c.y - a.y) - dy * (c.x - a.x)) * inverse;
       const float w2 = ((b.x - a.x) * dy - (b.y - a.y) * dx) * inverse;
-      // A tolerance, so that no pixel falls between two triangles.
-      if (w1 < -1e-5f || w2 < -1e-5f || w1 + w2 > 1 + 1e-5f) continue;
+      if (w1 < -kInsideTolerance || w2 < -kInsideTolerance || w1 + w2 > 1 + kInsideTolerance) {
+        continue;
+      }
       visit(x, y, 1 / (a.z + w1 * (b.z - a.z) + w2 * (c.z - a.z)));
     }
   }

@@ -24,7 +24,7 @@ struct ck_surface {
 
 namespace {
 
-/// State shared by the solver's thread and its caller; outlives whichever ends first.
+/// State shared by the solver's thread and its caller, freed by the one that ends last.
 struct Job {
   open3d::geometry::PointCloud cloud;
   ck_poisson_options options;
@@ -60,21 +60,31 @@ void run(const std::shared_ptr<Job>& job) {
   job->finished.notify_all();
 }
 
+/// Model of the solver's duration: seconds for 100,000 points at this octree depth, the factor per
+/// further level, and the exponent of the number of points. Results do not depend on it.
+constexpr double kReferenceSeconds = 3.4, kFactorPerLevel = 2.4, kPointExponent = 0.25;
+constexpr int kReferenceDepth = 8;
+/// Interval at which progress is reported and cancellation takes effect.
+constexpr std::chrono::milliseconds kPollingInterval(50);
+
 /// Estimated progress of the solver, which reports none: linear in the expected duration up to 80
 /// %, then asymptotically approaching 1.
 double fraction(double seconds, int depth, size_t points) {
-  const double expected =
-      3.4 * std::pow(2.4, depth - 8) * std::pow(1e-5 * static_cast<double>(points), 0.25);
+  const double expected = kReferenceSeconds * std::pow(kFactorPerLevel, depth - kReferenceDepth) *
+                          std::pow(1e-5 * static_cast<double>(points), kPointExponent);
   const double share = seconds / expected;
   return share < 0.8 ? share : 1 - 0.2 * std::exp(4 - 5 * share);
 }
 
-/// Waits for the job and reports progress; on cancellation detaches the worker.
+/// Waits for the job and reports progress.
+///
+/// On cancellation detaches the worker: Open3D's solver has no callback in which it could be
+/// stopped. The job keeps the points and the solver's memory until the worker ends.
 void await(Job& job, std::thread& worker, const ck_control* control) {
   const auto start = std::chrono::steady_clock::now();
   std::unique_lock<std::mutex> lock(job.mutex);
   while (!job.done) {
-    job.finished.wait_for(lock, std::chrono::milliseconds(50));
+    job.finished.wait_for(lock, kPollingInterval);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     try {
       ck::step(control, fraction(elapsed.count(), job.options.depth, job.cloud.points_.size()));

@@ -6,6 +6,10 @@
 namespace ck::texture {
 namespace {
 
+/// Tolerance of the barycentric weights of a texel center in a triangle, so that none is missed
+/// between two triangles; weight from which a center counts as covered twice.
+constexpr float kInsideTolerance = 1e-4f, kOverlapWeight = 1e-2f;
+
 /// Assigns every texel whose center lies in a triangle to it; of several triangles the first one
 /// keeps it.
 void rasterize(ck_atlas& atlas) {
@@ -24,12 +28,12 @@ void rasterize(ck_atlas& atlas) {
     for (int y = y0; y < std::min(y1, atlas.side); ++y) {
       for (int x = x0; x < std::min(x1, atlas.side); ++x) {
         const Vec3 w = map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        if (w.x < -1e-4f || w.y < -1e-4f || w.z < -1e-4f) continue;
+        if (w.x < -kInsideTolerance || w.y < -kInsideTolerance || w.z < -kInsideTolerance) continue;
         int32_t& slot = atlas.faces[atlas.index(x, y)];
         if (slot < 0) {
           slot = static_cast<int32_t>(f);
           ++atlas.covered;
-        } else if (w.x > 1e-2f && w.y > 1e-2f && w.z > 1e-2f) {
+        } else if (w.x > kOverlapWeight && w.y > kOverlapWeight && w.z > kOverlapWeight) {
           ++atlas.overlaps;
         }
       }

@@ -91,11 +91,7 @@ namespace ck::texture {
 template <typename Body>
 void for_each_face(const ck_atlas& atlas, const ck_control* control, Body&& body) {
   constexpr size_t kChunk = 512;
-  const size_t count = atlas.corners.size() / 6;
-  parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
-    const size_t end = std::min(count, (chunk + 1) * kChunk);
-    for (size_t f = chunk * kChunk; f < end; ++f) body(f);
-  });
+  parallel_for_blocks(control, atlas.corners.size() / 6, kChunk, body);
 }
 
 /// Fills the texels that belong to no triangle by push-pull: averages of the covered texels from

@@ -13,6 +13,10 @@ constexpr float kSteepestNormal = 0.05f;
 /// Cosine between the normals of the two surfaces above which they face the same way. Empirical.
 constexpr float kFacingCosine = 0.1f;
 
+/// Fraction of the search distance by which the rays outwards and inwards overlap, so that a
+/// surface at distance 0 is not missed by both.
+constexpr float kRayOverlap = 1e-3f;
+
 /// Encodes a unit vector as three bytes; the flat normal (0, 0, 1) is 128, 128, 255.
 void encode(Vec3 n, uint8_t* pixel) {
   const auto byte = [](float v) {
@@ -23,6 +27,7 @@ void encode(Vec3 n, uint8_t* pixel) {
   pixel[2] = byte(n.z);
 }
 
+/// The vector at `p`.
 Vec3 at(const float* p) { return {p[0], p[1], p[2]}; }
 
 /// The interpolated normal of the dense surface at a hit.
@@ -89,11 +94,10 @@ bool find_dense(const ck_bake_source& source, const BasePoint& base, DensePoint*
   // One ray outwards and one inwards along the normal; the nearer hit wins.
   for (const float sign : {1.0f, -1.0f}) {
     Hit hit;
-    // The rays overlap slightly, so that a surface at distance 0 is not missed by both.
-    const Vec3 origin = base.position - base.normal * (sign * reach * 1e-3f);
+    const Vec3 origin = base.position - base.normal * (sign * reach * kRayOverlap);
     if (!intersect(*source.dense, origin, base.normal * sign, 0, reach, &hit)) continue;
     if (dot(source.dense->face_normals[hit.triangle], base.normal) <= kFacingCosine) continue;
-    const float height = sign * (hit.distance - reach * 1e-3f);
+    const float height = sign * (hit.distance - reach * kRayOverlap);
     if (found && std::fabs(height) >= std::fabs(point->height)) continue;
     *point = {base.position + base.normal * height, dense_normal(source, hit), height};
     found = true;

@@ -13,20 +13,20 @@ constexpr float kStretchCost = 6;
 constexpr int kPasses = 4;
 
 /// Lower bound of the cosine by which foreshortening is weighted. Empirical.
-constexpr float kLeastForeshortening = 0.05f;
+constexpr float kMinimumForeshortening = 0.05f;
 
 /// A cluster's area, weighted by its foreshortening along an axis.
 float stretched_area(const Cluster& c, Vec3 axis) {
   const float along = dot(c.normal_sum, axis);
-  return c.area * (c.area / std::max(along, kLeastForeshortening * c.area));
+  return c.area * (c.area / std::max(along, kMinimumForeshortening * c.area));
 }
 
 }  // namespace
 
-bool fits(const Cluster& c, Vec3 axis, float least_cosine) {
+bool fits(const Cluster& c, Vec3 axis, float minimum_cosine) {
   if (dot(c.cone.axis, c.cone.axis) == 0) return true;
   const float between = std::acos(std::clamp(dot(c.cone.axis, axis), -1.0f, 1.0f));
-  return between + c.cone.angle < std::acos(least_cosine);
+  return between + c.cone.angle < std::acos(minimum_cosine);
 }
 
 ChartBorders::ChartBorders(const ClusterGraph& graph, const std::vector<Vec3>& axes,
@@ -35,7 +35,7 @@ ChartBorders::ChartBorders(const ClusterGraph& graph, const std::vector<Vec3>& a
     : graph_(graph),
       axes_(axes),
       typical_length_(static_cast<float>(typical_length)),
-      least_cosine_(std::cos(maximum_angle)),
+      minimum_cosine_(std::cos(maximum_angle)),
       charts_(*charts) {}
 
 void ChartBorders::shorten() {
@@ -67,7 +67,7 @@ uint32_t ChartBorders::better_chart(uint32_t cluster) {
   for (const Neighbor& other : around_) {
     const float more = stretched_area(c, axes_[other.cluster]) - before;
     const float gain = other.length - inside_ - kStretchCost * more / typical_length_;
-    if (gain <= most || !fits(c, axes_[other.cluster], least_cosine_)) continue;
+    if (gain <= most || !fits(c, axes_[other.cluster], minimum_cosine_)) continue;
     best = other.cluster;
     most = gain;
   }

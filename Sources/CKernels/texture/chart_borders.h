@@ -8,7 +8,7 @@
 namespace ck::texture {
 
 /// Whether all normals of a cluster have a larger cosine to an axis.
-bool fits(const Cluster& cluster, Vec3 axis, float least_cosine);
+bool fits(const Cluster& cluster, Vec3 axis, float minimum_cosine);
 
 /// Moves clusters along chart boundaries to neighboring charts where that shortens the boundaries.
 class ChartBorders {
@@ -29,7 +29,7 @@ class ChartBorders {
 
   const ClusterGraph& graph_;
   const std::vector<Vec3>& axes_;
-  const float typical_length_, least_cosine_;
+  const float typical_length_, minimum_cosine_;
   std::vector<uint32_t>& charts_;
   /// Reused buffers: the other charts around a cluster with the lengths of the common boundaries,
   /// the length of its boundary within the current chart, and its neighbors in the current chart.

@@ -32,7 +32,8 @@ ChartMesh::ChartMesh(const ck_mesh& mesh) {
   for (uint32_t t = 0; t < triangle_count; ++t) {
     for (uint32_t i = 0; i < 3; ++i) {
       triangles[t][i] = mesh.triangles[3 * t + i];
-      require(triangles[t][i] < position_count, "a triangle names a vertex that isn't there");
+      require(triangles[t][i] < position_count,
+              "a triangle refers to a vertex that does not exist");
     }
     const auto [a, b, c] = triangles[t];
     const Vec3 n = cross(positions[b] - positions[a], positions[c] - positions[a]);

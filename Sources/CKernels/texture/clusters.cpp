@@ -7,22 +7,22 @@
 
 #include "ck_texture.h"
 #include "core/guard.h"
+#include "core/random.h"
 #include "texture/chart_borders.h"
 #include "texture/cluster_graph.h"
 
 namespace ck::texture {
 namespace {
 
-/// Cost of a cluster per area that does not depend on its flatness or compactness, so that small
-/// clusters merge first.
+/// Cost of a cluster per area that does not depend on its flatness, so that small clusters merge
+/// first.
 constexpr float kPlainCost = 0.02f;
+/// 4π: the ratio of the squared perimeter of a disk to its area.
+constexpr float kDiskIrregularity = 12.566f;
 
 /// Hash of two numbers: the tie-breaking order of pairs with equal cost.
 uint64_t scrambled(uint32_t a, uint32_t b) {
-  uint64_t z = (static_cast<uint64_t>(a) << 32 | b) + 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
+  return Random(static_cast<uint64_t>(a) << 32 | b).next();
 }
 
 /// Merges clusters in rounds: in each round all pairs that are each other's cheapest neighbor.
@@ -55,11 +55,12 @@ class Clustering {
     if (joined_angle(a.cone, b.cone) > options_.maximum_angle) return -1;
     const float area = a.area + b.area;
     if (!(area > 0)) return 0;
-    // Spread of the normals times raggedness of the outline, with small clusters first.
-    const float unevenness = std::max(0.0f, 1 - length(a.normal_sum + b.normal_sum) / area);
+    // Spread of the normals times irregularity of the outline (1 for a disk, Garland et al.), with
+    // small clusters first.
+    const float spread = std::max(0.0f, 1 - length(a.normal_sum + b.normal_sum) / area);
     const float perimeter = std::max(0.0f, a.perimeter + b.perimeter - 2 * shared);
-    const float raggedness = perimeter * perimeter / (12.566f * area);
-    return area * (unevenness + kPlainCost) * raggedness;
+    const float irregularity = perimeter * perimeter / (kDiskIrregularity * area);
+    return area * (spread + kPlainCost) * irregularity;
   }
 
   bool merge_cheapest() {
@@ -105,7 +106,7 @@ class Clustering {
         ++pairs;
       }
     }
-    if (pairs * kFewestPairs >= waiting.size()) return parents;
+    if (pairs * kClustersPerPair >= waiting.size()) return parents;
     // Along a gradient of costs hardly any two are each other's cheapest; there the cheapest merge
     // first.
     std::sort(waiting.begin(), waiting.end(), [&](uint32_t a, uint32_t b) {
@@ -248,7 +249,7 @@ class Clustering {
   /// Smallest cosine between the axis of a chart and the normals of the triangles merged into it.
   static constexpr float kAbsorbedCosine = 0.4f;
   /// If there are fewer pairs than one per this number of unpaired clusters, more pairs are formed.
-  static constexpr size_t kFewestPairs = 16;
+  static constexpr size_t kClustersPerPair = 16;
 
   const ChartMesh& mesh_;
   const ck_chart_options& options_;
@@ -274,7 +275,7 @@ ck_status ck_cluster_faces(const ck_mesh* input, const ck_chart_options* options
     ck::step(control, 0);
     const ck::texture::ChartMesh mesh(*input);
     std::vector<int32_t> chart_of_face;
-    std::vector<ck::texture::Vec3> directions;
+    std::vector<ck::Vec3> directions;
     {
       ck::texture::Clustering clustering(mesh, *options);
       clustering.run(control);

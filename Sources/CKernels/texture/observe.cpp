@@ -11,6 +11,7 @@
 namespace ck::texture {
 namespace {
 
+/// The depth where there is no surface.
 constexpr float kFar = std::numeric_limits<float>::max();
 
 // Lengths in diagonals of the surface's bounding box; all empirical.
@@ -23,11 +24,13 @@ constexpr float kDepthTolerance = 0.004f;
 /// Position between a triangle's centroid (0) and its corners (1) at which rays start.
 constexpr float kCornerShare = 0.95f;
 
+/// The projection of a vertex.
 struct Corner {
   Vec2 pixel;
   float depth = 0;
 };
 
+/// The luminance of all pixels, 0…255.
 std::vector<float> luminance_of(const uint8_t* rgb, size_t pixels) {
   std::vector<float> gray(pixels);
   for (size_t i = 0; i < pixels; ++i) {
@@ -133,6 +136,7 @@ class Observer {
         radius_(std::max(1, static_cast<int>(std::ceil(options.margin / DepthRange::kShrink)))),
         depths_(scene, corners_, view, radius_) {}
 
+  /// Measures one triangle; its area is 0 if it is not visible.
   ck_face_observation observe(size_t t) const {
     ck_face_observation result{};
     const Vec3 centroid = scene_.centroid(t);
@@ -282,10 +286,7 @@ ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_view* view, const
     ck::step(control, 0);
     const ck::texture::Observer observer(*scene, *view, rgb, mask, *options);
     constexpr size_t kChunk = 4096;
-    const size_t count = scene->triangles.size();
-    ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      const size_t end = std::min(count, (chunk + 1) * kChunk);
-      for (size_t t = chunk * kChunk; t < end; ++t) observations[t] = observer.observe(t);
-    });
+    ck::parallel_for_blocks(control, scene->triangles.size(), kChunk,
+                            [&](size_t t) { observations[t] = observer.observe(t); });
   });
 }

@@ -13,6 +13,13 @@ namespace {
 /// part of it.
 constexpr size_t kSquare = 4;
 constexpr size_t kParts = kSquare * kSquare;
+/// Distance above the surface at which rays start, in diagonals of its bounding box, so that they
+/// do not hit the surface itself.
+constexpr float kLift = 5e-4f;
+/// Distance in texel spacings up to which texels share their rays.
+constexpr float kSharingDistance = 4;
+/// π (3 − √5) radians, between two points of a Fibonacci spiral.
+constexpr double kGoldenAngle = 2.399963229728653;
 
 /// Cosine-weighted directions of the upper hemisphere: a Fibonacci spiral on the disk, projected
 /// onto the sphere. Each subset of every 16th direction also covers all azimuths.
@@ -20,7 +27,7 @@ std::vector<Vec3> cosine_directions(size_t count) {
   std::vector<Vec3> directions(count);
   for (size_t i = 0; i < count; ++i) {
     const double r2 = (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double r = std::sqrt(r2), angle = 2.399963229728653 * static_cast<double>(i);
+    const double r = std::sqrt(r2), angle = kGoldenAngle * static_cast<double>(i);
     directions[i] = {static_cast<float>(r * std::cos(angle)),
                      static_cast<float>(r * std::sin(angle)),
                      static_cast<float>(std::sqrt(1 - r2))};
@@ -37,12 +44,13 @@ class AmbientOcclusionBaker {
       : atlas_(atlas),
         source_(source),
         reach_(reach),
-        lift_(5e-4f * atlas.scene.diagonal),
+        lift_(kLift * atlas.scene.diagonal),
         directions_(cosine_directions(kParts * rays_per_texel)),
         positions_(atlas.faces.size()),
         unoccluded_(atlas.faces.size(), 0),
         spacings_(atlas.corners.size() / 6, 0) {}
 
+  /// Casts the rays of all texels of the charts.
   void cast(const ck_control* control) {
     for_each_face(atlas_, control, [&](size_t face) {
       const float* corners = atlas_.corners.data() + 6 * face;
@@ -63,6 +71,7 @@ class AmbientOcclusionBaker {
     });
   }
 
+  /// Writes the means over the texels that share rays.
   void gather(const ck_control* control, uint8_t* gray) const {
     const auto side = static_cast<size_t>(atlas_.side);
     parallel_for(control, side, [&](size_t y) {
@@ -102,7 +111,7 @@ class AmbientOcclusionBaker {
   float mean_around(int x, int y) const {
     constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
     const size_t center = atlas_.index(x, y);
-    const float near = 4 * spacings_[static_cast<size_t>(atlas_.faces[center])];
+    const float near = kSharingDistance * spacings_[static_cast<size_t>(atlas_.faces[center])];
     float sum = 0, weight = 0;
     for (int dy = -2; dy <= 2; ++dy) {
       for (int dx = -2; dx <= 2; ++dx) {

@@ -12,7 +12,13 @@ namespace {
 constexpr int kMaximumRounds = 6;
 /// Cosine between a triangle's normal and the axis of its chart below which the triangle counts as
 /// back-facing or almost parallel to the axis. Empirical.
-constexpr float kLeaningCosine = 0.1f;
+constexpr float kObliqueCosine = 0.1f;
+
+/// Cells of the grid per side of a square with the mean area of a triangle, and largest number per
+/// side of the chart.
+constexpr float kCellsPerTriangleSide = 4, kMaximumCells = 2048;
+/// Barycentric weight of all corners from which a cell's center lies well inside a triangle.
+constexpr float kInsideWeight = 1e-3f;
 
 /// The triangles of each chart, in ascending order.
 std::vector<std::vector<uint32_t>> faces_by_chart(const std::vector<int32_t>& charts,
@@ -38,14 +44,15 @@ class OverlapFinder {
         high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
       }
     }
-    // About 16 cells per triangle.
-    const float cell = std::sqrt(std::max(area, 1e-30f) / static_cast<float>(faces.size())) / 4;
+    const float cell = std::sqrt(std::max(area, 1e-30f) / static_cast<float>(faces.size())) /
+                       kCellsPerTriangleSide;
     const Vec2 extent = high_ - low_;
-    cell_ = std::max({cell, extent.x / 2048, extent.y / 2048, 1e-12f});
+    cell_ = std::max({cell, extent.x / kMaximumCells, extent.y / kMaximumCells, 1e-12f});
     width_ = static_cast<int>(extent.x / cell_) + 2;
     height_ = static_cast<int>(extent.y / cell_) + 2;
   }
 
+  /// The triangles that overlap one with priority, or are back-facing, in ascending order.
   std::vector<uint32_t> find() const {
     std::vector<uint8_t> taken(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0);
     // Triangles that face the plane have priority, oblique ones are split off.
@@ -96,7 +103,7 @@ class OverlapFinder {
         const Vec2 q = Vec2{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f} - p[0];
         const float w1 = cross(q, p[2] - p[0]) / doubled;
         const float w2 = cross(p[1] - p[0], q) / doubled;
-        if (w1 > 1e-3f && w2 > 1e-3f && w1 + w2 < 0.999f) {
+        if (w1 > kInsideWeight && w2 > kInsideWeight && w1 + w2 < 0.999f) {
           cells->push_back(static_cast<size_t>(y) * static_cast<size_t>(width_) +
                            static_cast<size_t>(x));
         }
@@ -136,9 +143,9 @@ void split_components(const ChartMesh& mesh, std::vector<int32_t>* charts,
 }
 
 /// Whether a triangle is back-facing or almost parallel to the projection axis.
-bool leans_over(const ChartMesh& mesh, uint32_t face, Vec3 axis) {
+bool is_oblique(const ChartMesh& mesh, uint32_t face, Vec3 axis) {
   const Vec3 n = mesh.normals[face];
-  return dot(n, n) > 0 && dot(n, axis) < kLeaningCosine;
+  return dot(n, n) > 0 && dot(n, axis) < kObliqueCosine;
 }
 
 }  // namespace
@@ -154,10 +161,10 @@ void separate_overlaps(const ChartMesh& mesh, std::vector<int32_t>* charts,
       const Vec3 axis = (*axes)[c];
       int32_t spill = -1;
       for (const uint32_t f : OverlapFinder(mesh, faces[c], axis).find()) {
-        const bool leans = leans_over(mesh, f, axis);
+        const bool has_own_axis = is_oblique(mesh, f, axis);
         // Triangles split off stay together for now; the last round makes each a chart.
-        const bool is_alone = leans || round + 1 == kMaximumRounds;
-        if (is_alone || spill < 0) axes->push_back(leans ? mesh.normals[f] : axis);
+        const bool is_alone = has_own_axis || round + 1 == kMaximumRounds;
+        if (is_alone || spill < 0) axes->push_back(has_own_axis ? mesh.normals[f] : axis);
         const auto last = static_cast<int32_t>(axes->size() - 1);
         if (!is_alone && spill < 0) spill = last;
         (*charts)[f] = is_alone ? last : spill;

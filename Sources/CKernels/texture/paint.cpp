@@ -9,11 +9,18 @@ namespace {
 
 /// Steps of the fixed-point colors per gray level.
 constexpr float kSteps = 64;
+/// Largest magnitude of a fixed-point color.
+constexpr int kMaximumColor = 32000;
+/// Samples per side with which a texel averages pixels at most.
+constexpr int kMaximumSamples = 4;
 
+/// A color channel in fixed point.
 int16_t quantized(float value) {
-  return static_cast<int16_t>(std::lround(std::clamp(value * kSteps, -32000.0f, 32000.0f)));
+  constexpr float kLimit = kMaximumColor;
+  return static_cast<int16_t>(std::lround(std::clamp(value * kSteps, -kLimit, kLimit)));
 }
 
+/// The mean of the values at three corners with barycentric weights.
 Vec3 mix(Vec3 weights, Vec3 a, Vec3 b, Vec3 c) {
   return a * weights.x + b * weights.y + c * weights.z;
 }
@@ -32,8 +39,9 @@ class FacePainter {
     const float reach = std::max(std::sqrt(right.x * right.x + right.y * right.y),
                                  std::sqrt(down.x * down.x + down.y * down.y));
     // A texel that spans several pixels averages a corresponding number of samples.
-    samples_ =
-        std::isfinite(reach) ? std::clamp(static_cast<int>(std::ceil(reach - 0.25f)), 1, 4) : 1;
+    samples_ = std::isfinite(reach)
+                   ? std::clamp(static_cast<int>(std::ceil(reach - 0.25f)), 1, kMaximumSamples)
+                   : 1;
   }
 
   Vec3 color(int x, int y) const {
@@ -64,16 +72,18 @@ class FacePainter {
   int samples_ = 1;
 };
 
+/// The color offset at a corner.
 Vec3 offset_at(const ck_paint& paint, int corner) {
   const float* o = paint.offsets + 3 * corner;
   return {o[0], o[1], o[2]};
 }
 
+/// Adds a color to a texel, saturating.
 void add(ck_atlas& atlas, size_t texel, Vec3 color) {
   int16_t* slot = atlas.colors.data() + 3 * texel;
   const int16_t values[3] = {quantized(color.x), quantized(color.y), quantized(color.z)};
   for (int c = 0; c < 3; ++c) {
-    slot[c] = static_cast<int16_t>(std::clamp(slot[c] + values[c], -32000, 32000));
+    slot[c] = static_cast<int16_t>(std::clamp(slot[c] + values[c], -kMaximumColor, kMaximumColor));
   }
 }
 
@@ -84,38 +94,34 @@ ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rg
                          const float* gain, const ck_paint* paints, size_t paint_count,
                          const ck_control* control) {
   return ck::guarded([&] {
-    using ck::texture::Vec3;
+    using ck::Vec3;
     ck::require(atlas && (!rgb || (view && gain)), "an argument is missing");
     const ck_view no_view{};
     const ck_view& source = view ? *view : no_view;
-    const ck::texture::Projection projection(source);
+    const ck::Projection projection(source);
     constexpr size_t kChunk = 512;
-    ck::parallel_for(control, (paint_count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      const size_t end = std::min(paint_count, (chunk + 1) * kChunk);
-      for (size_t k = chunk * kChunk; k < end; ++k) {
-        const ck_paint& paint = paints[k];
-        ck::require(paint.face < atlas->scene.triangles.size(),
-                    "a paint entry refers to a triangle that does not exist");
-        const ck::texture::TexelMap map(atlas->corners.data() +
-                                        6 * static_cast<size_t>(paint.face));
-        if (!map.is_valid) continue;
-        const ck::texture::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
-        atlas->for_each_texel(paint.face, [&](int x, int y, size_t texel) {
-          const Vec3 w = ck::texture::TexelMap::clamped(
-              map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-          const float weight =
-              w.x * paint.weights[0] + w.y * paint.weights[1] + w.z * paint.weights[2];
-          if (weight <= 0) return;
-          Vec3 color =
-              ck::texture::mix(w, ck::texture::offset_at(paint, 0),
-                               ck::texture::offset_at(paint, 1), ck::texture::offset_at(paint, 2));
-          if (rgb) {
-            const Vec3 c = painter.color(x, y);
-            color += Vec3{c.x * gain[0], c.y * gain[1], c.z * gain[2]};
-          }
-          ck::texture::add(*atlas, texel, color * weight);
-        });
-      }
+    ck::parallel_for_blocks(control, paint_count, kChunk, [&](size_t k) {
+      const ck_paint& paint = paints[k];
+      ck::require(paint.face < atlas->scene.triangles.size(),
+                  "a paint entry refers to a triangle that does not exist");
+      const ck::texture::TexelMap map(atlas->corners.data() + 6 * static_cast<size_t>(paint.face));
+      if (!map.is_valid) return;
+      const ck::texture::FacePainter painter(*atlas, source, projection, rgb, map, paint.face);
+      atlas->for_each_texel(paint.face, [&](int x, int y, size_t texel) {
+        const Vec3 w = ck::texture::TexelMap::clamped(
+            map.weights(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const float weight =
+            w.x * paint.weights[0] + w.y * paint.weights[1] + w.z * paint.weights[2];
+        if (weight <= 0) return;
+        Vec3 color =
+            ck::texture::mix(w, ck::texture::offset_at(paint, 0), ck::texture::offset_at(paint, 1),
+                             ck::texture::offset_at(paint, 2));
+        if (rgb) {
+          const Vec3 c = painter.color(x, y);
+          color += Vec3{c.x * gain[0], c.y * gain[1], c.z * gain[2]};
+        }
+        ck::texture::add(*atlas, texel, color * weight);
+      });
     });
   });
 }

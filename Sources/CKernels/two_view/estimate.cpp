@@ -4,6 +4,7 @@
 
 #include "ck_two_view.h"
 #include "core/guard.h"
+#include "core/median.h"
 #include "two_view/ransac.h"
 #include "two_view/relative_pose.h"
 #include "two_view/solvers.h"
@@ -13,7 +14,10 @@ namespace {
 
 /// Levenberg–Marquardt steps within RANSAC and at its end.
 constexpr int kLocalSteps = 8, kFinalSteps = 30;
+/// Largest number of samples for the homography, of which only the number of inliers is used.
+constexpr int kMaximumHomographyIterations = 200;
 
+/// Copies the points of a sample.
 template <size_t N>
 void gather(const Matches& matches, const std::array<size_t, N>& sample, Eigen::Vector2d* first,
             Eigen::Vector2d* second) {
@@ -23,6 +27,7 @@ void gather(const Matches& matches, const std::array<size_t, N>& sample, Eigen::
   }
 }
 
+/// The matches with a Sampson error below `limit`.
 std::vector<size_t> inliers_of(const Eigen::Matrix3d& matrix, const Matches& matches,
                                double limit) {
   std::vector<double> errors(matches.size());
@@ -34,6 +39,7 @@ std::vector<size_t> inliers_of(const Eigen::Matrix3d& matrix, const Matches& mat
   return inliers;
 }
 
+/// Essential matrices for `ransac`.
 struct EssentialEstimator {
   using Model = Eigen::Matrix3d;
   static constexpr size_t kSampleSize = 5;
@@ -58,6 +64,7 @@ struct EssentialEstimator {
   }
 };
 
+/// Fundamental matrices for `ransac`.
 struct FundamentalEstimator {
   using Model = Eigen::Matrix3d;
   static constexpr size_t kSampleSize = 7;
@@ -80,6 +87,7 @@ struct FundamentalEstimator {
   }
 };
 
+/// Homographies for `ransac`.
 struct HomographyEstimator {
   using Model = Eigen::Matrix3d;
   static constexpr size_t kSampleSize = 4;
@@ -126,15 +134,17 @@ Matches subset(const Matches& matches, const std::vector<size_t>& indices) {
 size_t homography_support(const Matches& matches, const RansacOptions& options,
                           const ck_control* control) {
   RansacOptions quick = options;
-  quick.maximum_iterations = std::min(options.maximum_iterations, 200);
+  quick.maximum_iterations = std::min(options.maximum_iterations, kMaximumHomographyIterations);
   const auto result = ransac(HomographyEstimator{matches}, quick, control);
   return result.found ? result.inlier_count : 0;
 }
 
+/// The geometry of two views.
 struct Estimate {
   Eigen::Matrix3d matrix;
   RelativePose pose;
   std::vector<size_t> inliers;
+  /// Triangulation angles of the inliers in radians.
   std::vector<double> angles;
   int iterations = 0;
 };
@@ -188,13 +198,6 @@ Estimate estimate_uncalibrated(const Matches& matches, const RansacOptions& opti
   return estimate;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 void write_matrix(const Eigen::Matrix3d& matrix, double* elements) {
   Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(elements, 3, 3) = matrix;
 }
@@ -207,7 +210,7 @@ void write(const Estimate& estimate, size_t homography_inliers, ck_two_view_resu
   for (int k = 0; k < 3; ++k) result->translation[k] = estimate.pose.translation[k];
   result->inlier_count = estimate.inliers.size();
   result->homography_inlier_count = homography_inliers;
-  result->median_angle = median(estimate.angles);
+  result->median_angle = estimate.angles.empty() ? 0 : median(estimate.angles);
   result->iterations = estimate.iterations;
 }
 

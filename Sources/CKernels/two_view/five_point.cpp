@@ -13,6 +13,7 @@ using Linear = Eigen::Matrix<double, 1, 4>;
 using Quadratic = Eigen::Matrix<double, 1, 10>;
 using Cubic = Eigen::Matrix<double, 1, 20>;
 
+// The positions of products of monomials: of degrees 1 and 1, and of degrees 1 and 2.
 constexpr int kSquare[4][4] = {{0, 1, 2, 3}, {1, 4, 5, 6}, {2, 5, 7, 8}, {3, 6, 8, 9}};
 constexpr int kCube[4][10] = {{0, 2, 4, 5, 3, 8, 9, 10, 11, 12},
                               {2, 3, 8, 9, 1, 6, 7, 13, 14, 15},
@@ -92,11 +93,13 @@ void add_product(InZ& sum, double sign, const InZ& a, int da, const InZ& b, int 
   }
 }
 
-/// Three equations p x + q y + r = 0 with p, q of degree 3 and r of degree 4 in z.
+/// Three equations in x and y with z as hidden variable: p x + q y + r = 0 with p, q of degree 3
+/// and r of degree 4 in z.
 struct Hidden {
   InZ row[3][3] = {};
 };
 
+/// Subtracts z times one row from another, so that x and y occur linearly.
 Hidden hide_z(const Eigen::Matrix<double, 10, 10>& reduced) {
   Hidden hidden;
   for (int k = 0; k < 3; ++k) {
@@ -118,6 +121,7 @@ Hidden hide_z(const Eigen::Matrix<double, 10, 10>& reduced) {
   return hidden;
 }
 
+/// The determinant of the equations, a polynomial of degree 10 in z.
 InZ determinant(const Hidden& h) {
   InZ sum = {};
   constexpr int kEven[3][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}};

@@ -16,12 +16,14 @@ namespace ck {
 struct RansacOptions {
   /// Largest error of an inlier, in the estimator's unit.
   double maximum_error;
+  /// Required probability of drawing an outlier-free sample.
   double confidence;
   int minimum_iterations;
   int maximum_iterations;
   uint64_t seed;
 };
 
+/// The best model of RANSAC and its inliers.
 template <class Model>
 struct RansacResult {
   bool found = false;
@@ -71,6 +73,9 @@ RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
                                                const ck_control* control) {
   using Model = typename Estimator::Model;
   constexpr size_t kSize = Estimator::kSampleSize;
+  // Smallest length of the prefix: enough for different samples.
+  constexpr size_t kMinimumPool = 4 * kSize;
+  constexpr int kReportInterval = 64;
   RansacResult<Model> best;
   const size_t count = estimator.size();
   if (count < kSize) return best;
@@ -80,12 +85,13 @@ RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
   double needed = options.maximum_iterations;
   for (int i = 0; i < options.maximum_iterations; ++i) {
     if (i >= options.minimum_iterations && i >= needed) break;
-    if (i % 64 == 0) step(control, static_cast<double>(i) / options.maximum_iterations);
+    if (i % kReportInterval == 0)
+      step(control, static_cast<double>(i) / options.maximum_iterations);
     best.iterations = i + 1;
     const double grown = std::min(1.0, (i + 1.0) / growing);
     const size_t pool = std::min(
         count,
-        std::max<size_t>(4 * kSize, static_cast<size_t>(grown * static_cast<double>(count))));
+        std::max<size_t>(kMinimumPool, static_cast<size_t>(grown * static_cast<double>(count))));
     std::array<size_t, kSize> sample;
     for (size_t k = 0; k < kSize; ++k) {
       do {

@@ -7,6 +7,11 @@
 namespace ck {
 namespace {
 
+/// Levenberg–Marquardt: initial damping, its bounds, and the relative decrease of the cost below
+/// which it stops.
+constexpr double kInitialDamping = 1e-3, kMinimumDamping = 1e-9, kMaximumDamping = 1e6;
+constexpr double kTolerance = 1e-9;
+
 /// A matrix with its derivatives with respect to the local parameters.
 template <int N>
 struct Linearized {
@@ -28,6 +33,8 @@ Eigen::Matrix<double, 3, 2> tangent(const Eigen::Vector3d& v) {
   return basis;
 }
 
+/// The five parameters of a relative pose: a rotation vector applied from the left, and the
+/// direction of the translation.
 struct PoseParameters {
   static constexpr int kCount = 5;
   RelativePose pose;
@@ -55,7 +62,8 @@ struct PoseParameters {
   }
 };
 
-/// U diag(1, s, 0) Vᵀ.
+/// The seven parameters of a fundamental matrix U diag(1, s, 0) Vᵀ: rotation vectors of U and V,
+/// and s.
 struct FundamentalParameters {
   static constexpr int kCount = 7;
   Eigen::Matrix3d u, v;
@@ -83,6 +91,7 @@ struct FundamentalParameters {
   }
 };
 
+/// The sum of the squared Sampson errors, each truncated at `limit`².
 double truncated_cost(const Eigen::Matrix3d& matrix, const Matches& matches, double limit) {
   std::vector<double> errors(matches.size());
   sampson_errors(matrix, matches, 0, matches.size(), errors.data());
@@ -121,10 +130,11 @@ void accumulate(const Linearized<N>& model, const Matches& matches, double limit
   normal = full;
 }
 
+/// Levenberg–Marquardt on the truncated cost; returns the cost.
 template <class Parameters>
 double refine(Parameters& parameters, const Matches& matches, double limit, int iterations) {
   constexpr int N = Parameters::kCount;
-  double damping = 1e-3;
+  double damping = kInitialDamping;
   Linearized<N> model = parameters.linearized();
   double cost = truncated_cost(model.matrix, matches, limit);
   Eigen::Matrix<double, N, N> normal;
@@ -141,14 +151,14 @@ double refine(Parameters& parameters, const Matches& matches, double limit, int 
     const double moved_cost = truncated_cost(moved_model.matrix, matches, limit);
     if (!(moved_cost < cost)) {
       damping *= 10;
-      if (damping > 1e6) break;
+      if (damping > kMaximumDamping) break;
       continue;
     }
-    const bool converged = cost - moved_cost < 1e-9 * cost;
+    const bool converged = cost - moved_cost < kTolerance * cost;
     parameters = moved;
     model = moved_model;
     cost = moved_cost;
-    damping = std::max(1e-9, damping * 0.1);
+    damping = std::max(kMinimumDamping, damping * 0.1);
     if (converged) break;
     accumulate(model, matches, limit, normal, gradient);
   }

@@ -5,6 +5,7 @@ package struct ByteReader: Sendable {
   /// Byte order.
   package enum Order: Sendable { case big, little }
 
+  /// The content of the file.
   package let bytes: [UInt8]
 
   package init(_ bytes: [UInt8]) { self.bytes = bytes }
@@ -58,6 +59,11 @@ package struct ByteReader: Sendable {
     return slice.allSatisfy { $0 < 0x80 } ? String(decoding: slice, as: UTF8.self) : nil
   }
 
+  /// Whether the file starts as a JPEG, PNG or WebP file does.
+  var isJPEG: Bool { hasPrefix([0xFF, 0xD8]) }
+  var isPNG: Bool { hasPrefix([0x89, 0x50, 0x4E, 0x47]) }
+  var isWebP: Bool { hasPrefix("RIFF") && hasText("WEBP", at: 8) }
+
   /// Whether the first kilobyte contains only printable characters and white space.
   var looksLikeText: Bool {
     !bytes.isEmpty
@@ -69,6 +75,7 @@ package struct ByteReader: Sendable {
 package struct JPEGSegments: Sequence, IteratorProtocol {
   /// A marker segment.
   package struct Segment: Sendable {
+    /// The second byte of the marker.
     package var marker: UInt8
     /// Offsets of the content in the file, without the two length bytes.
     package var payload: Range<Int>

@@ -69,7 +69,7 @@ package enum HEIFFile {
 }
 
 extension [UInt8] {
-  /// Copies bytes allocated by a kernel, and frees them; empty for null.
+  /// Copies the bytes that a kernel allocated, and frees them; empty for null.
   init(taking bytes: OpaquePointer?) {
     guard let bytes else {
       self = []

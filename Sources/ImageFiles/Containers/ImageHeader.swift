@@ -4,6 +4,7 @@ import SceneModel
 ///
 /// File names are ignored. All reads are bounds-checked.
 package struct ImageHeader: Hashable, Sendable {
+  /// The format that the content has.
   package var format: Format
   /// Size in pixels as decoded, before EXIF orientation.
   package var width: Int
@@ -28,7 +29,7 @@ package struct ImageHeader: Hashable, Sendable {
       self = try Self.png(reader)
     } else if reader.hasPrefix("BM"), bytes.count >= 2, reader.uint32(14, .little) != nil {
       self = try Self.bmp(reader)
-    } else if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+    } else if reader.isWebP {
       self = try Self.webP(reader)
     } else if let heif = HEIFFile.Kind(reader) {
       self = try Self.heif(heif, bytes)
@@ -108,10 +109,11 @@ package struct ImageHeader: Hashable, Sendable {
       entries.first { $0.tag == tag }.flatMap { tiff.integer($0) }
     }
     // Camera raw files are TIFFs that start with a thumbnail.
-    if value(50706) != nil || value(254).map({ $0 & 1 != 0 }) == true {
+    let isThumbnail = (value(TIFFTag.subfileType) ?? 0) & 1 != 0
+    if value(TIFFTag.dngVersion) != nil || isThumbnail {
       throw .unsupportedFormat("a camera raw file")
     }
-    guard let width = value(256), let height = value(257) else {
+    guard let width = value(TIFFTag.imageWidth), let height = value(TIFFTag.imageHeight) else {
       throw .damaged("its TIFF header is damaged or cut off")
     }
     return ImageHeader(format: .tiff, width: width, height: height)
@@ -121,11 +123,11 @@ package struct ImageHeader: Hashable, Sendable {
   /// files.
   package static func declaresAlpha(_ bytes: [UInt8]) -> Bool {
     let reader = ByteReader(bytes)
-    if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
+    if reader.isPNG {
       // Gray or color, with alpha.
       return [4, 6].contains(reader.byte(25))
     }
-    if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+    if reader.isWebP {
       if reader.hasText("VP8X", at: 12) { return (reader.byte(20) ?? 0) & 0x10 != 0 }
       return reader.hasText("VP8L", at: 12) && (reader.byte(24) ?? 0) & 0x10 != 0
     }
@@ -134,7 +136,9 @@ package struct ImageHeader: Hashable, Sendable {
     }
     guard let tiff = TIFFStructure(reader) else { return false }
     // Samples in addition to the color channels.
-    return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains { $0.tag == 338 }
+    return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains {
+      $0.tag == TIFFTag.extraSamples
+    }
   }
 
   /// Distinguishes images in unsupported formats from files that aren't images.

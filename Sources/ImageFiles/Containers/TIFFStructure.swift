@@ -73,15 +73,15 @@ package struct TIFFStructure: Sendable {
 
   /// Finds the structure with the EXIF data of an image file.
   package init?(exifOf reader: ByteReader) {
-    if reader.hasPrefix([0xFF, 0xD8]) {
+    if reader.isJPEG {
       let found = JPEGSegments(reader).lazy
         .filter { $0.marker == 0xE1 && reader.hasText("Exif\0", at: $0.payload.lowerBound) }
         .compactMap { TIFFStructure(reader, at: $0.payload.lowerBound + 6) }.first
       guard let found else { return nil }
       self = found
-    } else if reader.hasPrefix([0x89, 0x50, 0x4E, 0x47]) {
+    } else if reader.isPNG {
       self.init(reader, FileChunks(png: reader).first { $0.name == "eXIf" })
-    } else if reader.hasPrefix("RIFF"), reader.hasText("WEBP", at: 8) {
+    } else if reader.isWebP {
       self.init(reader, FileChunks(webP: reader).first { $0.name == "EXIF" })
     } else if HEIFFile.Kind(reader) != nil {
       guard let exif = HEIFFile.exif(reader.bytes) else { return nil }

@@ -6,14 +6,15 @@ import SceneModel
 package struct BundleAdjustment: Sendable {
   /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
+    /// Maximum number of Levenberg–Marquardt iterations.
     package var maximumIterations = 50
     /// Residual at which the Huber loss changes from quadratic to linear, in pixels.
     package var huberWidth = 1.0
     /// Stops when the relative decrease of the cost falls below this.
     package var functionTolerance = 1e-6
-    /// Above this number of photos, systems are factorized sparsely.
+    /// Above this number of free photos, reduced camera systems are factorized as sparse matrices.
     package var densePhotoLimit = 60
-    /// Above this number of photos, systems are solved by preconditioned conjugate gradients.
+    /// Above this number of free photos, they are solved by preconditioned conjugate gradients.
     package var directPhotoLimit = 1000
 
     package init() {}
@@ -41,11 +42,11 @@ package struct BundleAdjustment: Sendable {
     package var focalLength = 1.0
     /// Pixels.
     package var principalPoint = SIMD2<Double>.zero
-    /// Standard deviation of the focal length as a share of it.
+    /// Standard deviation relative to the focal length.
     package var focalLengthDeviation = 0.0
     /// Standard deviation in pixels.
     package var principalPointDeviation = 0.0
-    /// Standard deviation of k1 and k2 around zero.
+    /// Standard deviation of k1 and k2 about zero.
     package var radialDeviation = 0.0
 
     package init() {}
@@ -53,7 +54,9 @@ package struct BundleAdjustment: Sendable {
 
   /// How a photo's pose is optimized.
   package enum PoseFreedom: UInt8, Hashable, Sendable {
+    /// The pose is fixed.
     case constant = 0
+    /// Rotation and translation are optimized.
     case free = 1
     /// Free except for the largest component of its translation, which fixes the scale gauge.
     case scaleFixed = 2
@@ -61,9 +64,11 @@ package struct BundleAdjustment: Sendable {
 
   /// The scene to optimize.
   package struct Problem: Sendable {
+    /// Cameras and poses, the initial values.
     package var photos: PosedPhotos
     /// World frame.
     package var points: [SIMD3<Double>]
+    /// The pixels at which photos observe points.
     package var observations: [PointObservation]
     /// One value per camera.
     package var cameraFreedom: [CameraFreedom]
@@ -93,6 +98,7 @@ package struct BundleAdjustment: Sendable {
     /// The total loss in square pixels before and after.
     package var initialCost: Double
     package var finalCost: Double
+    /// Number of iterations.
     package var iterations: Int
     /// Whether the solver stopped before the maximum number of iterations.
     package var hasConverged: Bool

@@ -11,10 +11,15 @@ package struct Fingerprint {
     withUnsafeBytes(of: value.littleEndian) { bytes.append(contentsOf: $0) }
   }
 
+  /// Adds a value by its bit pattern.
   package mutating func add(_ value: Int) { add(UInt64(bitPattern: Int64(value))) }
+  /// Adds a value by its bit pattern; 0 and −0 differ.
   package mutating func add(_ value: Double) { add(value.bitPattern) }
+  /// Adds the elements in order.
   package mutating func add(_ value: SIMD2<Double>) { for i in 0..<2 { add(value[i]) } }
+  /// Adds the elements in order.
   package mutating func add(_ value: SIMD3<Double>) { for i in 0..<3 { add(value[i]) } }
+  /// Adds the elements in order.
   package mutating func add(_ value: SIMD4<Double>) { for i in 0..<4 { add(value[i]) } }
 
   /// Adds a sequence with its length, so that its end is unambiguous.

@@ -88,6 +88,7 @@ package final class CancellationFlag: Sendable {
 
   package init() {}
 
+  /// Whether the run is canceled.
   package var isCancelled: Bool { value.load(ordering: .relaxed) }
 
   /// Cancels the run; can't be undone.
@@ -96,9 +97,11 @@ package final class CancellationFlag: Sendable {
 
 /// Failure of a kernel, with the kernel's message.
 package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
+  /// An argument is out of range, or two arguments contradict each other.
   case invalidArgument(String)
   /// The input is valid but does not determine a result.
   case degenerate(String)
+  /// Any other failure: a damaged file, or an error of a library.
   case failed(String)
   /// Memory was insufficient; a later attempt may succeed.
   case outOfMemory
@@ -116,7 +119,8 @@ package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
 
 /// Calls a kernel and converts its status to an error.
 ///
-/// The `ck_control` is valid only during `body`.
+/// Throws `CancellationError` if the control cancels the kernel, otherwise `KernelError`. The
+/// `ck_control` is valid only during `body`.
 package func withKernel(
   _ control: KernelControl, _ body: (UnsafePointer<ck_control>) -> ck_status
 ) throws {

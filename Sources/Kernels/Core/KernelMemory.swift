@@ -126,6 +126,11 @@ extension Mesh {
 }
 
 extension RasterImage {
+  /// Whether the image is gray and has the size of another one, as the masks of kernels must.
+  func isGray(ofTheSizeOf image: RasterImage) -> Bool {
+    (width, height, channels) == (image.width, image.height, 1)
+  }
+
   /// Calls `body` with the pixels, valid only during the call.
   package func withKernelPixels<Result>(
     _ body: (UnsafePointer<ck_pixels>) throws -> Result

@@ -40,6 +40,7 @@ extension KernelControl {
       return try slots.compactMap { try $0?.get() }
     }
   }
+
   /// Like `parallelMap`, but progress is the mean of what the units report to their controls; a
   /// unit that reports nothing counts when it ends.
   package func parallelUnits<Result: Sendable>(

@@ -1,7 +1,7 @@
 import CKernels
 import SceneModel
 
-/// SIFT detector with RootSIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR
+/// SIFT detector with root-SIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR
 /// 2012).
 package struct FeatureDetection: Hashable, Codable, Sendable {
   /// Maximum number of features, the strongest of each grid cell.
@@ -38,7 +38,7 @@ package struct FeatureDetection: Hashable, Codable, Sendable {
   package func features(
     in image: RasterImage, mask: RasterImage? = nil, _ control: KernelControl
   ) throws -> FeatureSet {
-    if let mask, (mask.width, mask.height, mask.channels) != (image.width, image.height, 1) {
+    if let mask, !mask.isGray(ofTheSizeOf: image) {
       throw KernelError.invalidArgument("the mask is not gray or not of the image's size")
     }
     let output = DetectedFeatures(capacity: maximumFeatures)

@@ -49,6 +49,7 @@ package final class RayScene: Sendable {
 
   /// Immutable after `init`, so that threads may share it.
   nonisolated(unsafe) let handle: OpaquePointer
+  /// Number of triangles of the mesh.
   package let triangleCount: Int
 
   /// Throws `KernelError.invalidArgument` for a mesh without triangles or with invalid values.
@@ -69,9 +70,7 @@ package final class RayScene: Sendable {
     in view: PinholeView, options: ObservationOptions = ObservationOptions(),
     _ control: KernelControl
   ) throws -> [FaceObservation] {
-    if let mask = view.mask,
-      (mask.width, mask.height, mask.channels) != (view.image.width, view.image.height, 1)
-    {
+    if let mask = view.mask, !mask.isGray(ofTheSizeOf: view.image) {
       throw KernelError.invalidArgument("the mask is not gray or not of the view's size")
     }
     var raw = [ck_face_observation](repeating: ck_face_observation(), count: triangleCount)

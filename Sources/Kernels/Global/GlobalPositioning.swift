@@ -20,9 +20,10 @@ package struct PointDirection: Hashable, Sendable {
 package struct GlobalPositioning: Sendable {
   /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
+    /// Maximum number of Levenberg–Marquardt iterations.
     package var maximumIterations = 100
-    /// Where the Huber loss changes from quadratic to linear; residuals approximate sines of
-    /// angles.
+    /// Residual at which the Huber loss changes from quadratic to linear; residuals approximate
+    /// sines of angles.
     package var huberWidth = 0.1
     /// Stops when the relative decrease of the cost falls below this.
     package var functionTolerance = 1e-5
@@ -32,7 +33,7 @@ package struct GlobalPositioning: Sendable {
 
   /// The estimated positions, with statistics of the solver.
   package struct Result: Sendable {
-    /// Camera centers by photo, and points; the gauge (translation and scale) is arbitrary.
+    /// Camera centers by photo, and points; their position and scale are arbitrary (gauge freedom).
     package var centers: [SIMD3<Double>]
     package var points: [SIMD3<Double>]
     package var initialCost: Double

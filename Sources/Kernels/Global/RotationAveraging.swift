@@ -29,8 +29,8 @@ package struct RotationAveraging: Sendable {
     package var robustIterations = 30
     /// The scale of the robust loss is three times the median error, clamped to these bounds in
     /// degrees.
-    package var smallestScaleDegrees = 0.3
-    package var largestScaleDegrees = 5.0
+    package var minimumScaleDegrees = 0.3
+    package var maximumScaleDegrees = 5.0
     /// Stops when the mean change of a rotation falls below this, in radians.
     package var tolerance = 1e-6
 
@@ -65,8 +65,8 @@ package struct RotationAveraging: Sendable {
     var rawOptions = ck_rotation_averaging_options(
       absolute_iterations: Int32(options.absoluteIterations),
       robust_iterations: Int32(options.robustIterations),
-      smallest_scale: options.smallestScaleDegrees * .pi / 180,
-      largest_scale: options.largestScaleDegrees * .pi / 180, tolerance: options.tolerance)
+      minimum_scale: options.minimumScaleDegrees * .pi / 180,
+      maximum_scale: options.maximumScaleDegrees * .pi / 180, tolerance: options.tolerance)
     try withKernel(control) { control in
       rotations.withMutableSpan {
         ck_average_rotations(raw, raw.count, &rawOptions, control, $0, &errors)

@@ -4,6 +4,7 @@ import SceneModel
 /// The patches of one view under construction, with a single owner. `finished()` transfers the
 /// memory to an immutable map that threads may share.
 package struct PatchMapBuilder: ~Copyable {
+  /// The view that the patches belong to.
   package let view: PatchView
   private var memory: UniqueArray<ck_patch>
 
@@ -54,9 +55,10 @@ package struct PatchMapBuilder: ~Copyable {
 
 /// The patches of one view, and which of them the filter accepted. Immutable.
 package final class PatchMap: Sendable {
+  /// The view that the patches belong to.
   package let view: PatchView
   private let patches: FrozenArray<ck_patch>
-  /// Nil for an unfiltered map.
+  /// The result of the filter; nil for an unfiltered map.
   package let states: PatchStates?
 
   fileprivate init(

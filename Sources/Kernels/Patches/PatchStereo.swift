@@ -47,8 +47,8 @@ package enum PatchStereo {
     package var depthThreshold: Float = 0.01
     /// Maximum angle between normals in degrees.
     package var normalThresholdDegrees: Float = 60
-    /// Relative distance behind a patch at which another view sees through it (a free-space
-    /// violation).
+    /// Relative depth difference from which another view that sees past a patch counts as a
+    /// free-space violation.
     package var contradictionThreshold: Float = 0.01
     /// Number of erosion passes that remove boundary pixels similar to their rejected neighbors
     /// (foreground fattening).
@@ -57,7 +57,7 @@ package enum PatchStereo {
     package var depthEdgeContrast: Float = 10
     /// Connected components with fewer patches are removed.
     package var minimumIsland: Int
-    /// Maximum distance in pixels of patches that are fused.
+    /// Maximum disparity at which consistent patches are fused, in pixels of the coarser view.
     package var fusionThreshold: Float = 0.6
     /// Of the inner loops; results differ only by rounding.
     package var instructions = Instructions.automatic
@@ -139,10 +139,10 @@ package enum PatchStereo {
     return PatchStates(states: states, visibility: visibility)
   }
 
-  /// Expands patches across views and into holes: where the filter rejected patches of `map`, tries
-  /// those of its neighbor views and of adjacent pixels; near depth edges, patches are re-estimated
-  /// from the texels on their side. The map and all its neighbors must be filtered; the result must
-  /// be filtered again.
+  /// Propagates patches across views and into holes: where the filter rejected patches of `map`,
+  /// tests those of its neighbors and of adjacent pixels. Patches near depth discontinuities are
+  /// re-estimated from the texels on their side of the edge. The map and all its neighbors must be
+  /// filtered; the result must be filtered again.
   package static func complete(
     _ map: PatchMap, neighbors: [PatchMap], options: Options, control: KernelControl
   ) throws -> PatchMapBuilder {

@@ -3,6 +3,7 @@ import SceneModel
 
 /// A view prepared for patch stereo: its camera, and its luma and colors at fixed addresses.
 package final class PatchView: Sendable {
+  /// The photo that the view was made from.
   package let photo: ID<Photo>
   /// Pinhole camera of the view, without distortion.
   package let camera: Camera

@@ -9,7 +9,7 @@ import SceneModel
 /// less improves the accuracy of the position.
 package struct TemplateMatching: Hashable, Codable, Sendable {
   /// A square around a pixel.
-  package struct Place: Hashable, Sendable {
+  package struct Location: Hashable, Sendable {
     /// The center in pixels, origin at the top-left corner.
     package var center: SIMD2<Double>
     /// Pixel spacing of the 11 × 11 samples.
@@ -21,7 +21,7 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     }
   }
 
-  /// Sampled textures of squares, in the order of their places.
+  /// Sampled textures of squares, in the order of their locations.
   package struct Templates: Sendable {
     fileprivate var samples: [UInt16]
     /// Whether each lies within its photo and has texture in two directions.
@@ -81,10 +81,12 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
   package init() {}
 
   /// Samples the templates of one photo.
-  package static func templates(of places: [Place], in image: RasterImage) throws -> Templates {
-    var templates = Templates(count: places.count)
-    var valid = [UInt8](repeating: 0, count: places.count)
-    let raw = places.map { ck_template_location(x: $0.center.x, y: $0.center.y, step: $0.step) }
+  package static func templates(
+    of locations: [Location], in image: RasterImage
+  ) throws -> Templates {
+    var templates = Templates(count: locations.count)
+    var valid = [UInt8](repeating: 0, count: locations.count)
+    let raw = locations.map { ck_template_location(x: $0.center.x, y: $0.center.y, step: $0.step) }
     try withKernel(KernelControl()) { _ in
       image.withKernelPixels {
         ck_extract_templates($0, raw, raw.count, &templates.samples, &valid)

@@ -1,7 +1,8 @@
 import CKernels
 import SceneModel
 
-/// Estimates the pose of a photo from 2-D–3-D correspondences: LO-RANSAC with P3P.
+/// Estimates the pose of a photo from 2D–3D correspondences: LO-RANSAC with P3P (Persson
+/// and Nordberg, ECCV 2018).
 package struct Resection: Sendable {
   /// RANSAC parameters.
   package struct Options: Hashable, Codable, Sendable {
@@ -21,9 +22,11 @@ package struct Resection: Sendable {
 
   /// The estimated pose and its inliers.
   package struct Result: Sendable {
+    /// The pose of the photo.
     package var cameraFromWorld: RigidTransform
     /// One value per correspondence.
     package var isInlier: [Bool]
+    /// Number of inliers.
     package var inlierCount: Int
   }
 
@@ -31,8 +34,8 @@ package struct Resection: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The pose with the most inliers among the correspondences of `pixels` and `points` (world
-  /// frame).
+  /// The pose with the smallest sum of truncated squared reprojection errors of the correspondences
+  /// of `pixels` and `points` (world frame).
   ///
   /// Throws `KernelError.degenerate` if no pose has enough inliers.
   package func run(

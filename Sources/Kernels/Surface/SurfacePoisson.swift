@@ -5,7 +5,7 @@ import SceneModel
 package struct PoissonReconstruction: Hashable, Codable, Sendable {
   /// Octree depth: the smallest cells have a side of `scale × extent / 2^depth`.
   package var depth = 9
-  /// Side of the solved cube relative to the points' largest extent.
+  /// Side of the cube in which the system is solved, relative to the largest extent of the points.
   package var scale = 1.1
 
   package init() {}
@@ -21,6 +21,9 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
 
   /// Reconstructs the surface of oriented points; points that are not finite or have no normal are
   /// ignored.
+  ///
+  /// A canceled call returns at once, but its solver can't be interrupted: it occupies a processor
+  /// core and its memory until it ends.
   package func surface(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], _ control: KernelControl
   ) throws -> Surface {

@@ -15,8 +15,8 @@ package final class SurfaceRefinement {
     package var rounds = 3
     /// Maximum number of photos that each photo is compared with.
     package var neighbors = 8
-    /// Window radius: photos are compared after subtracting the means of windows of `2 × radius +
-    /// 1` pixels a side.
+    /// Photos are compared by normalized cross-correlation in windows of `2 × radius + 1` pixels
+    /// per side.
     package var radius = 6
     /// Standard deviation of luminance, 0…255, below which a window counts as untextured; two to
     /// three times the noise of photos.
@@ -64,7 +64,7 @@ package final class SurfaceRefinement {
     }
   }
 
-  /// The mesh with moved vertices, and the number of vertices that the photos determine. Boundary
+  /// The mesh with moved vertices, and the number of vertices that the photos constrain. Boundary
   /// vertices are fixed, as are those where fewer than two photos show texture. Normals are not
   /// updated.
   package func run(_ control: KernelControl) throws -> (mesh: Mesh, moved: Int) {
@@ -74,11 +74,5 @@ package final class SurfaceRefinement {
       result.positions.withMutableSpan { ck_photo_refinement_run(handle, control, $0, &moved) }
     }
     return (result, moved)
-  }
-}
-
-extension RasterImage {
-  fileprivate func isGray(ofTheSizeOf image: RasterImage) -> Bool {
-    (width, height, channels) == (image.width, image.height, 1)
   }
 }

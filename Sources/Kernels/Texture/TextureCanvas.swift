@@ -52,7 +52,7 @@ package final class TextureCanvas {
 
   deinit { ck_atlas_free(handle) }
 
-  /// The share of the texels that triangles cover.
+  /// The fraction of the texels whose center lies in a triangle.
   package var usage: Double {
     Double(ck_atlas_covered_count(handle)) / Double(side * side)
   }
@@ -89,7 +89,8 @@ package final class TextureCanvas {
     return result
   }
 
-  /// Bakes the dense surface's normals, and its distance as seen from the textured surface.
+  /// Bakes the normals of the dense surface in the tangent frame of the textured one, and its
+  /// signed distance along the normal, 0 and 255 at ∓`maximumDistance`.
   package func bake(
     _ source: BakeSource, displacement: Bool, _ control: KernelControl
   ) throws -> (normals: RasterImage, displacement: RasterImage?) {
@@ -104,8 +105,8 @@ package final class TextureCanvas {
     return (image, heights)
   }
 
-  /// Ambient occlusion: the cosine-weighted share of the hemisphere above each texel that the dense
-  /// surface leaves unoccluded within `maximumDistance`; 255 is unoccluded.
+  /// Ambient occlusion: the cosine-weighted fraction of the hemisphere above each texel that the
+  /// dense surface leaves unoccluded within `maximumDistance`; 255 is unoccluded.
   ///
   /// Texels share rays with adjacent ones, 16 × `raysPerTexel` in total.
   package func occlusion(

@@ -8,7 +8,7 @@ import SceneModel
 package struct ChartClustering: Hashable, Codable, Sendable {
   /// Maximum half-angle of the cone that contains the normals of a chart, in radians.
   package var maximumAngle: Float = 1
-  /// Charts with a smaller share of the surface's area are merged into a neighbor if that does not
+  /// Charts with a smaller fraction of the surface area are merged with a neighbor if that does not
   /// fold them.
   package var minimumShare: Float = 2e-4
 
@@ -74,8 +74,9 @@ package struct ChartPacking: Hashable, Codable, Sendable {
     self.maximumScale = maximumScale
   }
 
-  /// The placement of each chart. `corners` are the plane coordinates of each triangle's three
-  /// corners; `density` scales the charts relative to each other.
+  /// The placement of each chart. Throws `KernelError.degenerate` if they do not fit. `corners` are
+  /// the plane coordinates of each triangle's three corners; `density` scales the charts relative
+  /// to each other.
   package func run(
     corners: [SIMD2<Float>], charts: [Int32], density: [Float], _ control: KernelControl
   ) throws -> [ChartPlacement] {

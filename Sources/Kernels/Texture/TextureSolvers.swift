@@ -1,6 +1,7 @@
 import CKernels
 
-/// Assigns one label to each node of a graph in which neighbors should agree.
+/// Assigns one label to each node of a graph, at a cost per label and per edge between different
+/// labels.
 ///
 /// Potts model, minimized by sequential tree-reweighted message passing (Kolmogorov, PAMI 2006).
 package struct LabelSelection: Sendable {
@@ -36,7 +37,7 @@ package struct LabelSelection: Sendable {
     offsets.append(UInt32(labels.count))
   }
 
-  /// The chosen label of each node; −1 for nodes without candidates.
+  /// The label of each node; −1 for nodes without candidates.
   package func run(iterations: Int, _ control: KernelControl) throws -> [Int32] {
     let count = offsets.count - 1
     var choices = [Int32](repeating: -1, count: count)
@@ -59,6 +60,7 @@ package struct LabelSelection: Sendable {
 ///
 /// Accumulates the normal equations; solves them by conjugate gradients, starting from zero.
 package struct SparseLeastSquares: Sendable {
+  /// Number of unknowns, each a vector of three numbers.
   package let unknownCount: Int
   private var rows: [UInt32] = []
   private var columns: [UInt32] = []

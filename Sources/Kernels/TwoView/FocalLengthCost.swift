@@ -3,8 +3,8 @@ import SceneModel
 
 /// The cost of focal-length hypotheses, from the matches of two photos of one camera.
 package enum FocalLengthCost {
-  /// For each factor, the sum of min(Sampson error², limit²) of the best pose when the focal length
-  /// is the factor times the assumed one.
+  /// For each factor, the sum of min(Sampson error², limit²), in squared units of the points, of
+  /// the best pose when the focal length is the factor times the assumed one.
   ///
   /// Points are at depth 1 for the assumed focal length; `fundamental` is their fundamental matrix.
   package static func costs(

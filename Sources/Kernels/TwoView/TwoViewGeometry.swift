@@ -11,7 +11,7 @@ package struct TwoViewGeometry: Sendable {
   package var inliers: [Int]
   /// Number of inliers that are also consistent with one homography.
   package var homographyInlierCount: Int
-  /// Median angle in radians between the rays of the inliers.
+  /// Median triangulation angle of the inliers in radians.
   package var medianAngle: Double
   /// Number of samples drawn.
   package var iterations: Int
@@ -27,15 +27,17 @@ package struct TwoViewEstimation: Hashable, Codable, Sendable {
   package var maximumError = 1e-3
   /// Probability of finding the best model.
   package var confidence = 0.9999
+  /// Minimum number of samples to draw.
   package var minimumIterations = 30
+  /// Maximum number of samples to draw.
   package var maximumIterations = 1000
   /// Seed of the random samples.
   package var seed: UInt64 = 0
 
   package init() {}
 
-  /// The geometry with the most inliers; matches must be sorted best first. Nil if estimation
-  /// fails.
+  /// The geometry with the best MSAC score; matches must be sorted by quality, the best first. Nil
+  /// if no geometry is found.
   package func geometry(
     _ first: [SIMD2<Double>], _ second: [SIMD2<Double>], _ control: KernelControl
   ) throws -> TwoViewGeometry? {

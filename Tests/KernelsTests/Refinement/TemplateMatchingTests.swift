@@ -63,10 +63,10 @@ import Testing
     for index in stripes.pixels.indices {
       stripes.pixels[index] = index % 40 / 4 % 2 == 0 ? 60 : 160
     }
-    let place = TemplateMatching.Place(center: [20, 20], step: 1)
+    let place = TemplateMatching.Location(center: [20, 20], step: 1)
     #expect(try TemplateMatching.templates(of: [place], in: flat).isValid == [false])
     #expect(try TemplateMatching.templates(of: [place], in: stripes).isValid == [false])
-    let corner = TemplateMatching.Place(center: [3, 3], step: 1)
+    let corner = TemplateMatching.Location(center: [3, 3], step: 1)
     #expect(try TemplateMatching.templates(of: [corner], in: picture()).isValid == [false])
   }
 

@@ -36,7 +36,7 @@ struct TemplateExtraction: Sendable {
       guard !ofPhoto[photo].isEmpty else { return TemplateMatching.Templates(count: 0) }
       let (image, factor) = try image(photo)
       let places = ofPhoto[photo].compactMap { references[$0] }.map {
-        TemplateMatching.Place(center: $0.pixel * factor, step: $0.step * factor.x)
+        TemplateMatching.Location(center: $0.pixel * factor, step: $0.step * factor.x)
       }
       return try TemplateMatching.templates(of: places, in: image)
     }
