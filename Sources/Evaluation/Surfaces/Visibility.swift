@@ -33,10 +33,7 @@ struct Visibility: Sendable {
   ) -> Bool {
     let inCamera = camera.cameraFromWorld * SIMD3<Double>(point)
     guard inCamera.z > 0 else { return false }
-    let pixel = camera.camera.project(inCamera)
-    guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(camera.camera.width),
-      pixel.y < Double(camera.camera.height)
-    else { return false }
+    guard camera.camera.contains(camera.camera.project(inCamera)) else { return false }
     // From the point to the camera; the first thousandth is skipped to avoid hitting the surface
     // itself.
     let center = SIMD3<Float>(camera.cameraFromWorld.center)

@@ -63,7 +63,7 @@ extension PLY {
       try reader.forEachRow { element, row in
         if element.name == "vertex" {
           let point = vector(row, position)
-          guard isFinite(point) else { throw PLYFault("a vertex is not finite") }
+          guard point.isFinite else { throw PLYFault("a vertex is not finite") }
           mesh.positions.append(point)
           if let normal { mesh.normals.append(vector(row, normal)) }
           if let color { mesh.colors.append(Self.color(row, color, in: element)) }

@@ -83,7 +83,7 @@ private struct CloudColumns {
     _ row: PLYRow, of element: PLYHeader.Element, to cloud: inout PointCloud
   ) throws {
     let point = PLY.vector(row, position)
-    guard PLY.isFinite(point) else { return }
+    guard point.isFinite else { return }
     cloud.positions.append(point)
     if let normal { cloud.normals.append(PLY.vector(row, normal)) }
     if let color { cloud.colors.append(PLY.color(row, color, in: element)) }

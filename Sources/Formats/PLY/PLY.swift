@@ -44,8 +44,4 @@ package enum PLY {
     }
     return [channel(index.x), channel(index.y), channel(index.z)]
   }
-
-  static func isFinite(_ v: SIMD3<Float>) -> Bool {
-    v.x.isFinite && v.y.isFinite && v.z.isFinite
-  }
 }

@@ -84,9 +84,7 @@ package struct MeshGeneration {
 
   /// Throws unless the cloud has at least 100 finite points with normals and footprints.
   private func check(_ cloud: PointCloud) throws {
-    let finite = cloud.positions.reduce(0) {
-      $1.x.isFinite && $1.y.isFinite && $1.z.isFinite ? $0 + 1 : $0
-    }
+    let finite = cloud.positions.count { $0.isFinite }
     guard finite >= 100, cloud.normals.count == cloud.count,
       cloud.footprints.count == cloud.count
     else {

@@ -34,7 +34,7 @@ extension Reconstruction {
     var cloud = PointCloud()
     for point in points {
       let position = SIMD3<Float>(point.position)
-      guard position.x.isFinite, position.y.isFinite, position.z.isFinite else { continue }
+      guard position.isFinite else { continue }
       cloud.positions.append(position)
       cloud.colors.append(point.color)
       cloud.photoIndices.append(contentsOf: point.track.map { UInt16($0.photo.index) })

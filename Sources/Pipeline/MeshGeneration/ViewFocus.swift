@@ -69,9 +69,7 @@ struct ViewFocus: Sendable {
       guard p.z > 0 else { continue }
       let x = view.camera.focalLength.x * p.x / p.z + view.camera.principalPoint.x
       let y = view.camera.focalLength.y * p.y / p.z + view.camera.principalPoint.y
-      if x >= 0, y >= 0, x < Double(view.camera.width), y < Double(view.camera.height) {
-        count += 1
-      }
+      if view.camera.contains([x, y]) { count += 1 }
     }
     return Double(count) / Double(views.count)
   }
@@ -96,21 +94,5 @@ struct ViewFocus: Sendable {
       matrix.row2 += w * rows[2] + SIMD3(0, 0, pull)
     }
     return matrix.solution(of: right)
-  }
-}
-
-extension Matrix3 {
-  /// The solution x of `self · x = right` by Cramer's rule; nil for a singular matrix.
-  func solution(of right: SIMD3<Double>) -> SIMD3<Double>? {
-    let columns = transpose
-    let determinant = determinant
-    guard determinant.isFinite, abs(determinant) > .leastNormalMagnitude else { return nil }
-    func replaced(_ index: Int) -> Double {
-      var c = [columns.row0, columns.row1, columns.row2]
-      c[index] = right
-      return c[0].dot(c[1].cross(c[2]))
-    }
-    let solution = SIMD3(replaced(0), replaced(1), replaced(2)) / determinant
-    return solution.x.isFinite && solution.y.isFinite && solution.z.isFinite ? solution : nil
   }
 }

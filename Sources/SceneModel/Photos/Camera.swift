@@ -82,6 +82,11 @@ package struct Camera: Hashable, Codable, Sendable {
     )
   }
 
+  /// Whether a pixel is inside the photo.
+  package func contains(_ pixel: SIMD2<Double>) -> Bool {
+    pixel.x >= 0 && pixel.y >= 0 && pixel.x < Double(width) && pixel.y < Double(height)
+  }
+
   /// The camera of the photo resized to `width` × `height`.
   package func resized(width newWidth: Int, height newHeight: Int) -> Camera {
     let factor = SIMD2(Double(newWidth) / Double(width), Double(newHeight) / Double(height))

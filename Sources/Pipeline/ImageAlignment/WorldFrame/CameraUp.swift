@@ -20,12 +20,8 @@ struct CameraUp: Sendable {
     // The x axis of a camera held level is horizontal whatever the viewing direction. If the x axes
     // are spread enough, their common normal is more accurate than the mean of the tilted image
     // tops.
-    var scatter = [SIMD3<Double>](repeating: .zero, count: 3)
-    for rotation in rotations {
-      let x = rotation * SIMD3(1, 0, 0)
-      for axis in 0..<3 { scatter[axis] += x[axis] * x / Double(rotations.count) }
-    }
-    let (values, vectors) = Matrix3(rows: scatter[0], scatter[1], scatter[2]).symmetricEigen
+    let axes = rotations.map { $0 * SIMD3<Double>(1, 0, 0) }
+    let (values, vectors) = Matrix3(scatterOf: axes, about: .zero).symmetricEigen
     let normal = vectors[0].dot(mean) < 0 ? -vectors[0] : vectors[0]
     if values[0] < 0.02, values[1] > 0.1, normal.dot(direction) > 0.6 { direction = normal }
   }

@@ -110,12 +110,7 @@ struct GPSFit: Sendable {
   /// Twice the standard deviations along the two directions of largest variance.
   private static func spread(_ points: [SIMD3<Double>]) -> (largest: Double, second: Double) {
     let mean = points.reduce(.zero, +) / Double(max(1, points.count))
-    var rows = [SIMD3<Double>](repeating: .zero, count: 3)
-    for point in points {
-      let d = point - mean
-      for axis in 0..<3 { rows[axis] += d[axis] * d / Double(points.count) }
-    }
-    let values = Matrix3(rows: rows[0], rows[1], rows[2]).symmetricEigen.values
+    let values = Matrix3(scatterOf: points, about: mean).symmetricEigen.values
     return (2 * max(0, values[2]).squareRoot(), 2 * max(0, values[1]).squareRoot())
   }
 

@@ -22,9 +22,7 @@ struct ObjectRegion: Sendable {
         let camera = reconstruction.camera(of: photo)
         let inCamera = pose * point
         guard inCamera.z > 0 else { return false }
-        let pixel = camera.project(inCamera)
-        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < Double(camera.width)
-          && pixel.y < Double(camera.height)
+        return camera.contains(camera.project(inCamera))
       }
     }
     let most = views.sorted()[views.count * 9 / 10]

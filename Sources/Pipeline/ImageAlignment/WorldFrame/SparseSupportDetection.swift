@@ -93,12 +93,7 @@ struct SparseSupportDetection: Sendable {
     let inliers = points.filter { abs(plane.height(of: $0)) < plane.band }
     guard inliers.count >= 10 else { return }
     let mean = inliers.reduce(.zero, +) / Double(inliers.count)
-    var rows = [SIMD3<Double>](repeating: .zero, count: 3)
-    for point in inliers {
-      let d = point - mean
-      for axis in 0..<3 { rows[axis] += d[axis] * d / Double(inliers.count) }
-    }
-    let vector = Matrix3(rows: rows[0], rows[1], rows[2]).symmetricEigen.vectors[0]
+    let vector = Matrix3(scatterOf: inliers, about: mean).symmetricEigen.vectors[0]
     plane.normal = vector.dot(up) < 0 ? -vector : vector
     plane.offset = plane.normal.dot(mean)
   }
