@@ -223,8 +223,8 @@ package struct PhotoIngestion: Sendable {
     }
     result.refusedMasks.forEach { notes.warn($0.reason) }
     notes.record("megapixels", PhotoTotals(result.photos).megapixels)
-    if !accepted.isEmpty {
-      notes.record("medianSharpness", accepted.map(\.sharpness).sorted()[accepted.count / 2])
+    if let median = accepted.map(\.sharpness).upperMedian {
+      notes.record("medianSharpness", median)
     }
   }
 }

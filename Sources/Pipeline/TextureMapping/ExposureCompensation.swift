@@ -61,9 +61,9 @@ struct ExposureCompensation: Sendable {
       items.append(
         (Int(entry.view), log(Double(value + ExposureGain.encodingOffset)), Double(entry.cosine)))
     }
-    guard items.count >= 2 else { return }
-    let corrected = items.map { $0.log + gains[$0.view][channel] }.sorted()
-    let median = corrected[corrected.count / 2]
+    guard items.count >= 2,
+      let median = items.map({ $0.log + gains[$0.view][channel] }).upperMedian
+    else { return }
     for index in items.indices {
       let residual = abs(items[index].log + gains[items[index].view][channel] - median)
       if residual > options.huber { items[index].weight *= options.huber / residual }

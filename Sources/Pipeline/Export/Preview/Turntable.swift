@@ -125,10 +125,9 @@ struct Turntable: Sendable {
 
   /// The median elevation of the photos, within bounds.
   private func medianElevation(_ viewDirections: [SIMD3<Double>]) -> Double {
-    let elevations = viewDirections.map { asin(min(max($0.y, -1), 1)) }.sorted()
-    let middle = elevations.isEmpty ? nil : elevations[elevations.count / 2] * 180 / .pi
-    let degrees = middle.map {
-      min(max($0, options.minimumElevationDegrees), options.maximumElevationDegrees)
+    let median = viewDirections.map { asin(min(max($0.y, -1), 1)) }.upperMedian
+    let degrees = median.map {
+      min(max($0 * 180 / .pi, options.minimumElevationDegrees), options.maximumElevationDegrees)
     }
     return (degrees ?? options.elevationDegrees) * .pi / 180
   }

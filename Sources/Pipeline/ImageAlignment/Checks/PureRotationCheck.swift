@@ -87,8 +87,8 @@ package struct PureRotationCheck: Sendable {
     let half = first.count / 2
     let changes = (0..<half).map { i in
       abs(angle(first[i], first[i + half]) - angle(second[i], second[i + half]))
-    }.sorted()
-    return changes.isEmpty ? .infinity : changes[changes.count / 2]
+    }
+    return changes.upperMedian ?? .infinity
   }
 
   private func angle(_ a: SIMD3<Double>, _ b: SIMD3<Double>) -> Double {

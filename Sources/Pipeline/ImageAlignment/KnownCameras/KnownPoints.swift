@@ -51,10 +51,8 @@ struct KnownPoints: Sendable {
         let size = Double(max(camera.width, camera.height))
         return (camera.project(seen) - observation.pixel).length / size
       }
-    }.sorted()
-    guard let median = errors.isEmpty ? nil : errors[errors.count / 2],
-      !(median <= options.relativeMaximumError)
-    else { return }
+    }
+    guard let median = errors.upperMedian, !(median <= options.relativeMaximumError) else { return }
     throw PipelineError.camerasDontFit(
       reason: "most points given with them are not where the photos see them.")
   }

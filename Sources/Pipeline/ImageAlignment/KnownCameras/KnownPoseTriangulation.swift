@@ -173,8 +173,8 @@ package struct KnownPoseTriangulation: Sendable {
     }
     let sides = reconstruction.registered.map { photo in
       Double(max(reconstruction.camera(of: photo).width, reconstruction.camera(of: photo).height))
-    }.sorted()
-    let side = sides.isEmpty ? 0 : sides[sides.count / 2]
+    }
+    let side = sides.upperMedian ?? 0
     var step = PointTriangulation()
     step.options.minimumAngleDegrees = options.minimumAngleDegrees
     step.options.maximumError = max(

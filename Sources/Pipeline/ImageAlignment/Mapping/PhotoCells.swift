@@ -36,8 +36,7 @@ struct DepthGrid: Sendable {
       let (column, row) = cells.place(point.pixel)
       points[row * cells.columns + column].append(point)
     }
-    let depths = seen.map(\.depth).sorted()
-    medianDepth = depths.isEmpty ? nil : depths[depths.count / 2]
+    medianDepth = seen.map(\.depth).upperMedian
   }
 
   /// The smallest depth within one cell side of a pixel; nil if nothing is observed there.

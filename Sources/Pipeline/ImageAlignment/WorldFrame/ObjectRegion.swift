@@ -29,14 +29,12 @@ struct ObjectRegion: Sendable {
     core = zip(sample, views).filter { 10 * $1 >= 8 * most }.map(\.0)
     center = Self.median(core)
     let distances = reconstruction.poses.compactMap { $0.map { ($0.center - center).length } }
-      .sorted()
-    if !distances.isEmpty { cameraDistance = distances[distances.count / 2] }
+    if let median = distances.upperMedian { cameraDistance = median }
     surroundings = sample.filter { ($0 - center).length < 1.5 * cameraDistance }
   }
 
   private static func median(_ points: [SIMD3<Double>]) -> SIMD3<Double> {
-    guard !points.isEmpty else { return .zero }
-    func middle(_ axis: Int) -> Double { points.map { $0[axis] }.sorted()[points.count / 2] }
-    return [middle(0), middle(1), middle(2)]
+    func median(_ axis: Int) -> Double { points.map { $0[axis] }.upperMedian ?? 0 }
+    return [median(0), median(1), median(2)]
   }
 }
