@@ -36,8 +36,7 @@ package struct PairVerification {
     cameras: [Camera], _ context: StageContext
   ) throws -> ViewGraph {
     let points = try context.part(from: 0, to: 0.1).control.parallelMap(photos.count) { index in
-      let camera = cameras[photos[index].camera.index]
-      return features[index].positions.map { camera.unproject(SIMD2<Double>($0)) }
+      cameras[photos[index].camera.index].normalizedPositions(of: features[index])
     }
     let verified = try context.part(from: 0.1, to: 1).control.parallelMap(pairs.count) { index in
       let pair = pairs[index]
@@ -111,9 +110,6 @@ package struct PairVerification {
 
   /// The error limit in normalized image coordinates (depth 1), the mean over both photos.
   func maximumError(_ cameras: (Camera, Camera)) -> Double {
-    func size(_ camera: Camera) -> Double {
-      Double(max(camera.width, camera.height)) * 2 / (camera.focalLength.x + camera.focalLength.y)
-    }
-    return options.relativeMaximumError * (size(cameras.0) + size(cameras.1)) / 2
+    options.relativeMaximumError * (cameras.0.normalizedSide + cameras.1.normalizedSide) / 2
   }
 }

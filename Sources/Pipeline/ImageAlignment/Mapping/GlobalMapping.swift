@@ -11,6 +11,10 @@ package struct GlobalMapping: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Minimum number of matches of a pair whose rotation is used.
     package var minimumMatches = 30
+    /// Maximum distance from the epipolar line, as a fraction of the photo's longer side, in pairs
+    /// that were verified without focal lengths: a wrong focal length causes errors of a few
+    /// pixels.
+    package var relativeMaximumError = 0.003
     /// Maximum rotation of a consistent triplet's loop, in degrees.
     package var tripletErrorDegrees = 5.0
     /// Minimum fraction of its triplets in which a pair must be consistent.
