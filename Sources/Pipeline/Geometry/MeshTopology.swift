@@ -62,8 +62,3 @@ struct MeshTopology: Sendable {
     }
   }
 }
-
-extension Triangle {
-  /// The indices of the three vertices.
-  var vertices: [Int] { [Int(a), Int(b), Int(c)] }
-}
