@@ -152,6 +152,7 @@ private struct Reading {
       throw Fault(reason: "no image with id, pose, camera and name")
     }
     let p = try numbers(words[1...7])
+    // A quaternion that this program wrote has unit length up to rounding and stays as it is.
     let rotation = Quaternion(x: p[1], y: p[2], z: p[3], w: p[0])
     let length = p[0..<4].reduce(0) { $0 + $1 * $1 }
     images.append(

@@ -18,10 +18,7 @@ extension PLY {
     let hasConsistency = cloud.consistency.count == count && count > 0
     let hasFootprints = cloud.footprints.count == count && count > 0
     let hasPhotos = cloud.photoOffsets.count == count + 1 && count > 0
-    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(count)\n"
-    header += "property float x\nproperty float y\nproperty float z\n"
-    if hasNormals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
-    if hasColors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    var header = headerStart(vertices: count, normals: hasNormals, colors: hasColors)
     if hasConsistency { header += "property float consistency\n" }
     if hasFootprints { header += "property float footprint\n" }
     if hasPhotos { header += "property list ushort ushort photos\n" }

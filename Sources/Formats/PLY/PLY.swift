@@ -6,6 +6,15 @@ import SceneModel
 /// Reading supports ascii and both byte orders, skips unknown properties, and reports damaged files
 /// as `FormatError`.
 package enum PLY {
+  /// The header of a binary file up to the position, normal and color of its vertices.
+  static func headerStart(vertices: Int, normals: Bool, colors: Bool) -> String {
+    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(vertices)\n"
+    header += "property float x\nproperty float y\nproperty float z\n"
+    if normals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
+    if colors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    return header
+  }
+
   /// Reads `url` with `body`, and adds the path to errors.
   static func read<Result>(
     _ url: URL, _ body: (inout PLYReader) throws -> Result
@@ -27,6 +36,7 @@ package enum PLY {
     return [x, y, z]
   }
 
+  /// The values of three properties of a row.
   static func vector(_ row: PLYRow, _ index: SIMD3<Int>) -> SIMD3<Float> {
     [
       Float(row.scalars[index.x]), Float(row.scalars[index.y]), Float(row.scalars[index.z]),

@@ -11,6 +11,7 @@ package enum USDCrate {
   }
 }
 
+/// Collects the specs of a layer and writes the sections of the file.
 private struct CrateWriter {
   private struct Spec {
     var path: Int
@@ -18,7 +19,12 @@ private struct CrateWriter {
     var type: CrateSpecType
   }
 
+  private static let version: [UInt8] = [0, 7, 0, 0, 0, 0, 0, 0]
   private static let headerSize = 88
+  /// Offset in the header of the position of the table of contents.
+  private static let contentsOffset = 16
+  /// Bytes of a section's name in the table of contents.
+  private static let sectionNameSize = 16
   private static let endOfSet: UInt32 = .max
 
   private var values: CrateValues
@@ -32,8 +38,8 @@ private struct CrateWriter {
   init() {
     var file = ByteWriter(capacity: 1 << 20)
     file.append("PXR-USDC")
-    file.append(contentsOf: [0, 7, 0, 0, 0, 0, 0, 0])
-    file.append(contentsOf: [UInt8](repeating: 0, count: Self.headerSize - 16))
+    file.append(contentsOf: Self.version)
+    file.append(contentsOf: [UInt8](repeating: 0, count: Self.headerSize - file.count))
     values = CrateValues(file: file)
   }
 
@@ -148,11 +154,12 @@ private struct CrateWriter {
       writer.appendIntegers(writer.specs.map { Int32($0.fieldSet) })
       writer.appendIntegers(writer.specs.map { $0.type.rawValue })
     }
-    values.file.replace(at: 16, with: Int64(values.file.count))
+    values.file.replace(at: Self.contentsOffset, with: Int64(values.file.count))
     values.file.append(UInt64(sections.count))
     for section in sections {
       let name = Array(section.name.utf8)
-      values.file.append(contentsOf: name + [UInt8](repeating: 0, count: 16 - name.count))
+      values.file.append(
+        contentsOf: name + [UInt8](repeating: 0, count: Self.sectionNameSize - name.count))
       values.file.append(Int64(section.start))
       values.file.append(Int64(section.size))
     }
