@@ -10,7 +10,7 @@ package struct StoredZip {
   private static let alignment = 64
   /// 1980-01-01 00:00, the zip epoch.
   private static let date: UInt16 = 1 << 5 | 1
-  /// 1.0: nothing beyond stored files is needed to extract them.
+  /// The version needed to extract: 1.0, for stored entries.
   private static let version: UInt16 = 10
   private static let localHeaderSignature: UInt32 = 0x0403_4B50
   private static let directoryEntrySignature: UInt32 = 0x0201_4B50
