@@ -37,7 +37,13 @@ package struct GlobalMapping: Sendable {
     package var errorFactors = [4.0, 1.0]
     /// Minimum fraction of the points it observes that a photo must agree with.
     package var minimumPhotoShare = 0.4
-    /// Seed of the random initial positions of global positioning.
+    /// Median triangulation angle in radians beyond which a pair's points aren't any better
+    /// conditioned.
+    package var saturationAngle = 0.3
+    /// Half the side of the cube of random initial positions of global positioning; its unit is
+    /// arbitrary.
+    package var initialHalfExtent = 100.0
+    /// Seed of these positions.
     package var seed: UInt64 = 1
 
     package init() {}

@@ -6,6 +6,8 @@ struct MapAdjustment: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Number of photos in a local adjustment, including the new one.
     var localPhotoCount = 6
+    /// Maximum number of iterations of a local and of a global adjustment; the final one has twice
+    /// as many.
     var localIterations = 15
     var globalIterations = 30
     /// Relative cost decrease at which an adjustment terminates, while the map grows and for the
@@ -161,7 +163,9 @@ struct MapAdjustment: Sendable {
 }
 
 extension Camera {
-  /// False for a focal length, principal point or distortion that no real lens has.
+  /// False for a focal length, principal point or distortion that no real lens has. The limits
+  /// correspond to fields of view of 157° and 4° along the longer side, and to a principal point in
+  /// the outer fifth of the photo.
   var isPlausible: Bool {
     let ratio = focalLength.x / Double(max(width, height))
     let center = principalPoint / SIMD2(Double(width), Double(height))

@@ -59,7 +59,8 @@ package struct ObservationRefinement: Sendable {
       map.photos.cameras.map { options.workingPixel(width: $0.width, height: $0.height) }
       .max() ?? 1
     let median = try map.medianError(context.control)
-    adjustment.options.huberWidth = max(options.huberFactor * median, 0.1 * pixel)
+    adjustment.options.huberWidth = max(
+      options.huberFactor * median, options.minimumHuberWidth * pixel)
     try adjustment.adjustGlobally(&map, isFinal: isFinal, context.control)
     let bounds = options.errorBounds
     let error = min(
