@@ -143,7 +143,7 @@ struct VisibilityTest: Sendable {
     return best
   }
 
-  /// The corners of a template, in halves of its side.
+  /// The corners of a square around its center, in halves of its side.
   private static let corners: [SIMD2<Double>] = [[-1, -1], [1, -1], [-1, 1], [1, 1]]
 
   /// Starting positions of the search, in template samples.

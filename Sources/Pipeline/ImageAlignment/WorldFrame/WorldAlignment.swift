@@ -86,11 +86,11 @@ package struct WorldAlignment: Sendable {
     _ object: ObjectRegion, _ plane: SupportPlane?, _ up: SIMD3<Double>
   ) -> SIMD3<Double> {
     let heights = object.core.map { ($0 - object.center).dot(up) }.sorted()
-    let lowest = object.center + up * (heights.isEmpty ? 0 : heights[heights.count / 50])
+    let height = heights.isEmpty ? 0 : heights[heights.count / options.groundDivisor]
+    let lowest = object.center + up * height
     // A plane that was found for a different up direction, or above the object, is not the ground.
-    guard let plane, plane.normal.dot(up) > 0.96 else { return lowest }
-    let onPlane = object.center - plane.normal * plane.height(of: object.center)
-    return onPlane
+    guard let plane, plane.normal.dot(up) > options.groundCosine else { return lowest }
+    return object.center - plane.normal * plane.height(of: object.center)
   }
 
   /// The smallest rotation that maps `up` to +y.
