@@ -16,6 +16,12 @@ package struct MeshGeneration {
     package var maximumDepth = 9
     /// Share of photos with masks from which on the masks determine what is the object.
     package var sufficientMaskShare = 0.5
+    /// Minimum number of finite points of a cloud.
+    package var minimumPoints = 100
+
+    /// Number of pixels per view up to which the default depth suffices, and the largest depth for
+    /// more.
+    private static let (basePixels, largestDepth) = (500_000, 12)
 
     package init() {}
 
@@ -24,8 +30,9 @@ package struct MeshGeneration {
 
     /// From 0.5 MP on, four times the pixels double the resolution of the octree.
     package mutating func adapt(toViewPixels viewPixels: Int) {
-      let finer = log2(Double(max(500_000, viewPixels)) / 500_000) / 2
-      maximumDepth = min(12, 9 + Int(finer.rounded()))
+      let pixels = max(Self.basePixels, viewPixels)
+      let finer = log2(Double(pixels) / Double(Self.basePixels)) / 2
+      maximumDepth = min(Self.largestDepth, Self().maximumDepth + Int(finer.rounded()))
     }
   }
 
@@ -37,7 +44,6 @@ package struct MeshGeneration {
   /// object is what `silhouettes` retain.
   ///
   /// Throws `PipelineError.noSurface` if the cloud does not determine one.
-  /// Throws `PipelineError.noSurface` where the cloud does not determine one.
   package func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes? = nil,
     _ context: StageContext
@@ -45,9 +51,11 @@ package struct MeshGeneration {
     try check(cloud)
     let selection = try select(
       cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.05))
-    var downsampled = try VoxelDownsampling().run(
+    let downsampling = VoxelDownsampling()
+    var downsampled = try downsampling.run(
       cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
-    downsampled.cloud = try downsampled.withoutOutliers(context.control.part(from: 0.07, to: 0.1))
+    downsampled.cloud = try downsampling.withoutOutliers(
+      downsampled, context.control.part(from: 0.07, to: 0.1))
     context.notes.record("samples", Double(downsampled.cloud.count))
     var poisson = PoissonSurface()
     poisson.options.maximumDepth = options.maximumDepth
@@ -82,14 +90,15 @@ package struct MeshGeneration {
     var support: SupportPlane?
   }
 
-  /// Throws unless the cloud has at least 100 finite points with normals and footprints.
+  /// Throws unless the cloud has enough finite points, with normals and footprints.
   private func check(_ cloud: PointCloud) throws {
     let finite = cloud.positions.count { $0.isFinite }
-    guard finite >= 100, cloud.normals.count == cloud.count,
+    guard finite >= options.minimumPoints, cloud.normals.count == cloud.count,
       cloud.footprints.count == cloud.count
     else {
       throw PipelineError.noSurface(
-        reason: "the photos agree on \(finite) surface points only, at least 100 are needed.")
+        reason: "the photos agree on \(finite) surface points only, at least "
+          + "\(options.minimumPoints) are needed.")
     }
   }
 

@@ -3,6 +3,13 @@ import SceneModel
 /// The focus of the photos: the point nearest to all optical axes, and the share of photos that
 /// have a point in their frame.
 struct ViewFocus: Sendable {
+  /// Number of rounds of iteratively reweighted least squares.
+  private static let rounds = 10
+  /// Minimum residual that a weight is the inverse of, in typical depths.
+  private static let minimumResidual = 0.05
+  /// Weight of an anchor relative to that of its axis.
+  private static let anchorWeight = 0.05
+
   /// World frame.
   var point: SIMD3<Double>
   /// Median distance of the cameras to `point`, in world units.
@@ -37,13 +44,13 @@ struct ViewFocus: Sendable {
     }
     var weights = [Double](repeating: 1, count: views.count)
     point = .zero
-    for _ in 0..<10 {
+    for _ in 0..<Self.rounds {
       guard let solution = Self.intersect(views, anchors, weights) else { return nil }
       point = solution
       for (index, view) in views.enumerated() {
         let offset = point - view.pose.center
         let residual = (offset - offset.dot(view.axis) * view.axis).length
-        weights[index] = 1 / max(0.05 * typical, residual)
+        weights[index] = 1 / max(Self.minimumResidual * typical, residual)
       }
     }
     let focus = point
@@ -82,7 +89,7 @@ struct ViewFocus: Sendable {
     var matrix = Matrix3(rows: .zero, .zero, .zero)
     var right = SIMD3<Double>.zero
     for (index, view) in views.enumerated() {
-      let (d, w, pull) = (view.axis, weights[index], 0.05 * weights[index])
+      let (d, w, pull) = (view.axis, weights[index], anchorWeight * weights[index])
       let rows: [SIMD3<Double>] = [
         [1 - d.x * d.x, -d.x * d.y, -d.x * d.z], [-d.x * d.y, 1 - d.y * d.y, -d.y * d.z],
         [-d.x * d.z, -d.y * d.z, 1 - d.z * d.z],
