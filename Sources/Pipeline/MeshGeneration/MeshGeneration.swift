@@ -18,6 +18,14 @@ package struct MeshGeneration {
     package var sufficientMaskShare = 0.5
     /// Minimum number of finite points of a cloud.
     package var minimumPoints = 100
+    var isolation = ObjectIsolation.Options()
+    var sceneTrimming = SceneTrimming.Options()
+    var downsampling = VoxelDownsampling.Options()
+    /// Its depth is limited by `maximumDepth`.
+    var poisson = PoissonSurface.Options()
+    /// Large holes are filled only in an object, and if `closesObject` is set.
+    var trimming = SurfaceTrimming.Options()
+    var cleaning = MeshCleaning.Options()
 
     /// Number of pixels per view up to which the default depth suffices, and the largest depth for
     /// more.
@@ -51,17 +59,17 @@ package struct MeshGeneration {
     try check(cloud)
     let selection = try select(
       cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.05))
-    let downsampling = VoxelDownsampling()
+    let downsampling = VoxelDownsampling(options: options.downsampling)
     var downsampled = try downsampling.run(
       cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
     downsampled.cloud = try downsampling.withoutOutliers(
       downsampled, context.control.part(from: 0.07, to: 0.1))
     context.notes.record("samples", Double(downsampled.cloud.count))
-    var poisson = PoissonSurface()
+    var poisson = PoissonSurface(options: options.poisson)
     poisson.options.maximumDepth = options.maximumDepth
     let (closed, cell) = try poisson.run(
       downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
-    var trimming = SurfaceTrimming()
+    var trimming = SurfaceTrimming(options: options.trimming)
     trimming.options.holeFilling.fillsLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
@@ -69,7 +77,7 @@ package struct MeshGeneration {
       spacing: max(downsampled.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.85, to: 0.96))
-    let mesh = try MeshCleaning().run(
+    let mesh = try MeshCleaning(options: options.cleaning).run(
       trimmed, samples: downsampled.cloud, context.part(from: 0.96, to: 1))
     context.notes.record("triangles", Double(mesh.triangles.count))
     return mesh
@@ -80,7 +88,7 @@ package struct MeshGeneration {
   package func bounds(
     _ cloud: PointCloud?, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> (min: SIMD3<Float>, max: SIMD3<Float>)? {
-    try ObjectIsolation().bounds(cloud, reconstruction, context)
+    try ObjectIsolation(options: options.isolation).bounds(cloud, reconstruction, context)
   }
 
   /// The points that the surface is reconstructed from.
@@ -108,7 +116,8 @@ package struct MeshGeneration {
     _ context: StageContext
   ) throws -> Selection {
     if let silhouettes, silhouettes.share >= options.sufficientMaskShare {
-      let isKept = try SceneTrimming().run(cloud, reconstruction, context)
+      let isKept = try SceneTrimming(options: options.sceneTrimming)
+        .run(cloud, reconstruction, context)
       context.notes.record("objectPoints", Double(isKept.count { $0 }))
       return Selection(
         isKept: isKept, isObject: true,
@@ -116,7 +125,8 @@ package struct MeshGeneration {
           under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
     }
     if options.isolatesObject {
-      let result = try ObjectIsolation().run(cloud, reconstruction, context)
+      let result = try ObjectIsolation(options: options.isolation)
+        .run(cloud, reconstruction, context)
       if let failure = result.failure {
         context.notes.warn(
           "The object could not be separated from its surroundings: \(failure) "
@@ -128,7 +138,8 @@ package struct MeshGeneration {
         return Selection(isKept: result.isKept, isObject: true, support: result.support)
       }
     }
-    let isKept = try SceneTrimming().run(cloud, reconstruction, context)
+    let isKept = try SceneTrimming(options: options.sceneTrimming)
+      .run(cloud, reconstruction, context)
     context.notes.record("removedPoints", Double(isKept.filter { !$0 }.count))
     return Selection(isKept: isKept, isObject: false, support: nil)
   }

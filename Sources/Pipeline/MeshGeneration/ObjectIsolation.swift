@@ -24,12 +24,14 @@ struct ObjectIsolation {
     var secondaryShare = 0.25
     /// Minimum share of the object in the samples at the center of the view.
     var minimumShare = 0.02
+    var support = SupportPlaneDetection.Options()
     /// Minimum number of samples in the region that most photos cover.
     var minimumRegionSamples = 30
     /// Samples closer to the focus than this share of the camera distance are at the center of the
     /// view.
     var centralDistance: Float = 0.5
-    /// Distance of a sample from the focus, in camera distances, at which its Gaussian weight is 1/e.
+    /// Distance of a sample from the focus, in camera distances, at which its Gaussian weight is
+    /// 1/e.
     var weightDistance = 0.35
     /// Components with fewer samples are noise, however near.
     var minimumComponentSamples = 8
@@ -137,7 +139,7 @@ struct IsolationSamples {
       return .failure("too little is seen by most photos.")
     }
     try context.control.step(0.1)
-    let support = SupportPlaneDetection().run(
+    let support = SupportPlaneDetection(options: options.support).run(
       positions: region.map { cloud.positions[$0] },
       normals: cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] },
       up: up, isUpKnown: isUpKnown, focus: focus, cell: cell)

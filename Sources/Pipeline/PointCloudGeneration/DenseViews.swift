@@ -28,7 +28,7 @@ struct DenseViews: Sendable {
   init(
     _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options
   ) throws {
-    let sources = SourceSelection().run(reconstruction)
+    let sources = SourceSelection(options: options.sourceSelection).run(reconstruction)
     let photos = reconstruction.registered.filter { !sources[$0.index].isEmpty }
     guard !photos.isEmpty else {
       throw PipelineError.noSurface(reason: "no two photos share enough points.")

@@ -118,7 +118,7 @@ extension GlobalMapping {
     for (round, factor) in options.errorFactors.enumerated() {
       try context.step(round, of: options.errorFactors.count + 1)
       let control = context.control.part(from: 0.5, to: 0.5)
-      var adjustment = MapAdjustment(options: self.adjustment, initialCameras: initialCameras)
+      var adjustment = MapAdjustment(options: growth.adjustment, initialCameras: initialCameras)
       adjustment.options.huberWidth *= factor
       try adjustment.adjustGlobally(&map, control)
       points.options.maximumError = factor * growth.growthError

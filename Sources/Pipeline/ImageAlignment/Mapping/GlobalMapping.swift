@@ -52,7 +52,6 @@ package struct GlobalMapping: Sendable {
   package var options: Options
   /// Options of the incremental completion of the global start.
   package var growth: IncrementalMapping.Options
-  var adjustment = MapAdjustment.Options()
 
   package init(
     _ options: Options = Options(),

@@ -48,6 +48,8 @@ extension IncrementalMapping {
     /// The global adjustments at the end stop when less than one in this number of observations
     /// changes.
     package var finalChangeDivisor = 1000
+    var structurelessPose = StructurelessPose.Options()
+    var adjustment = MapAdjustment.Options()
     /// Minimum number of observations that keep a photo registered.
     package var minimumObservations = 10
 

@@ -6,7 +6,6 @@ import SceneModel
 /// revisited", CVPR 2016).
 package struct IncrementalMapping: Sendable {
   package var options: Options
-  var adjustment = MapAdjustment.Options()
 
   package init(_ options: Options = Options()) { self.options = options }
 
@@ -18,8 +17,7 @@ package struct IncrementalMapping: Sendable {
     from start: SparseMap?, _ context: StageContext
   ) throws -> Reconstruction {
     let growth = MapGrowth(
-      options: options, adjustmentOptions: adjustment, graph: graph, photos: photos, empty: empty,
-      context: context)
+      options: options, graph: graph, photos: photos, empty: empty, context: context)
     let maps = try growth.run(from: start)
     context.notes.record("components", Double(maps.count))
     var best = maps.first ?? growth.empty

@@ -12,9 +12,9 @@ extension MapGrowth {
       let pairs = graph.pairs.filter {
         $0.pair.first.index == photo || $0.pair.second.index == photo
       }
-      guard let pose = StructurelessPose().run(photo, pairs: pairs, poses: map.photos.poses) else {
-        continue
-      }
+      let pose = StructurelessPose(options: options.structurelessPose)
+        .run(photo, pairs: pairs, poses: map.photos.poses)
+      guard let pose else { continue }
       failures[photo] = Self.maximumFailures
       map.register(photo, pose)
       // The pose is rough: its points may have large errors until it is adjusted.

@@ -4,7 +4,6 @@ import SceneModel
 /// The operations of incremental mapping on one view graph.
 struct MapGrowth: Sendable {
   let options: IncrementalMapping.Options
-  let adjustmentOptions: MapAdjustment.Options
   let graph: ViewGraph
   let photos: [Photo]
   /// The map without any registered photo.
@@ -13,7 +12,7 @@ struct MapGrowth: Sendable {
 
   /// Bundle adjustment with priors at the cameras before mapping.
   var adjustment: MapAdjustment {
-    MapAdjustment(options: adjustmentOptions, initialCameras: empty.photos.cameras)
+    MapAdjustment(options: options.adjustment, initialCameras: empty.photos.cameras)
   }
 
   /// Triangulation with the error limit of a growing map.

@@ -31,6 +31,7 @@ extension ObservationRefinement {
     package var huberFactor = 2.5
     /// Its minimum in working pixels.
     package var minimumHuberWidth = 0.1
+    var adjustment = MapAdjustment.Options()
 
     package init() {}
 

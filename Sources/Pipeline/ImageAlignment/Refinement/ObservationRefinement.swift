@@ -22,7 +22,7 @@ package struct ObservationRefinement: Sendable {
   ) throws -> Reconstruction {
     guard !reconstruction.points.isEmpty else { return reconstruction }
     var map = SparseMap(reconstruction)
-    var adjustment = MapAdjustment(initialCameras: cameras)
+    var adjustment = MapAdjustment(options: options.adjustment, initialCameras: cameras)
     let search = try TemplateSearch(
       map, features: features, photos: reconstruction.photos, images: images, options,
       context.part(from: 0, to: 0.2))

@@ -6,6 +6,9 @@ extension WorldAlignment {
     package var knownDistances: [KnownDistance] = []
     /// Gravity and depth by sample ID; they also take precedence over GPS.
     package var readings: [Int: SensorReading] = [:]
+    var gravity = GravityUp.Options()
+    var depthMaps = DepthMapScale.Options()
+    var cameraUp = CameraUp.Options()
     /// Expected error of a GPS position in meters.
     package var gpsNoise = 5.0
     /// Minimum spread of the positions, as a multiple of their error.

@@ -21,8 +21,9 @@ package struct WorldAlignment: Sendable {
     }
     let object = ObjectRegion(reconstruction)
     var frame = WorldFrame()
-    let gravityUp = GravityUp().run(options.readings, reconstruction, context.notes)
-    let priorUp = gravityUp ?? CameraUp(reconstruction).direction
+    let gravityUp = GravityUp(options: options.gravity)
+      .run(options.readings, reconstruction, context.notes)
+    let priorUp = gravityUp ?? CameraUp(reconstruction, options.cameraUp).direction
     var up = priorUp
     frame.up = gravityUp == nil ? .cameras : .gravity
     let plane =
@@ -57,9 +58,9 @@ package struct WorldAlignment: Sendable {
       notes.record("knownDistanceDeviation", measured.deviations.map { abs($0) }.max() ?? 0)
       return (measured.metersPerUnit, .knownDistance)
     }
-    if let scale = DepthMapScale().run(options.readings, reconstruction, notes) {
-      return (scale, .depth)
-    }
+    let depthScale = DepthMapScale(options: options.depthMaps)
+      .run(options.readings, reconstruction, notes)
+    if let depthScale { return (depthScale, .depth) }
     if let gps { return (gps.scale, .gps) }
     notes.warn(
       "The photos don't determine the size of the object: its scale is arbitrary, with the "
