@@ -10,7 +10,7 @@ package enum AtomicDirectory {
     let destination = URL(fileURLWithPath: url.path, isDirectory: false)
     try AtomicFile.checkParent(of: destination)
     let exists = FileManager.default.fileExists(atPath: destination.path)
-    if exists, !AtomicFile.isDirectory(destination) {
+    if exists, !destination.isExistingFolder {
       throw OutputError.notAFolder(path: destination.path)
     }
     let temporary = AtomicFile.temporaryURL(for: destination)
@@ -37,7 +37,7 @@ package enum AtomicDirectory {
     for name in try FileManager.default.contentsOfDirectory(atPath: source.path).sorted() {
       let from = source.appendingPathComponent(name)
       let to = destination.appendingPathComponent(name)
-      if AtomicFile.isDirectory(from) {
+      if from.isExistingFolder {
         try FileManager.default.createDirectory(at: to, withIntermediateDirectories: true)
         try merge(from, into: to)
       } else {

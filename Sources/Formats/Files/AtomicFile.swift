@@ -32,7 +32,7 @@ package enum AtomicFile {
   /// Calls `body` with a temporary name for the file, and renames the result.
   private static func write(to url: URL, _ body: (URL) throws -> Void) throws {
     try checkParent(of: url)
-    if isDirectory(url) { throw OutputError.isAFolder(path: url.path) }
+    if url.isExistingFolder { throw OutputError.isAFolder(path: url.path) }
     let temporary = temporaryURL(for: url)
     do {
       try body(temporary)
@@ -64,16 +64,10 @@ package enum AtomicFile {
     guard FileManager.default.fileExists(atPath: parent.path) else {
       throw OutputError.missingFolder(path: url.path, folder: parent.path)
     }
-    guard isDirectory(parent) else { throw OutputError.notAFolder(path: parent.path) }
+    guard parent.isExistingFolder else { throw OutputError.notAFolder(path: parent.path) }
     guard FileManager.default.isWritableFile(atPath: parent.path) else {
       throw OutputError.notWritable(path: url.path)
     }
-  }
-
-  static func isDirectory(_ url: URL) -> Bool {
-    var isDirectory: ObjCBool = false
-    let exists = FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
-    return exists && isDirectory.boolValue
   }
 
   /// A unique name in the same folder, with a limited length.
@@ -85,12 +79,14 @@ package enum AtomicFile {
 
   static let temporarySuffix = ".partial"
 
+  /// The start of the temporary names for a file.
   static func temporaryPrefix(of name: String) -> String {
     var name = name
     while name.utf8.count > 64 { name.removeLast() }
     return ".\(name)."
   }
 
+  /// Renames a file, replacing an existing one.
   static func rename(_ source: URL, to destination: URL) throws {
     guard Foundation.rename(source.path, destination.path) == 0 else {
       throw lastError
