@@ -4,7 +4,8 @@ import SceneModel
 struct Visibility: Sendable {
   /// Start and end of the ray from a point to a camera, as fractions of their distance: the ray
   /// must not hit the surface at the point itself.
-  private static let (margin, limit): (Float, Float) = (1e-3, 0.999)
+  private static let margin: Float = 1e-3
+  private static let limit: Float = 0.999
 
   let cameras: [NamedCamera]
   let tree: BoundingTree<FlatTriangle>

@@ -24,6 +24,8 @@ struct TransientOccluders: Sendable {
     /// Minimum similarity to the occluder's color for a neighbor without other evidence: 0 is the
     /// surface's color, 1 the occluder's.
     var colorSimilarity: Float = 0.7
+    /// The same where too few photos see the surface.
+    var unverifiedColorSimilarity: Float = 0.5
     /// Rings of triangles around an occluder that its blurred boundary may cover.
     var rings = 2
   }
@@ -137,7 +139,9 @@ struct TransientOccluders: Sendable {
       let mayDiffer =
         !hasEnoughViews(other, views) && (isAlone || excess[other] > options.lowThresholdShare)
       let share = occluderColor.share(of: views.entries[other].color)
-      guard share > (mayDiffer ? 0.5 : options.colorSimilarity) else { return false }
+      guard share > (mayDiffer ? options.unverifiedColorSimilarity : options.colorSimilarity) else {
+        return false
+      }
       isOccluder[other] = true
       return true
     }

@@ -3,7 +3,8 @@
 enum LZ4Block {
   private static let minimumMatch = 4
   /// The format requires the last five bytes as literals, and no match start in the last twelve.
-  private static let (literalTail, tail) = (5, 12)
+  private static let literalTail = 5
+  private static let tail = 12
   private static let maximumOffset = 0xFFFF
   private static let hashBits: UInt32 = 15
   /// Knuth's multiplicative hash: 2³² divided by the golden ratio, rounded to a prime.

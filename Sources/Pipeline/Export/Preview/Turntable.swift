@@ -8,6 +8,7 @@ import SceneModel
 /// Azimuth is measured from +z toward +x, elevation upward from the horizon; both in radians.
 struct Turntable: Sendable {
   struct Options: Hashable, Codable, Sendable {
+    /// Number of viewpoints.
     var viewCount = 8
     /// Approximate angle that a picture spans.
     var fieldOfViewDegrees = 30.0
@@ -23,6 +24,9 @@ struct Turntable: Sendable {
     /// Photos whose horizontal unit directions have a longer mean than this, 0…1, show one side;
     /// 0.64 corresponds to a semicircle.
     var oneSidedConcentration = 0.6
+    /// Minimum mean length, 0…1, of the horizontal part of the photos' unit directions: for photos
+    /// from above it carries no information.
+    var minimumHorizontalShare = 0.2
     /// Bounds of half the angle that viewpoints of a single side span.
     var minimumReachDegrees = 40.0
     var maximumReachDegrees = 80.0
@@ -137,8 +141,8 @@ struct Turntable: Sendable {
     let flat = viewDirections.map { SIMD2($0.x, $0.z) }
     let sum = flat.reduce(SIMD2<Double>.zero, +)
     let lengths = flat.reduce(0) { $0 + $1.length }
-    // For photos from above, the horizontal part carries no information.
-    guard lengths > 0.2 * Double(flat.count), sum.length > options.oneSidedConcentration * lengths
+    guard lengths > options.minimumHorizontalShare * Double(flat.count),
+      sum.length > options.oneSidedConcentration * lengths
     else { return nil }
     let azimuth = atan2(sum.x, sum.y)
     let offsets = flat.map { abs(remainder(atan2($0.x, $0.y) - azimuth, 2 * .pi)) }.sorted()
