@@ -70,7 +70,7 @@ struct DenseViews: Sendable {
     Set(indices.flatMap { [$0] + views[$0].sources }).sorted()
   }
 
-  /// The sparse points that each photo observes, by photo id.
+  /// The sparse points that each photo observes, by photo ID.
   private static func points(of reconstruction: Reconstruction) -> [[SIMD3<Double>]] {
     var points = [[SIMD3<Double>]](repeating: [], count: reconstruction.photos.count)
     for point in reconstruction.points {

@@ -16,7 +16,7 @@ package struct IngestedPhotos: Sendable {
   package var files: [URL]
   /// Masks that are not used, in the order of the files; their photos are used.
   package var refusedMasks: [RefusedMask]
-  /// XXH64 of each photo's file, by photo id.
+  /// XXH64 of each photo's file, by photo ID.
   package var contentHashes: [UInt64]
   /// Maximum pixels of a photo that stages may process within the memory budget; pass it to
   /// `ImageStore`.

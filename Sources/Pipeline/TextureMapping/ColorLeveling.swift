@@ -127,8 +127,10 @@ private struct Nodes {
     }
   }
 
+  /// The unknowns of a vertex.
   func range(of vertex: Int) -> Range<Int> { Int(offsets[vertex])..<Int(offsets[vertex + 1]) }
 
+  /// The unknown of a vertex and a view; nil if the view doesn't color the vertex.
   func index(of vertex: Int, view: Int32) -> Int? {
     range(of: vertex).first { items[$0].view == view }
   }

@@ -15,7 +15,9 @@ package struct Observation: Hashable, Codable, Sendable {
 
 /// A triangulated point and its observations.
 package struct ScenePoint: Hashable, Codable, Sendable {
+  /// In the world frame.
   package var position: SIMD3<Double>
+  /// RGB.
   package var color: SIMD3<UInt8>
   /// Mean reprojection error in pixels.
   package var error: Double
@@ -37,6 +39,7 @@ package struct ScenePoint: Hashable, Codable, Sendable {
 package struct WorldFrame: Hashable, Codable, Sendable {
   /// The source of the scale.
   package enum Scale: String, Hashable, Codable, Sendable {
+    /// Depth maps, GPS, distances measured by the user, or none of them.
     case depth, gps, knownDistance, arbitrary
     /// The cameras were given, and their unit was declared to be the meter.
     case given

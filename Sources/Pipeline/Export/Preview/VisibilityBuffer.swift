@@ -116,7 +116,7 @@ struct TriangleEdges: Sendable {
     let (vx, vy) = (Int64(c.x) - Int64(a.x), Int64(c.y) - Int64(a.y))
     let area = ux * vy - uy * vx
     guard area != 0 else { return nil }
-    // y points down: counter-clockwise in the picture means negative area.
+    // y points down: counterclockwise in the picture means negative area.
     isFront = area < 0
     let sign: Int64 = isFront ? -1 : 1
     self.a = Edge(from: b, to: c, sign: sign)

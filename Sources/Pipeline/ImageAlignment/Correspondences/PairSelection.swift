@@ -166,6 +166,7 @@ package struct PairSelection {
   private func nearest(
     _ positions: [GeographicPosition?], _ features: [FeatureSet]
   ) -> Set<PhotoPair> {
+    // Of latitude; on the scale of one set the Earth is flat.
     let metersPerDegree = 111_320.0
     let places = positions.enumerated().compactMap { photo, position in
       position.map { position in

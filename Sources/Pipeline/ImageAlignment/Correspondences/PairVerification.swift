@@ -20,6 +20,7 @@ package struct PairVerification {
     package var homographyRatio = 0.8
     /// Estimates fundamental matrices if the focal length is only assumed.
     package var isUncalibratedWhereAssumed = true
+    /// Combined with the photos' IDs for the random samples of each pair.
     package var seed: UInt64 = 0
 
     package init() {}
@@ -59,6 +60,7 @@ package struct PairVerification {
     return graph
   }
 
+  /// The result of verifying a pair.
   enum Verdict: Sendable {
     case verified(VerifiedPair)
     case rejected(RejectedPair)

@@ -37,8 +37,6 @@ private struct UnregisteredPhotoDiagnosis {
   /// The links of each photo, the strongest first.
   private var links: [[Link]]
 
-  /// Photos with fewer features can rarely be registered.
-  private static let fewFeatures = 100
   /// Fewer matches may occur by chance.
   private static let chanceMatches = 8
   /// Pairs below this median triangulation angle, in radians, share one viewpoint.
@@ -63,10 +61,11 @@ private struct UnregisteredPhotoDiagnosis {
     self.links = links.map { $0.sorted { ($1.matches, $0.other) < ($0.matches, $1.other) } }
   }
 
+  /// A sentence without its subject, the name of the photo, and without the final period.
   func reason(_ photo: Int) -> String {
     let verified = links[photo].filter { $0.needed == nil }
     if let group = others.first(where: { $0.isRegistered(photo) }) { return separate(group) }
-    if features[photo].count < Self.fewFeatures {
+    if features[photo].count < FeatureExtraction.fewFeatures {
       return "shows hardly any texture (\(features[photo].count) features); "
         + "take it sharper, in better light, or with something textured next to the object"
     }
