@@ -20,7 +20,9 @@ package struct RunReport: Codable, Sendable {
   package struct PhotoEntry: Codable, Sendable {
     package enum Status: String, Codable, Sendable {
       /// Its pose is known; rejected by validation; without a pose after alignment.
-      case registered, refused, notRegistered
+      case registered
+      case rejected = "refused"
+      case notRegistered
       /// A camera was given, but its photo is missing.
       case missing
     }

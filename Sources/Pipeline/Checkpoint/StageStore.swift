@@ -38,7 +38,7 @@ private struct AlignmentRecord: Codable {
   var poses: [RigidTransform?]
   var points: [ScenePoint]
   var worldFrame: WorldFrame
-  var unregistered: [RefusedPhoto]
+  var unregistered: [RejectedPhoto]
   var notes: SavedNotes
 }
 

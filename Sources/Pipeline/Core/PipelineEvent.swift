@@ -7,7 +7,7 @@ package enum PipelineEvent: Sendable {
   /// Validation has ended; these photos are used.
   case ingested(PhotoTotals)
   /// A photo is not used, with the reason: rejected by validation or not registered by alignment.
-  case refused(RefusedPhoto)
+  case rejected(RejectedPhoto)
   /// Photos are downsampled to fit into memory.
   case downsampled
   /// Alignment registered only some of the photos.

@@ -53,7 +53,7 @@ package struct GeographicPosition: Hashable, Codable, Sendable {
 }
 
 /// A rejected input file and the reason.
-package struct RefusedPhoto: Hashable, Codable, Sendable {
+package struct RejectedPhoto: Hashable, Codable, Sendable {
   /// The kind of fault.
   package enum Fault: String, Hashable, Codable, Sendable {
     case unreadable, unsupportedFormat, tooSmall, tooLarge, blurred, duplicate, tooMany

@@ -70,11 +70,11 @@ package struct Reconstruction: Sendable {
   package var points: [ScenePoint]
   package var worldFrame: WorldFrame
   /// Photos that passed validation but could not be registered, with the reasons.
-  package var unregistered: [RefusedPhoto]
+  package var unregistered: [RejectedPhoto]
 
   package init(
     cameras: [Camera], photos: [Photo], poses: [RigidTransform?], points: [ScenePoint],
-    worldFrame: WorldFrame = WorldFrame(), unregistered: [RefusedPhoto] = []
+    worldFrame: WorldFrame = WorldFrame(), unregistered: [RejectedPhoto] = []
   ) {
     self.cameras = cameras
     self.photos = photos

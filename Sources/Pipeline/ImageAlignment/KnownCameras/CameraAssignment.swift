@@ -151,7 +151,7 @@ private struct AssignmentBuilder {
   /// Records that `photo` has no pose; `end` completes the sentence "NAME is not used: …".
   mutating func leaveOut(_ photo: Photo, because end: String) {
     reconstruction.unregistered.append(
-      RefusedPhoto(sampleID: photo.sampleID, name: photo.name, fault: .notRegistered, end: end))
+      RejectedPhoto(sampleID: photo.sampleID, name: photo.name, fault: .notRegistered, end: end))
     // A photo without a pose still needs a valid camera index; it is never read.
     reconstruction.photos[photo.id.index].camera = ID(0)
   }

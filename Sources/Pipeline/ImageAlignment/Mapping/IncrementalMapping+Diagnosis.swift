@@ -5,12 +5,12 @@ extension IncrementalMapping {
   func unregistered(
     _ map: SparseMap, others: [SparseMap], _ graph: ViewGraph, _ features: [FeatureSet],
     _ photos: [Photo]
-  ) -> [RefusedPhoto] {
+  ) -> [RejectedPhoto] {
     let reasons = UnregisteredPhotoDiagnosis(
       map: map, others: others, graph: graph, features: features, photos: photos,
       neededPoints: options.relaxedMinimumInliers)
     return photos.filter { !map.isRegistered($0.id.index) }.map { photo in
-      RefusedPhoto(
+      RejectedPhoto(
         sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
         reason: "\(photo.name) \(reasons.reason(photo.id.index)).")
     }

@@ -38,12 +38,12 @@ package struct ObservationRefinement: Sendable {
       Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
     guard !losesTooManyPoints else { return reconstruction }
     refined.unregistered += reconstruction.registered.map(\.index)
-      .filter { !map.isRegistered($0) }.map { Self.refusal(of: reconstruction.photos[$0]) }
+      .filter { !map.isRegistered($0) }.map { Self.rejection(of: reconstruction.photos[$0]) }
     return refined
   }
 
-  private static func refusal(of photo: Photo) -> RefusedPhoto {
-    RefusedPhoto(
+  private static func rejection(of photo: Photo) -> RejectedPhoto {
+    RejectedPhoto(
       sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
       reason: "\(photo.name) shows hardly any point where its pose predicts it; it may be "
         + "blurred, or something moved.")

@@ -35,7 +35,7 @@ package struct RunProgressTracker: Sendable {
       return Progress(
         stage: stage, fraction: estimator.fraction(of: units),
         remainingSeconds: estimator.remainingSeconds(of: units))
-    case .refused, .downsampled, .stitchingIncomplete, .warning, .detail:
+    case .rejected, .downsampled, .stitchingIncomplete, .warning, .detail:
       return nil
     }
   }
