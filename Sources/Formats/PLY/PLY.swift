@@ -48,8 +48,8 @@ package enum PLY {
     _ row: PLYRow, _ index: SIMD3<Int>, in element: PLYHeader.Element
   ) -> SIMD3<UInt8> {
     let isFloat = [.float32, .float64].contains(element.properties[index.x].type)
-    func channel(_ place: Int) -> UInt8 {
-      let value = row.scalars[place] * (isFloat ? 255 : 1)
+    func channel(_ property: Int) -> UInt8 {
+      let value = row.scalars[property] * (isFloat ? 255 : 1)
       return value.isFinite ? UInt8(min(255, max(0, value.rounded()))) : 0
     }
     return [channel(index.x), channel(index.y), channel(index.z)]

@@ -201,8 +201,8 @@ struct FaceNeighbors: Sendable {
 
   private mutating func add(_ neighbor: Int32, to face: Int32) {
     let start = 3 * Int(face)
-    guard let place = (start..<start + 3).first(where: { faces[$0] < 0 }) else { return }
-    faces[place] = neighbor
+    guard let slot = (start..<start + 3).first(where: { faces[$0] < 0 }) else { return }
+    faces[slot] = neighbor
   }
 
   /// Flood fill from `start` over the same view's entries of adjacent triangles that `accepts`.
@@ -221,8 +221,8 @@ struct FaceNeighbors: Sendable {
   /// Calls `body` with the same view's entries of the triangles adjacent to that of `entry`.
   func forEach(adjacentTo entry: Int, in views: FaceViews, _ body: (Int) -> Void) {
     let (face, view) = (Int(views.entries[entry].face), views.entries[entry].view)
-    for place in 3 * face..<3 * face + 3 where faces[place] >= 0 {
-      if let other = views.index(of: Int(faces[place]), in: view) { body(other) }
+    for slot in 3 * face..<3 * face + 3 where faces[slot] >= 0 {
+      if let other = views.index(of: Int(faces[slot]), in: view) { body(other) }
     }
   }
 }

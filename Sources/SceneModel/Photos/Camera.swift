@@ -30,6 +30,9 @@ package struct Camera: Hashable, Codable, Sendable {
     self.calibration = calibration
   }
 
+  /// The longer side of the photo in pixels.
+  package var longerSide: Double { Double(max(width, height)) }
+
   /// The pixel of a point in the camera frame (x right, y down, z forward, z > 0).
   package func project(_ point: SIMD3<Double>) -> SIMD2<Double> {
     distort(SIMD2(point.x, point.y) / point.z) * focalLength + principalPoint

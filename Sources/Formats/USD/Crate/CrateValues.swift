@@ -109,10 +109,10 @@ struct CrateValues {
     file.append(UInt64(entries.count))
     for entry in entries {
       file.append(string(entry.name))
-      let place = file.count
+      let start = file.count
       file.append(Int64(0))
       let value = store(entry.value)
-      file.replace(at: place, with: Int64(file.count - place))
+      file.replace(at: start, with: Int64(file.count - start))
       file.append(value.bits)
     }
     return .stored(.dictionary, at: offset)

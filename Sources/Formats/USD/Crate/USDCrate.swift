@@ -31,7 +31,7 @@ private struct CrateWriter {
   private var fields = CrateTable<CrateField>()
   /// Field indices; each set is terminated by `endOfSet`.
   private var fieldSets: [UInt32] = []
-  private var fieldSetPlaces: [[UInt32]: Int] = [:]
+  private var fieldSetStarts: [[UInt32]: Int] = [:]
   private var specs: [Spec] = []
   private var sections: [(name: String, start: Int, size: Int)] = []
 
@@ -104,12 +104,12 @@ private struct CrateWriter {
     let set = entries.map { name, value in
       fields.index(CrateField(token: values.tokens.index(name), value: value))
     }
-    let place = fieldSetPlaces[set] ?? fieldSets.count
-    if fieldSetPlaces.updateValue(place, forKey: set) == nil {
+    let start = fieldSetStarts[set] ?? fieldSets.count
+    if fieldSetStarts.updateValue(start, forKey: set) == nil {
       fieldSets += set + [Self.endOfSet]
     }
     let index = values.paths.index(path, &values.tokens)
-    specs.append(Spec(path: index, fieldSet: place, type: type))
+    specs.append(Spec(path: index, fieldSet: start, type: type))
   }
 
   // MARK: Sections

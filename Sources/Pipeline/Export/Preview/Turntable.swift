@@ -87,10 +87,10 @@ struct Turntable: Sendable {
     var high = -low
     for position in positions {
       let p = SIMD3<Double>(position)
-      let place =
+      let point =
         SIMD2(matrix.row0.dot(p) + t.x, matrix.row1.dot(p) + t.y) / (matrix.row2.dot(p) + t.z)
-      low = pointwiseMin(low, place)
-      high = pointwiseMax(high, place)
+      low = pointwiseMin(low, point)
+      high = pointwiseMax(high, point)
     }
     return (low, high)
   }

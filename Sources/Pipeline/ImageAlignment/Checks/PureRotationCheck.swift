@@ -65,7 +65,7 @@ package struct PureRotationCheck: Sendable {
     let matches = pair.thinnedMatches(options.maximumMatches)
     let camera = cameras[photos[first].camera.index]
     let otherCamera = cameras[photos[second].camera.index]
-    let pixels = options.relativeError * Double(max(camera.width, camera.height))
+    let pixels = options.relativeError * camera.longerSide
     return Sample(
       first: camera.normalizedPositions(of: matches, in: features[first], \.first),
       second: otherCamera.normalizedPositions(of: matches, in: features[second], \.second),

@@ -22,7 +22,7 @@ extension ViewGraph {
       guard seen.z > 0 else { return false }
       let camera = reconstruction.camera(of: photo)
       let position = SIMD2<Double>(features[photo.index].positions[Int(feature)])
-      let limit = options.contradictionTolerance * Double(max(camera.width, camera.height))
+      let limit = options.contradictionTolerance * camera.longerSide
       return (camera.project(seen) - position).length <= limit
     }
     return pairs.filter { pair in

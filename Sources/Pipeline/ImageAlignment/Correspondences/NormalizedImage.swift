@@ -18,7 +18,7 @@ extension Camera {
   /// The photo's longer side in normalized image coordinates. Multiplied by it, a fraction of that
   /// side becomes a distance at depth 1.
   var normalizedSide: Double {
-    Double(max(width, height)) * 2 / (focalLength.x + focalLength.y)
+    longerSide * 2 / (focalLength.x + focalLength.y)
   }
 }
 

@@ -77,7 +77,7 @@ package struct SelfCalibration {
     _ camera: Camera, _ pairs: [VerifiedPair], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Double? {
     let limit =
-      options.relativeMaximumError * Double(max(camera.width, camera.height))
+      options.relativeMaximumError * camera.longerSide
       / camera.focalLength.x
     let usable = try context.control.parallelMap(pairs.count) {
       try matches(of: pairs[$0], camera, features, limit)

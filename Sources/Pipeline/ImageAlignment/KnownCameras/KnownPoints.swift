@@ -48,7 +48,7 @@ struct KnownPoints: Sendable {
         let camera = reconstruction.camera(of: observation.photo)
         let seen = pose * point.position
         guard seen.z > 0 else { return .infinity }
-        let size = Double(max(camera.width, camera.height))
+        let size = camera.longerSide
         return (camera.project(seen) - observation.pixel).length / size
       }
     }

@@ -168,7 +168,7 @@ package struct KnownPoseTriangulation: Sendable {
       if let pose = reconstruction.poses[photo.index] { map.register(photo.index, pose) }
     }
     let sides = reconstruction.registered.map { photo in
-      Double(max(reconstruction.camera(of: photo).width, reconstruction.camera(of: photo).height))
+      reconstruction.camera(of: photo).longerSide
     }
     let side = sides.upperMedian ?? 0
     var step = PointTriangulation()

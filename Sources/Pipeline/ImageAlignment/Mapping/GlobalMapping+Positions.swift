@@ -38,19 +38,19 @@ extension GlobalMapping {
     guard !seen.tracks.isEmpty else { return false }
     var random = SplitMix64(seed: options.seed)
     let start = options.initialHalfExtent
-    let places = try GlobalPositioning(options.positioning).run(
+    let solution = try GlobalPositioning(options.positioning).run(
       seen.directions, centers: rotations.map { _ in random.position(within: start) },
       points: seen.tracks.map { _ in random.position(within: start) }, control: context.control)
     for photo in Set(seen.directions.map { Int($0.photo) }).sorted() {
       guard let rotation = rotations[photo] else { continue }
       map.register(
         photo,
-        RigidTransform(rotation: rotation, translation: -(rotation * places.centers[photo])))
+        RigidTransform(rotation: rotation, translation: -(rotation * solution.centers[photo])))
     }
-    for (track, place) in zip(seen.tracks, places.points) { map.setPoint(track, place) }
+    for (track, point) in zip(seen.tracks, solution.points) { map.setPoint(track, point) }
     let least = cos(options.positionErrorDegrees * .pi / 180)
     for (direction, index) in zip(seen.directions, seen.observations) {
-      let offset = places.points[Int(direction.point)] - places.centers[Int(direction.photo)]
+      let offset = solution.points[Int(direction.point)] - solution.centers[Int(direction.photo)]
       map.isActive[index] = offset.normalized.dot(direction.direction) >= least
     }
     for track in seen.tracks where map.activeObservations(of: track).count < 2 {

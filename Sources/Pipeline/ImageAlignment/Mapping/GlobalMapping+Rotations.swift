@@ -31,7 +31,7 @@ extension GlobalMapping {
     let (first, second) = (pair.pair.first.index, pair.pair.second.index)
     let cameras = [first, second].map { photos.cameras[Int(photos.cameraOfPhoto[$0])] }
     let limits = cameras.map {
-      options.relativeMaximumError * Double(max($0.width, $0.height)) / $0.focalLength.x
+      options.relativeMaximumError * $0.longerSide / $0.focalLength.x
     }
     var estimation = TwoViewEstimation()
     estimation.maximumError = max(limits[0], limits[1])

@@ -96,7 +96,7 @@ struct MeasuredScale: Sendable {
         throw UnusableDistance(reason: "the picks of a point don't show the same place")
       }
       let error = (view.camera.project(inCamera) - [view.pick.x, view.pick.y]).length
-      if error > maximumPickError * Double(max(view.camera.width, view.camera.height)) {
+      if error > maximumPickError * view.camera.longerSide {
         problems.append(
           "A pick in \(view.pick.photo) is \(Int(error.rounded())) pixels away from the point "
             + "picked in the other photos; check that all picks show the same point.")
