@@ -19,9 +19,11 @@ package struct RunReport: Codable, Sendable {
   /// What became of a photo.
   package struct PhotoEntry: Codable, Sendable {
     package enum Status: String, Codable, Sendable {
-      /// Its pose is known; rejected by validation; without a pose after alignment.
+      /// Alignment determined its pose.
       case registered
+      /// Rejected by validation.
       case rejected = "refused"
+      /// Valid, but without a pose after alignment.
       case notRegistered
       /// A camera was given, but its photo is missing.
       case missing
