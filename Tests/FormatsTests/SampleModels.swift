@@ -44,7 +44,8 @@ enum Sample {
     let textures = (0..<atlasCount).map { atlas in
       [TextureMap.ambientOcclusion, .normal, .diffuseColor].map {
         EncodedTexture(
-          map: $0, fileExtension: "png", bytes: Array("\($0) \(atlas)".utf8))
+          map: $0,
+          image: EncodedImage(fileExtension: "png", bytes: Array("\($0) \(atlas)".utf8)))
       }
     }
     return ModelContent(

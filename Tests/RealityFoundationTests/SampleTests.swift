@@ -153,18 +153,18 @@ import Testing
     }
     let folder = SampleFolder(samples)
     #expect(madeCount.withLock { $0 } == 0)
-    var refused: [Int] = []
+    var rejected: [Int] = []
     func note(_ event: PipelineEvent) {
-      if case .refused(let photo) = event { refused.append(photo.sampleID) }
+      if case .rejected(let photo) = event { rejected.append(photo.sampleID) }
     }
     let url = try folder.write(flag: CancellationFlag(), onEvent: note)
-    #expect(folder.ids == [5, 3, 7] && refused == [5, -1, 9])
+    #expect(folder.ids == [5, 3, 7] && rejected == [5, -1, 9])
     #expect(try folder.write(flag: CancellationFlag(), onEvent: { _ in }) == url)
     #expect(madeCount.withLock { $0 } == ids.count)
     let files = try FileManager.default.contentsOfDirectory(atPath: url.path).sorted()
     #expect(files == ["sample0.png", "sample1.png", "sample2.png"])
     let photo = folder.translated(
-      RefusedPhoto(
+      RejectedPhoto(
         sampleID: 1, name: "sample1.png", fault: .blurred, reason: "sample1.png is blurred."))
     #expect(photo.sampleID == 3 && photo.reason == "Sample 3 is blurred.")
   }

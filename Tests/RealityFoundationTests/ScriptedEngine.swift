@@ -10,7 +10,7 @@ final class ScriptedEngine: SessionEngine {
   /// The behavior of the engine.
   struct Script: Sendable {
     var photos = 12
-    var refused: [RefusedPhoto] = []
+    var rejected: [RejectedPhoto] = []
     var ingestError: PipelineError?
     var alignmentError: PipelineError?
     var entityError: PipelineError?
@@ -73,7 +73,7 @@ final class ScriptedEngine: SessionEngine {
 
   func ingest() throws -> PhotoTotals {
     journal.add("ingest")
-    for photo in script.refused { onEvent(.refused(photo)) }
+    for photo in script.rejected { onEvent(.rejected(photo)) }
     if let error = script.ingestError { throw error }
     if script.isDownsampled { onEvent(.downsampled) }
     try work(.preProcessing)

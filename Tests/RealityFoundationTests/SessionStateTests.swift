@@ -56,22 +56,24 @@ import Testing
 
   @Test func reportsTheInputOnce() throws {
     var (state, plan) = try begun()
-    let photo = RefusedPhoto(sampleID: 3, name: "a.jpg", fault: .blurred, reason: "It is blurred.")
-    #expect(names(state.refused(photo)) == ["invalidSample"])
-    #expect(state.refused(photo).isEmpty)
+    let photo = RejectedPhoto(sampleID: 3, name: "a.jpg", fault: .blurred, reason: "It is blurred.")
+    #expect(names(state.rejected(photo)) == ["invalidSample"])
+    #expect(state.rejected(photo).isEmpty)
     _ = state.ingested(.init(count: 9))
     _ = state.finished()
     try state.begin(plan, photoCount: 10, threadCount: 2, at: 5)
     #expect(state.phase == .processing)
-    let repeated = state.refused(photo) + state.ingested(.init(count: 9))
+    let repeated = state.rejected(photo) + state.ingested(.init(count: 9))
     #expect(repeated.isEmpty)
   }
 
-  @Test(arguments: [RefusedPhoto.Fault.unreadable, .tooLarge, .tooMany, .duplicate, .notRegistered])
-  func faultsBecomeOutputs(fault: RefusedPhoto.Fault) throws {
+  @Test(arguments: [
+    RejectedPhoto.Fault.unreadable, .tooLarge, .tooMany, .duplicate, .notRegistered,
+  ])
+  func faultsBecomeOutputs(fault: RejectedPhoto.Fault) throws {
     var (state, _) = try begun()
-    let outputs = state.refused(
-      RefusedPhoto(sampleID: 3, name: "a.jpg", fault: fault, reason: "Because."))
+    let outputs = state.rejected(
+      RejectedPhoto(sampleID: 3, name: "a.jpg", fault: fault, reason: "Because."))
     #expect(names(outputs) == [fault == .notRegistered ? "skippedSample" : "invalidSample"])
   }
 

@@ -35,8 +35,8 @@ import Testing
   @Test func ordersItsOutputs() async throws {
     try await withPhotos { folder in
       let script = ScriptedEngine.Script(
-        refused: [
-          RefusedPhoto(sampleID: 1, name: "b", fault: .unreadable, reason: "It can't be decoded.")
+        rejected: [
+          RejectedPhoto(sampleID: 1, name: "b", fault: .unreadable, reason: "It can't be decoded.")
         ], isDownsampled: true, registered: 11)
       let session = Session(folder: folder, script)
       let model = Session.Request.modelFile(url: folder.appendingPathComponent("m.usdz"))

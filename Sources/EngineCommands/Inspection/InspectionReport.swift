@@ -23,13 +23,13 @@ struct InspectionReport: Encodable {
 
   struct Refused: Encodable {
     var name: String
-    var fault: RefusedPhoto.Fault
+    var fault: RejectedPhoto.Fault
     var reason: String
   }
 
   var used: [Used]
   var refused: [Refused]
-  var refusedMasks: [RefusedMask]
+  var refusedMasks: [RejectedMask]
   /// Number of cameras.
   var cameras: Int
   /// Whether photos would be used at a lower resolution to fit the memory.
@@ -44,8 +44,8 @@ struct InspectionReport: Encodable {
         focalLength: camera.focalLength.x, calibration: camera.calibration,
         hasPosition: photo.position != nil, maskCoverage: photo.mask?.coverage)
     }
-    refused = ingested.refused.map { Refused(name: $0.name, fault: $0.fault, reason: $0.reason) }
-    refusedMasks = ingested.refusedMasks
+    refused = ingested.rejected.map { Refused(name: $0.name, fault: $0.fault, reason: $0.reason) }
+    refusedMasks = ingested.rejectedMasks
     cameras = ingested.cameras.count
     isDownsampled = ingested.isDownsampled
   }

@@ -37,7 +37,7 @@ final class PipelineListener: Sendable {
           remaining: progress.remainingSeconds))
     }
     switch event {
-    case .refused(let photo): logger.warning("\(photo.reason)")
+    case .rejected(let photo): logger.warning("\(photo.reason)")
     case .warning(let sentence): logger.warning("\(sentence)")
     case .detail(let sentence): logger.log(level: logsDetails ? .info : .debug, "\(sentence)")
     default: break

@@ -20,6 +20,10 @@ package struct NamedCamera: Hashable, Sendable {
 }
 
 extension NamedCamera {
+  /// Maximum deviation of a rotation matrix from orthonormality, and maximum skew relative to the
+  /// focal length: files may contain rounded numbers.
+  private static let rounding = 1e-3
+
   /// The registered photos of a reconstruction.
   package static func cameras(of reconstruction: Reconstruction) -> [NamedCamera] {
     reconstruction.registered.compactMap { id in
@@ -52,7 +56,7 @@ extension NamedCamera {
     func isRotation(_ rows: [[Double]]) -> Bool {
       let r = rows.map { SIMD3($0[0], $0[1], $0[2]) }
       let isOrthonormal = (0..<3).allSatisfy { i in
-        (0..<3).allSatisfy { abs(r[i].dot(r[$0]) - (i == $0 ? 1 : 0)) < 1e-3 }
+        (0..<3).allSatisfy { abs(r[i].dot(r[$0]) - (i == $0 ? 1 : 0)) < rounding }
       }
       return isOrthonormal && r[0].cross(r[1]).dot(r[2]) > 0
     }
@@ -72,7 +76,9 @@ extension NamedCamera {
       guard isRotation(entry.R) else {
         throw EvaluationError.invalidReference("R of \(entry.name) is not a rotation")
       }
-      guard entry.K[0][0] > 0, entry.K[1][1] > 0, abs(entry.K[0][1]) < 1e-3 * entry.K[0][0] else {
+      guard entry.K[0][0] > 0, entry.K[1][1] > 0,
+        abs(entry.K[0][1]) < rounding * entry.K[0][0]
+      else {
         throw EvaluationError.invalidReference(
           "K of \(entry.name) has skew or a non-positive focal length")
       }
@@ -88,26 +94,6 @@ extension NamedCamera {
           rotation: Quaternion(Matrix3(rows: r[0], r[1], r[2])),
           translation: [entry.t[0], entry.t[1], entry.t[2]]),
         isSizeKnown: (entry.width ?? 0) > 0 && (entry.height ?? 0) > 0)
-    }
-  }
-}
-
-/// The reason why a result can't be compared.
-package enum EvaluationError: LocalizedError, Equatable, Sendable {
-  /// The reason completes a sentence that begins with the file's name.
-  case invalidReference(String)
-  case noCommonPhotos
-  case undeterminedAlignment(commonPhotos: Int)
-  case emptySurface
-
-  package var errorDescription: String? {
-    switch self {
-    case .invalidReference(let reason): "The reference can't be used: \(reason)."
-    case .noCommonPhotos: "The result and the reference have no photo name in common."
-    case .undeterminedAlignment(let count):
-      "The result can't be aligned to the reference: the \(count) common photos are too few or "
-        + "collinear."
-    case .emptySurface: "There is no surface to compare."
     }
   }
 }

@@ -7,11 +7,12 @@ package struct PoseErrors: Codable, Hashable, Sendable {
   package var registered: Int
   /// Number of reference photos.
   package var total: Int
-  /// Distances between camera centers after alignment, in units of the reference.
+  /// Root mean square, median and maximum distance between camera centers after alignment, in units
+  /// of the reference.
   package var centerRMSE: Double
   package var centerMedian: Double
   package var centerMaximum: Double
-  /// Angles between rotations after alignment.
+  /// Mean and maximum angle between rotations after alignment.
   package var rotationMeanDegrees: Double
   package var rotationMaximumDegrees: Double
   /// Area under the recall curve of relative poses (AUC), 0…1; the error of a pair is the larger of
@@ -69,10 +70,13 @@ extension PoseErrors {
     return (errors, alignment)
   }
 
+  /// The angle of a rotation.
   private static func degrees(_ rotation: Quaternion) -> Double { rotation.angle * 180 / .pi }
 
   private typealias Pair = (truth: RigidTransform, estimate: RigidTransform)
 
+  /// The quarter turn about the optical axis that best explains the relative rotations of
+  /// successive photos; the identity unless another one is clearly better.
   private static func bestTurn(_ pairs: [Pair]) -> RigidTransform {
     let turns = (0..<4).map {
       RigidTransform(

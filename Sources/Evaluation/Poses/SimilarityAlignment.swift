@@ -10,6 +10,10 @@ package struct SimilarityAlignment: Sendable {
     package var trials = 400
     /// Inlier threshold as a fraction of the targets' mean distance from their centroid.
     package var inlierFraction = 0.02
+    /// Number of pairs in a sample; a consensus set must have at least as many.
+    package var sampleSize = 4
+    /// Maximum number of fits to the growing consensus set.
+    package var refinements = 3
 
     package init() {}
   }
@@ -45,20 +49,21 @@ package struct SimilarityAlignment: Sendable {
     }
     var best: [Int] = []
     var random = SplitMix64(seed: UInt64(count))
-    for _ in 0..<(count > 4 ? options.trials : 0) {
-      let sample = random.distinct(4, below: count)
+    for _ in 0..<(count > options.sampleSize ? options.trials : 0) {
+      let sample = random.distinct(options.sampleSize, below: count)
       guard let transform = fit(sample) else { continue }
       let agreeing = inliers(of: transform)
       if agreeing.count > best.count { best = agreeing }
       if best.count == count { break }
     }
-    for _ in 0..<3 {
-      guard best.count >= 4, let transform = fit(best) else { break }
+    for _ in 0..<options.refinements {
+      guard best.count >= options.sampleSize, let transform = fit(best) else { break }
       let agreeing = inliers(of: transform)
       guard agreeing.count >= best.count, agreeing != best else { break }
       best = agreeing
     }
-    return (best.count >= 4 ? fit(best) : nil) ?? leastSquares(from: source, to: target)
+    return (best.count >= options.sampleSize ? fit(best) : nil)
+      ?? leastSquares(from: source, to: target)
   }
 
   private static func mean(_ points: [SIMD3<Double>]) -> SIMD3<Double> {

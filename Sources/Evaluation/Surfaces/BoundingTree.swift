@@ -2,7 +2,9 @@ import SceneModel
 
 /// An item of a `BoundingTree`.
 protocol BoundedItem: Sendable {
+  /// The axis-aligned bounding box.
   var bounds: (min: SIMD3<Float>, max: SIMD3<Float>) { get }
+  /// The squared distance of the nearest point of the item.
   func squaredDistance(to point: SIMD3<Float>) -> Float
 }
 
@@ -26,7 +28,7 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
     }
 
     /// Whether the ray intersects the box before `limit`; `inverse` is 1 / direction.
-    func meets(_ origin: SIMD3<Float>, _ inverse: SIMD3<Float>, _ limit: Float) -> Bool {
+    func isHit(from origin: SIMD3<Float>, _ inverse: SIMD3<Float>, _ limit: Float) -> Bool {
       let (a, b) = ((min - origin) * inverse, (max - origin) * inverse)
       let (near, far) = (pointwiseMin(a, b), pointwiseMax(a, b))
       return Swift.max(near.max(), 0) <= Swift.min(far.min(), limit)
@@ -40,6 +42,7 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
     init() {}
   }
 
+  /// Maximum number of items in a leaf.
   private static var leafSize: Int { 4 }
 
   private var items: [Item] = []
@@ -79,6 +82,7 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
     guard let first = centers.first else { return [] }
     let low = centers.reduce(first, pointwiseMin)
     let extent = max((centers.reduce(first, pointwiseMax) - low).max(), .leastNormalMagnitude)
+    // Three coordinates of 21 bits each.
     let keys = centers.map { center -> UInt64 in
       let cell = (center - low) / extent * Float((1 << 21) - 1)
       return spread(UInt64(cell.x)) | spread(UInt64(cell.y)) << 1 | spread(UInt64(cell.z)) << 2
@@ -132,7 +136,7 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
     stack.entries.removeAll(keepingCapacity: true)
     stack.entries.append((0, 0))
     while let (node, _) = stack.entries.popLast() {
-      guard boxes[node].meets(origin, inverse, limit) else { continue }
+      guard boxes[node].isHit(from: origin, inverse, limit) else { continue }
       if node >= firstLeaf {
         for item in leafRange(node - firstLeaf) where body(items[item]) { return true }
       } else {

@@ -22,13 +22,13 @@ package struct SurfaceSampling: Sendable {
     var index = 0
     // The sequence of the plastic number (Roberts 2018), a generalization of the golden ratio.
     let steps = SIMD2(0.754_877_666_246_692_7, 0.569_840_290_998_053_2)
-    var place = SIMD2(0.5, 0.5)
+    var uv = SIMD2(0.5, 0.5)
     for sample in 0..<count {
       let target = (Double(sample) + 0.5) / Double(count) * total
       while index < areas.count - 1, areas[index] <= target { index += 1 }
-      place += steps
-      place -= place.rounded(.down)
-      let folded = place.x + place.y > 1 ? 1 - place : place
+      uv += steps
+      uv -= uv.rounded(.down)
+      let folded = uv.x + uv.y > 1 ? 1 - uv : uv
       let (u, v) = (Float(folded.x), Float(folded.y))
       let t = triangles[index]
       points.append(t.a + u * (t.b - t.a) + v * (t.c - t.a))

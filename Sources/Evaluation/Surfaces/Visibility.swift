@@ -2,6 +2,11 @@ import SceneModel
 
 /// Determines which points of a surface are visible to cameras.
 struct Visibility: Sendable {
+  /// Start and end of the ray from a point to a camera, as fractions of their distance: the ray
+  /// must not hit the surface at the point itself.
+  private static let margin: Float = 1e-3
+  private static let limit: Float = 0.999
+
   let cameras: [NamedCamera]
   let tree: BoundingTree<FlatTriangle>
   let minimumViews: Int
@@ -33,17 +38,12 @@ struct Visibility: Sendable {
   ) -> Bool {
     let inCamera = camera.cameraFromWorld * SIMD3<Double>(point)
     guard inCamera.z > 0 else { return false }
-    let pixel = camera.camera.project(inCamera)
-    guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(camera.camera.width),
-      pixel.y < Double(camera.camera.height)
-    else { return false }
-    // From the point to the camera; the first thousandth is skipped to avoid hitting the surface
-    // itself.
+    guard camera.camera.contains(camera.camera.project(inCamera)) else { return false }
     let center = SIMD3<Float>(camera.cameraFromWorld.center)
     let direction = center - point
-    let origin = point + direction * 1e-3
-    return !tree.anyItem(from: origin, direction: direction, limit: 0.999, &stack) {
-      $0.isHit(from: origin, direction: direction, limit: 0.999)
+    let origin = point + direction * Self.margin
+    return !tree.anyItem(from: origin, direction: direction, limit: Self.limit, &stack) {
+      $0.isHit(from: origin, direction: direction, limit: Self.limit)
     }
   }
 }

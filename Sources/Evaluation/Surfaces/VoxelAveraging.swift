@@ -2,7 +2,8 @@ import SceneModel
 
 /// Voxel grid downsampling: replaces the points of each voxel by their mean.
 struct VoxelAveraging {
-  /// Side of a voxel; enlarged if the points extend over more than a million voxels.
+  /// Side of a voxel; enlarged if the points extend over more than 2²⁰ voxels along an axis, whose
+  /// numbers take 21 bits each.
   var side: Double
 
   private struct Sum {

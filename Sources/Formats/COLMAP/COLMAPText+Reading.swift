@@ -152,6 +152,7 @@ private struct Reading {
       throw Fault(reason: "no image with id, pose, camera and name")
     }
     let p = try numbers(words[1...7])
+    // A quaternion that this program wrote has unit length up to rounding and stays as it is.
     let rotation = Quaternion(x: p[1], y: p[2], z: p[3], w: p[0])
     let length = p[0..<4].reduce(0) { $0 + $1 * $1 }
     images.append(
@@ -206,7 +207,7 @@ private struct Reading {
     let cameraIDs = Dictionary(
       cameras.enumerated().map { ($1.id, ID<Camera>($0)) }, uniquingKeysWith: { first, _ in first })
     let images = self.images.sorted { $0.id < $1.id }.filter { cameraIDs[$0.camera] != nil }
-    let places = Dictionary(
+    let indices = Dictionary(
       images.enumerated().map { ($1.id, $0) }, uniquingKeysWith: { first, _ in first })
     var photos: [Photo] = []
     for (index, image) in images.enumerated() {
@@ -221,12 +222,12 @@ private struct Reading {
     let points = self.points.sorted { $0.id < $1.id }.map { entry in
       var point = entry.point
       point.track = entry.track.compactMap { observation in
-        guard let place = places[observation.image],
-          images[place].pixels.indices.contains(observation.keypoint)
+        guard let index = indices[observation.image],
+          images[index].pixels.indices.contains(observation.keypoint)
         else { return nil }
         return Observation(
-          photo: ID(place), feature: Int32(observation.keypoint),
-          pixel: images[place].pixels[observation.keypoint])
+          photo: ID(index), feature: Int32(observation.keypoint),
+          pixel: images[index].pixels[observation.keypoint])
       }.sorted { $0.photo < $1.photo }
       return point
     }

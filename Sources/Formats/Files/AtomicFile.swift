@@ -79,12 +79,14 @@ package enum AtomicFile {
 
   static let temporarySuffix = ".partial"
 
+  /// The start of the temporary names for a file.
   static func temporaryPrefix(of name: String) -> String {
     var name = name
     while name.utf8.count > 64 { name.removeLast() }
     return ".\(name)."
   }
 
+  /// Renames a file, replacing an existing one.
   static func rename(_ source: URL, to destination: URL) throws {
     guard Foundation.rename(source.path, destination.path) == 0 else {
       throw lastError

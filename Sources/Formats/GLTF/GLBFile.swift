@@ -30,7 +30,7 @@ package enum GLBFile {
     }
     let encoder = JSONEncoder()
     encoder.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]
-    let document = builder.document(name: USDModelLayer.rootName, generator: creator)
+    let document = builder.document(name: ModelContent.name, generator: creator)
     return try container(
       json: [UInt8](try encoder.encode(document)), binary: builder.binary, path: path)
   }

@@ -53,7 +53,8 @@ struct GLTFBuilder {
 extension GLTFBuilder {
   private mutating func append(_ material: GLTFMaterial) {
     var result = GLTFDocument.Material(
-      name: "g\(materials.count)", pbrMetallicRoughness: .init(roughnessFactor: 0.9))
+      name: ModelContent.partName(materials.count),
+      pbrMetallicRoughness: .init(roughnessFactor: ModelContent.defaultRoughness))
     result.pbrMetallicRoughness.baseColorTexture = material.baseColor.map { append($0) }
     result.normalTexture = material.normal.map { append($0) }
     switch material.surface {

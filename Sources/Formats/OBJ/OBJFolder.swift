@@ -6,7 +6,7 @@ package enum OBJFolder {
   /// Writes `model` into `folder`, which is created if missing; other files in it are kept. Throws
   /// `OutputError`.
   package static func write(_ model: ModelContent, to folder: URL) throws {
-    let name = USDModelLayer.rootName
+    let name = ModelContent.name
     try AtomicDirectory.write(to: folder) { temporary in
       func write(_ text: String, _ file: String) throws {
         try AtomicFile.write(Data(text.utf8), to: temporary.appendingPathComponent(file))
@@ -18,7 +18,7 @@ package enum OBJFolder {
       for index in model.parts.indices {
         for texture in model.textures(ofPart: index) {
           let file = temporary.appendingPathComponent(texture.fileName(atlas: index))
-          try AtomicFile.write(texture.bytes, to: file)
+          try AtomicFile.write(texture.image.bytes, to: file)
         }
       }
     }
@@ -27,7 +27,7 @@ package enum OBJFolder {
   /// The text of the OBJ file.
   static func object(_ model: ModelContent) -> String {
     let mesh = model.mesh
-    var text = "# \(model.creator)\nmtllib \(USDModelLayer.rootName).mtl\n"
+    var text = "# \(model.creator)\nmtllib \(ModelContent.name).mtl\n"
     for p in mesh.mesh.positions { text += "v \(p.x) \(p.y) \(p.z)\n" }
     for st in mesh.textureCoordinates { text += "vt \(st.x) \(st.y)\n" }
     let hasNormals = mesh.mesh.normals.count == mesh.mesh.positions.count
@@ -41,7 +41,8 @@ package enum OBJFolder {
     }
     let whole = TextureAtlas(triangles: 0..<mesh.mesh.triangles.count, maps: [:])
     for (part, atlas) in (mesh.atlases.isEmpty ? [whole] : mesh.atlases).enumerated() {
-      text += "g g\(part)\nusemtl g\(part)\n"
+      let name = ModelContent.partName(part)
+      text += "g \(name)\nusemtl \(name)\n"
       for index in stride(from: atlas.halves.lowerBound, to: atlas.halves.upperBound, by: 2) {
         let corners = mesh.mesh.triangles[index].quad(with: mesh.mesh.triangles[index + 1])
         let st = mesh.textureTriangles[index].quad(with: mesh.textureTriangles[index + 1])
@@ -60,7 +61,7 @@ package enum OBJFolder {
   static func materials(_ model: ModelContent) -> String {
     var text = "# \(model.creator)\n"
     for index in model.parts.indices {
-      text += "newmtl g\(index)\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\n"
+      text += "newmtl \(ModelContent.partName(index))\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\n"
       for texture in model.textures(ofPart: index) {
         let keyword =
           switch texture.map {

@@ -14,10 +14,7 @@ extension PLY {
     let count = mesh.positions.count
     let hasNormals = mesh.normals.count == count && count > 0
     let hasColors = mesh.colors.count == count && count > 0
-    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(count)\n"
-    header += "property float x\nproperty float y\nproperty float z\n"
-    if hasNormals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
-    if hasColors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    var header = headerStart(vertices: count, normals: hasNormals, colors: hasColors)
     header += "element face \(mesh.triangles.count - quadCount)\n"
     header += "property list uchar int vertex_indices\nend_header\n"
     var writer = ByteWriter(
@@ -63,7 +60,7 @@ extension PLY {
       try reader.forEachRow { element, row in
         if element.name == "vertex" {
           let point = vector(row, position)
-          guard isFinite(point) else { throw PLYFault("a vertex is not finite") }
+          guard point.isFinite else { throw PLYFault("a vertex is not finite") }
           mesh.positions.append(point)
           if let normal { mesh.normals.append(vector(row, normal)) }
           if let color { mesh.colors.append(Self.color(row, color, in: element)) }

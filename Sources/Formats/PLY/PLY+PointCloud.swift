@@ -18,10 +18,7 @@ extension PLY {
     let hasConsistency = cloud.consistency.count == count && count > 0
     let hasFootprints = cloud.footprints.count == count && count > 0
     let hasPhotos = cloud.photoOffsets.count == count + 1 && count > 0
-    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(count)\n"
-    header += "property float x\nproperty float y\nproperty float z\n"
-    if hasNormals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
-    if hasColors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    var header = headerStart(vertices: count, normals: hasNormals, colors: hasColors)
     if hasConsistency { header += "property float consistency\n" }
     if hasFootprints { header += "property float footprint\n" }
     if hasPhotos { header += "property list ushort ushort photos\n" }
@@ -83,7 +80,7 @@ private struct CloudColumns {
     _ row: PLYRow, of element: PLYHeader.Element, to cloud: inout PointCloud
   ) throws {
     let point = PLY.vector(row, position)
-    guard PLY.isFinite(point) else { return }
+    guard point.isFinite else { return }
     cloud.positions.append(point)
     if let normal { cloud.normals.append(PLY.vector(row, normal)) }
     if let color { cloud.colors.append(PLY.color(row, color, in: element)) }

@@ -6,6 +6,15 @@ import SceneModel
 /// Reading supports ascii and both byte orders, skips unknown properties, and reports damaged files
 /// as `FormatError`.
 package enum PLY {
+  /// The header of a binary file up to the position, normal and color of its vertices.
+  static func headerStart(vertices: Int, normals: Bool, colors: Bool) -> String {
+    var header = "ply\nformat binary_little_endian 1.0\nelement vertex \(vertices)\n"
+    header += "property float x\nproperty float y\nproperty float z\n"
+    if normals { header += "property float nx\nproperty float ny\nproperty float nz\n" }
+    if colors { header += "property uchar red\nproperty uchar green\nproperty uchar blue\n" }
+    return header
+  }
+
   /// Reads `url` with `body`, and adds the path to errors.
   static func read<Result>(
     _ url: URL, _ body: (inout PLYReader) throws -> Result
@@ -27,6 +36,7 @@ package enum PLY {
     return [x, y, z]
   }
 
+  /// The values of three properties of a row.
   static func vector(_ row: PLYRow, _ index: SIMD3<Int>) -> SIMD3<Float> {
     [
       Float(row.scalars[index.x]), Float(row.scalars[index.y]), Float(row.scalars[index.z]),
@@ -38,14 +48,10 @@ package enum PLY {
     _ row: PLYRow, _ index: SIMD3<Int>, in element: PLYHeader.Element
   ) -> SIMD3<UInt8> {
     let isFloat = [.float32, .float64].contains(element.properties[index.x].type)
-    func channel(_ place: Int) -> UInt8 {
-      let value = row.scalars[place] * (isFloat ? 255 : 1)
+    func channel(_ property: Int) -> UInt8 {
+      let value = row.scalars[property] * (isFloat ? 255 : 1)
       return value.isFinite ? UInt8(min(255, max(0, value.rounded()))) : 0
     }
     return [channel(index.x), channel(index.y), channel(index.z)]
-  }
-
-  static func isFinite(_ v: SIMD3<Float>) -> Bool {
-    v.x.isFinite && v.y.isFinite && v.z.isFinite
   }
 }

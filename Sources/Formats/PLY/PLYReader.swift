@@ -99,6 +99,7 @@ struct PLYReader {
     }
   }
 
+  /// The next word of a text, delimited by white space and control characters.
   private static func word(_ bytes: [UInt8], _ offset: inout Int) throws -> String {
     while offset < bytes.count, bytes[offset] <= 32 { offset += 1 }
     let start = offset

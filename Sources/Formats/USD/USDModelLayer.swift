@@ -1,21 +1,18 @@
 import SceneModel
 
 /// Describes a model with the layout of Object Capture's files: a root with a scope of materials
-/// and one of meshes, which have a pair `g0`, `g1` … for each atlas.
+/// and one of meshes. Each part of the model has a material and a mesh, both named `g0`, `g1` …
 package struct USDModelLayer {
   /// The folder of the texture images relative to the layer, with a trailing slash unless empty.
-  package var textureFolder: String = "0/"
+  package var textureFolder: String
 
   package init(textureFolder: String = "0/") { self.textureFolder = textureFolder }
 
-  /// The name of the root prim, and the stem of all file names.
-  package static let rootName = "baked_mesh"
-
   /// The layer of `model`.
   package func layer(_ model: ModelContent) -> USDLayer {
-    var root = USDPrim("Xform", Self.rootName)
+    var root = USDPrim("Xform", ModelContent.name)
     root.metadata = [
-      USDField("assetInfo", .dictionary([USDField("name", .string(Self.rootName))])),
+      USDField("assetInfo", .dictionary([USDField("name", .string(ModelContent.name))])),
       USDField("kind", .token("component")),
     ]
     var materials = USDPrim("Scope", "Materials")
@@ -29,11 +26,11 @@ package struct USDModelLayer {
       metadata: [
         USDField("customLayerData", .dictionary([USDField("creator", .string(model.creator))])),
         USDField("metersPerUnit", .double(1)), USDField("upAxis", .token("Y")),
-      ], defaultPrim: Self.rootName, prims: [root])
+      ], defaultPrim: ModelContent.name, prims: [root])
   }
 
   private static func mesh(_ index: Int, _ part: MeshPart) -> USDPrim {
-    var mesh = USDPrim("Mesh", "g\(index)")
+    var mesh = USDPrim("Mesh", ModelContent.partName(index))
     mesh.apiSchemas = ["MaterialBindingAPI"]
     let bounds = Mesh(positions: part.positions).bounds ?? (.zero, .zero)
     mesh.properties = [
@@ -45,7 +42,7 @@ package struct USDModelLayer {
             + [Int32](repeating: 3, count: part.triangles.count - 2 * part.quadCount))),
       .attribute(
         "int[]", "faceVertexIndices", .intArray(indices(part.triangles, quads: part.quadCount))),
-      .relationship("material:binding", ["/\(rootName)/Materials/g\(index)"]),
+      .relationship("material:binding", [materialPath(index)]),
     ]
     if part.normals.count == part.positions.count {
       mesh.properties.append(
@@ -69,6 +66,11 @@ package struct USDModelLayer {
     return mesh
   }
 
+  /// The path of the material of part `index`.
+  private static func materialPath(_ index: Int) -> String {
+    "/\(ModelContent.name)/Materials/\(ModelContent.partName(index))"
+  }
+
   /// The face corner indices; quads, of two triangles each, come first.
   private static func indices(_ triangles: [Triangle], quads: Int) -> [Int32] {
     let corners = stride(from: 0, to: 2 * quads, by: 2).flatMap {
@@ -85,8 +87,8 @@ package struct USDModelLayer {
 
 extension USDModelLayer {
   private func material(_ index: Int, _ textures: [EncodedTexture]) -> USDPrim {
-    let path = "/\(Self.rootName)/Materials/g\(index)"
-    var material = USDPrim("Material", "g\(index)")
+    let path = Self.materialPath(index)
+    var material = USDPrim("Material", ModelContent.partName(index))
     material.properties = [
       .attribute("string", "inputs:frame:stPrimvarName", .string("st")),
       .connection("token", "outputs:surface", to: "\(path)/surfaceShader.outputs:surface"),
@@ -111,7 +113,8 @@ extension USDModelLayer {
           to: "\(path)/\(input.name)_texture.outputs:\(input.channels)"))
     }
     if !textures.contains(where: { $0.map == .roughness }) {
-      shader.properties.append(.attribute("float", "inputs:roughness", .float(0.9)))
+      shader.properties.append(
+        .attribute("float", "inputs:roughness", .float(Float(ModelContent.defaultRoughness))))
     }
     shader.properties.append(.attribute("token", "outputs:surface"))
     return shader

@@ -1,4 +1,4 @@
-/// An uncompressed zip archive with every entry's data aligned to 64 bytes.
+/// An uncompressed zip archive with every entry's data aligned to 64 bytes (PKWARE, APPNOTE.TXT).
 package struct StoredZip {
   private struct Entry {
     var name: [UInt8]
@@ -10,7 +10,17 @@ package struct StoredZip {
   private static let alignment = 64
   /// 1980-01-01 00:00, the zip epoch.
   private static let date: UInt16 = 1 << 5 | 1
+  /// The version needed to extract: 1.0, for stored entries.
   private static let version: UInt16 = 10
+  private static let localHeaderSignature: UInt32 = 0x0403_4B50
+  private static let directoryEntrySignature: UInt32 = 0x0201_4B50
+  private static let directoryEndSignature: UInt32 = 0x0605_4B50
+  /// Sizes in bytes, without the name and without a comment.
+  private static let (directoryEntrySize, directoryEndSize) = (46, 22)
+  /// The ID of the extra field that pads entries; USD's own writer uses the same.
+  private static let paddingFieldID: UInt16 = 0x1986
+  /// ID and length of an extra field.
+  private static let fieldHeaderSize = 4
 
   private var writer = ByteWriter()
   private var entries: [Entry] = []
@@ -19,7 +29,8 @@ package struct StoredZip {
 
   /// Size of the archive in bytes, including the directory that `finish` appends.
   package var size: Int {
-    writer.count + entries.reduce(22) { $0 + 46 + $1.name.count }
+    writer.count
+      + entries.reduce(Self.directoryEndSize) { $0 + Self.directoryEntrySize + $1.name.count }
   }
 
   /// Adds an entry. The archive must stay below 4 GiB: see `size`.
@@ -29,9 +40,10 @@ package struct StoredZip {
       name: name, checksum: CRC32.checksum(bytes), size: UInt32(truncatingIfNeeded: bytes.count),
       offset: UInt32(truncatingIfNeeded: writer.count))
     entries.append(entry)
-    writer.append(UInt32(0x0403_4B50))
+    writer.append(Self.localHeaderSignature)
     writer.append(Self.version)
     appendDescription(of: entry)
+    // After the lengths of the name and of the extra field, and the name.
     let padding = Self.padding(at: writer.count + 4 + name.count)
     writer.append(UInt16(name.count))
     writer.append(UInt16(padding))
@@ -44,7 +56,7 @@ package struct StoredZip {
   package mutating func finish() -> [UInt8] {
     let start = writer.count
     for entry in entries {
-      writer.append(UInt32(0x0201_4B50))
+      writer.append(Self.directoryEntrySignature)
       writer.append(Self.version)
       writer.append(Self.version)
       appendDescription(of: entry)
@@ -55,7 +67,7 @@ package struct StoredZip {
       writer.append(contentsOf: entry.name)
     }
     let length = writer.count - start
-    writer.append(UInt32(0x0605_4B50))
+    writer.append(Self.directoryEndSignature)
     writer.append(UInt32(0))
     writer.append(UInt16(entries.count))
     writer.append(UInt16(entries.count))
@@ -80,13 +92,14 @@ package struct StoredZip {
   /// the four bytes of its header.
   private static func padding(at offset: Int) -> Int {
     let distance = (alignment - offset % alignment) % alignment
-    return distance == 0 || distance >= 4 ? distance : distance + alignment
+    return distance == 0 || distance >= fieldHeaderSize ? distance : distance + alignment
   }
 
   private mutating func appendExtraField(length: Int) {
     guard length > 0 else { return }
-    writer.append(UInt16(0x1986))
-    writer.append(UInt16(length - 4))
-    writer.append(contentsOf: [UInt8](repeating: 0, count: length - 4))
+    let payload = length - Self.fieldHeaderSize
+    writer.append(Self.paddingFieldID)
+    writer.append(UInt16(payload))
+    writer.append(contentsOf: [UInt8](repeating: 0, count: payload))
   }
 }

@@ -11,12 +11,13 @@ package enum USDZPackage {
 
   /// The bytes that `write` writes; `path` is the file's path in errors.
   package static func encode(_ model: ModelContent, path: String = "model.usdz") throws -> [UInt8] {
-    let layer = USDModelLayer().layer(model)
+    let description = USDModelLayer()
     var archive = StoredZip()
-    archive.append("\(USDModelLayer.rootName).usdc", USDCrate.encode(layer))
+    archive.append("\(ModelContent.name).usdc", USDCrate.encode(description.layer(model)))
     for index in model.parts.indices {
       for texture in model.textures(ofPart: index) {
-        archive.append("0/" + texture.fileName(atlas: index), texture.bytes)
+        archive.append(
+          description.textureFolder + texture.fileName(atlas: index), texture.image.bytes)
       }
     }
     guard archive.size <= Int(UInt32.max) else {

@@ -3,35 +3,49 @@ import SceneModel
 
 /// A record of a run by stage and by photo: the content of `report.json`.
 package struct RunReport: Codable, Sendable {
+  /// The cost of one execution of a stage, and what it recorded.
   package struct Stage: Codable, Sendable {
     package var name: String
+    /// Wall-clock time.
     package var seconds: Double
+    /// User and system time of all threads.
     package var cpuSeconds: Double
     /// Peak resident memory of the process at the stage's end.
     package var peakMemoryBytes: Int
+    /// The numbers of `StageNotes`.
     package var counts: [String: Double]
   }
 
+  /// What became of a photo.
   package struct PhotoEntry: Codable, Sendable {
     package enum Status: String, Codable, Sendable {
-      case registered, refused, notRegistered
+      /// Alignment determined its pose.
+      case registered
+      /// Rejected by validation.
+      case rejected = "refused"
+      /// Valid, but without a pose after alignment.
+      case notRegistered
       /// A camera was given, but its photo is missing.
       case missing
     }
 
     package var name: String
     package var status: Status
+    /// Why it is not registered, as a sentence.
     package var reason: String?
   }
 
+  /// The version of the report's format.
   package var version: String = "1"
   package var configuration: PipelineConfiguration
   package var stages: [Stage] = []
   package var photos: [PhotoEntry] = []
+  /// In pixels; nil before alignment, as is the world frame.
   package var meanReprojectionError: Double?
   package var worldFrame: WorldFrame?
   /// The reasons why the run, or a part of it, failed, as sentences.
   package var errors: [String] = []
+  /// Warnings and additional information of all stages, as sentences.
   package var warnings: [String] = []
   package var details: [String] = []
 

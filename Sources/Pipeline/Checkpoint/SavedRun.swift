@@ -40,9 +40,8 @@ package struct SavedRun: Sendable {
 
   private static func checkPresence(_ checkpoint: Checkpoint) throws {
     let files = FileManager.default
-    var isDirectory: ObjCBool = false
     let path = checkpoint.directory.path
-    guard files.fileExists(atPath: path, isDirectory: &isDirectory), isDirectory.boolValue else {
+    guard checkpoint.directory.isExistingFolder else {
       throw SavedRunError.noDirectory(path: path)
     }
     let poses = checkpoint.sparse.appendingPathComponent("images.txt")
@@ -133,9 +132,9 @@ package enum SavedRunError: LocalizedError, Equatable, Sendable {
     case .noPhotos(let folder):
       "The photos are gone: the folder \(folder) does not exist."
     case .missingPhotos(let folder, let names):
-      "Photos are missing in \(folder): \(Self.list(names))."
+      "Photos are missing in \(folder): \(names.list())."
     case .changedPhotos(let folder, let names):
-      "Photos in \(folder) have changed since the run: \(Self.list(names))."
+      "Photos in \(folder) have changed since the run: \(names.list())."
     }
   }
 
@@ -153,10 +152,5 @@ package enum SavedRunError: LocalizedError, Equatable, Sendable {
     case .changedPhotos:
       "Specify the folder of the originals with --photos, or repeat the run."
     }
-  }
-
-  private static func list(_ names: [String]) -> String {
-    let shown = names.prefix(5).joined(separator: ", ")
-    return names.count > 5 ? "\(shown) and \(names.count - 5) more" : shown
   }
 }

@@ -38,7 +38,7 @@ private struct AlignmentRecord: Codable {
   var poses: [RigidTransform?]
   var points: [ScenePoint]
   var worldFrame: WorldFrame
-  var unregistered: [RefusedPhoto]
+  var unregistered: [RejectedPhoto]
   var notes: SavedNotes
 }
 
@@ -98,6 +98,7 @@ extension StageStore {
     return mesh
   }
 
+  /// The hash of the surface in the checkpoint; nil if there is none.
   private func surfaceHash() -> UInt64? {
     (try? Data(contentsOf: checkpoint.surface, options: .alwaysMapped))?
       .withUnsafeBytes { XXHash64.hash($0) }
@@ -123,6 +124,7 @@ private struct SavedNotes: Codable {
     return result
   }
 
+  /// Records the notes again.
   func replay(to notes: StageNotes) {
     for (name, value) in counts { notes.record(name, value) }
     warnings.forEach(notes.warn)

@@ -5,9 +5,10 @@ import SceneModel
 /// The inputs of a surface: the content of `mesh/surface.json`, which determines whether further
 /// models can be made from the surface.
 package struct SurfaceRecord: Codable, Equatable, Sendable {
+  /// A registered photo.
   package struct PhotoFile: Codable, Equatable, Sendable {
     package var name: String
-    /// The hash of the file's bytes.
+    /// XXH64 of the file's bytes, in hexadecimal.
     package var contentHash: String
     /// The mask that the run used; nil if it used none.
     package var mask: PhotoMask?
@@ -52,6 +53,7 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     return String(repeating: "0", count: 16 - digits.count) + digits
   }
 
+  /// The record as JSON with sorted keys.
   func encoded() throws -> Data {
     let encoder = JSONEncoder()
     encoder.outputFormatting = [.prettyPrinted, .sortedKeys, .withoutEscapingSlashes]

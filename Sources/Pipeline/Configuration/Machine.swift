@@ -89,21 +89,28 @@ package struct Machine: Hashable, Sendable {
 /// The limits of a run that follow from a machine's memory. They depend on the total memory, not on
 /// the free memory, so that runs do not differ.
 package struct MemoryLimits: Hashable, Sendable {
-  /// Photos beyond this number are refused.
+  /// Photos beyond this number are rejected.
   package var maximumPhotos: Int
-  /// Photos with a longer side, in pixels, are refused.
+  /// Photos with a longer side, in pixels, are rejected.
   package var maximumPhotoSide: Int
   /// Bytes that decoded photos may occupy.
   package var imageMemory: Int
 }
 
 extension Machine {
-  /// With 7.5 GiB of memory or more: 1000 photos of at most 16384 pixels per side.
+  /// Memory in GiB from which on a run has the largest limits.
+  private static let sufficientGibibytes = 7.5
+  /// Photos per GiB of memory: 1000 photos need somewhat less than `sufficientGibibytes`.
+  private static let photosPerGibibyte = 134.0
+
+  /// With 7.5 GiB of memory or more, 1000 photos of at most 16384 pixels per side. With less, in
+  /// proportion fewer photos, but 100 at least, and 8192 pixels per side. Decoded photos take an
+  /// eighth of the memory, from 256 MiB to 1 GiB.
   package var limits: MemoryLimits {
     let gibibytes = Double(totalMemoryBytes) / Double(1 << 30)
     return MemoryLimits(
-      maximumPhotos: min(1000, max(100, Int(gibibytes * 134))),
-      maximumPhotoSide: gibibytes >= 7.5 ? 16384 : 8192,
+      maximumPhotos: min(1000, max(100, Int(gibibytes * Self.photosPerGibibyte))),
+      maximumPhotoSide: gibibytes >= Self.sufficientGibibytes ? 16384 : 8192,
       imageMemory: min(1 << 30, max(256 << 20, totalMemoryBytes / 8)))
   }
 }

@@ -1,14 +1,25 @@
 import SceneModel
 
 extension Camera {
+  /// Number of intervals in which the border of a rectangle is sampled.
+  private static let borderIntervals = 64
+  /// Minimum slope of the radial distortion for its inverse to be well-defined.
+  private static let minimumSlope = 0.05
+  /// How far a border ray may miss the photo, in pixels.
+  private static let borderTolerance = 0.01
+  /// Factor per step by which a rectangle shrinks until the photo fills it, and number of steps.
+  private static let (shrinkage, maximumSteps) = (0.995, 200)
+  /// Maximum size of the rectangle relative to that of a photo without distortion.
+  private static let maximumExtent = 3.0
+
   /// The camera without distortion whose image is the largest rectangle around the principal point
   /// that this camera's photo fills, with the same focal length if `maximumPixels` allows it.
   package func undistortedPinhole(maximumPixels: Int) -> Camera {
     var (low, high) = innerRectangle()
     // Shrink slightly if the border samples were too sparse.
-    for _ in 0..<200 where !isFilled(low, high) {
-      low *= 0.995
-      high *= 0.995
+    for _ in 0..<Self.maximumSteps where !isFilled(low, high) {
+      low *= Self.shrinkage
+      high *= Self.shrinkage
     }
     let extent = (high - low) * focalLength
     let scale = min(1, (Double(maximumPixels) / (extent.x * extent.y)).squareRoot())
@@ -24,8 +35,8 @@ extension Camera {
     let (w, h) = (Double(width), Double(height))
     let nominalLow = -principalPoint / focalLength
     let nominalHigh = (SIMD2(w, h) - principalPoint) / focalLength
-    var (low, high) = (3 * nominalLow, 3 * nominalHigh)
-    let samples = 64
+    var (low, high) = (Self.maximumExtent * nominalLow, Self.maximumExtent * nominalHigh)
+    let samples = Self.borderIntervals
     for index in 0...samples {
       let t = Double(index) / Double(samples)
       let (left, right) = (unproject([0, t * h]), unproject([w, t * h]))
@@ -43,18 +54,18 @@ extension Camera {
   private func isRegular(_ p: SIMD2<Double>) -> Bool {
     let r2 = p.squaredLength
     let slope = 1 + r2 * (3 * distortion.x + r2 * 5 * distortion.y)
-    return r2.isFinite && slope > 0.05
+    return r2.isFinite && slope > Self.minimumSlope
   }
 
   /// Whether all rays on the rectangle's border hit the photo.
   private func isFilled(_ low: SIMD2<Double>, _ high: SIMD2<Double>) -> Bool {
-    let samples = 64
+    let (samples, tolerance) = (Self.borderIntervals, Self.borderTolerance)
     return (0...samples).allSatisfy { index in
       let p = low + (high - low) * (Double(index) / Double(samples))
       return [SIMD2(p.x, low.y), [p.x, high.y], [low.x, p.y], [high.x, p.y]].allSatisfy {
         let pixel = distort($0) * focalLength + principalPoint
-        return isRegular($0) && pixel.x >= -0.01 && pixel.y >= -0.01
-          && pixel.x <= Double(width) + 0.01 && pixel.y <= Double(height) + 0.01
+        return isRegular($0) && pixel.x >= -tolerance && pixel.y >= -tolerance
+          && pixel.x <= Double(width) + tolerance && pixel.y <= Double(height) + tolerance
       }
     }
   }

@@ -4,6 +4,7 @@ struct DisjointSets: Sendable {
 
   init(count: Int) { parents = Array(0..<count) }
 
+  /// The number that represents the set of `number`.
   mutating func root(_ number: Int) -> Int {
     var number = number
     while parents[number] != number {

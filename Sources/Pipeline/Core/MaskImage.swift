@@ -34,11 +34,11 @@ enum MaskImage {
 }
 
 extension RasterImage {
-  /// Whether the mask marks the pixel at `place`, in pixels, as object; false outside the mask.
-  func isMarked(at place: SIMD2<Double>) -> Bool {
-    guard place.x >= 0, place.y >= 0, place.x < Double(width), place.y < Double(height) else {
+  /// Whether the mask marks a position, in pixels, as object; false outside the mask.
+  func isMarked(at pixel: SIMD2<Double>) -> Bool {
+    guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(width), pixel.y < Double(height) else {
       return false
     }
-    return pixels[Int(place.y) * width + Int(place.x)] >= 128
+    return pixels[Int(pixel.y) * width + Int(pixel.x)] >= 128
   }
 }

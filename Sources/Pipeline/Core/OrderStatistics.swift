@@ -6,7 +6,8 @@ extension PointCloud {
 }
 
 extension Array where Element: Comparable {
-  /// The upper median; nil for an empty array.
+  /// The median; of an even number of elements, the larger of the middle two. Nil for an empty
+  /// array.
   var upperMedian: Element? { quantile(0.5) }
 
   /// The element that is greater than the fraction `q` of the others; nil for an empty array.

@@ -6,7 +6,7 @@ import SceneModel
 /// Photos in files.
 struct PhotoFiles: PhotoPixels {
   let photos: [Photo]
-  /// By photo id; empty if unknown, in which case files are read for fingerprints.
+  /// By photo ID; empty if unknown, in which case files are read for fingerprints.
   let contentHashes: [UInt64]
 
   var hasMasks: Bool { photos.contains { $0.mask != nil } }
@@ -87,6 +87,7 @@ struct PhotoFiles: PhotoPixels {
     try naming(photo) { try ImageCodec.contents(of: photo.url) }
   }
 
+  /// Calls `body`, and adds the photo's name to image errors.
   private func naming<Value>(_ photo: Photo, _ body: () throws -> Value) throws -> Value {
     do {
       return try body()
@@ -98,6 +99,7 @@ struct PhotoFiles: PhotoPixels {
 
 /// A photo that was readable when the run began and no longer is.
 package struct PhotoReadError: LocalizedError, Sendable {
+  /// The name of the photo or of its mask.
   package var name: String
   package var reason: ImageError
 

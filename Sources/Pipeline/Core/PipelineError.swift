@@ -3,7 +3,7 @@ import Foundation
 /// The reason why a run can't continue: a sentence and a remedy.
 package enum PipelineError: LocalizedError, Equatable, Sendable {
   case unreadableFolder(path: String, reason: String)
-  case noPhotos(folder: String, refused: Int)
+  case noPhotos(folder: String, rejected: Int)
   case tooFewPhotos(found: Int, needed: Int)
   case tooFewCameras(found: Int, needed: Int, photos: Int, cameras: Int)
   case camerasDontFit(reason: String)
@@ -15,10 +15,10 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     switch self {
     case .unreadableFolder(let path, let reason):
       "\(path) can't be read: \(reason)."
-    case .noPhotos(let folder, let refused):
-      refused == 0
+    case .noPhotos(let folder, let rejected):
+      rejected == 0
         ? "\(folder) holds no photos."
-        : "\(folder) holds no usable photo; \(refused) files were refused."
+        : "\(folder) holds no usable photo; \(rejected) files were refused."
     case .tooFewPhotos(let found, let needed):
       "Only \(found) usable photos; a reconstruction needs at least \(needed)."
     case .tooFewCameras(let count, let needed, let photos, let cameras):

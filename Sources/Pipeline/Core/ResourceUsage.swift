@@ -9,6 +9,7 @@ package struct ResourceUsage {
   /// The peak resident memory so far.
   package var peakMemoryBytes: Int
 
+  /// The usage up to this moment.
   package static var now: ResourceUsage {
     var usage = rusage()
     getrusage(Int32(RUSAGE_SELF.rawValue), &usage)

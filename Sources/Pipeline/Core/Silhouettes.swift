@@ -63,12 +63,12 @@ package struct Silhouettes: Sendable {
     for view in views {
       let p = view.rotation * point + view.translation
       guard p.z > 0 else { continue }
-      let place = SIMD2(p.x, p.y) / p.z * view.camera.focalLength + view.camera.principalPoint
-      guard place.x >= 0, place.y >= 0, place.x < Double(view.mask.width),
-        place.y < Double(view.mask.height)
+      let pixel = SIMD2(p.x, p.y) / p.z * view.camera.focalLength + view.camera.principalPoint
+      guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(view.mask.width),
+        pixel.y < Double(view.mask.height)
       else { continue }
       seen += 1
-      if !view.mask.isMarked(at: place) { outside += 1 }
+      if !view.mask.isMarked(at: pixel) { outside += 1 }
     }
     return outside < options.minimumPhotos
       || Double(outside) < options.minimumShare * Double(seen)

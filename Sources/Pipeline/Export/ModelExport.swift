@@ -50,9 +50,8 @@ package struct ModelExport: Sendable {
       atlas.maps.sorted { $0.key < $1.key }.map { (map: $0.key, image: $0.value) }
     }
     let images = try context.control.parallelMap(jobs.count) { index in
-      let image = try encode(jobs[index].map, jobs[index].image)
-      return EncodedTexture(
-        map: jobs[index].map, fileExtension: image.fileExtension, bytes: image.bytes)
+      let (map, image) = jobs[index]
+      return EncodedTexture(map: map, image: try encode(map, image))
     }
     try context.control.step(1)
     var rest = images[...]

@@ -22,7 +22,7 @@ package struct ModelPreview: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// The pictures in rows, ordered counter-clockwise around the model as seen from above; RGB.
+  /// The pictures in rows, ordered counterclockwise around the model as seen from above; RGB.
   ///
   /// All have the same scale. `cameras` are the photos' `cameraFromWorld`: they determine the
   /// photographed side and the elevation.

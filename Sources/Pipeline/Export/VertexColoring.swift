@@ -50,8 +50,8 @@ extension RasterImage {
   /// the bottom left.
   fileprivate func color(at coordinate: SIMD2<Float>) -> SIMD3<Float> {
     let size = SIMD2(Float(width), Float(height))
-    let place = SIMD2(coordinate.x, 1 - coordinate.y) * size - 0.5
-    let inside = place.clamped(lowerBound: .zero, upperBound: size - 1)
+    let texel = SIMD2(coordinate.x, 1 - coordinate.y) * size - 0.5
+    let inside = texel.clamped(lowerBound: .zero, upperBound: size - 1)
     let corner = inside.rounded(.down)
     let f = inside - corner
     let (x, y) = (Int(corner.x), Int(corner.y))

@@ -19,8 +19,8 @@ extension Mesh {
     var owner = [Int](repeating: -1, count: positions.count)
     var copies: [Int: UInt32] = [:]
     result.triangles = triangles.indices.map { face in
-      let corners = triangles[face].vertices.enumerated().map { place, vertex -> UInt32 in
-        let fan = fans.root(3 * face + place)
+      let corners = triangles[face].vertices.enumerated().map { corner, vertex -> UInt32 in
+        let fan = fans.root(3 * face + corner)
         if owner[vertex] < 0 { owner[vertex] = fan }
         if owner[vertex] == fan { return UInt32(vertex) }
         if let copy = copies[fan] { return copy }

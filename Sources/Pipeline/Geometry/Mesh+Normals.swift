@@ -2,19 +2,6 @@ import Foundation
 import SceneModel
 
 extension Mesh {
-  /// The three positions of a triangle.
-  func corners(of triangle: Triangle) -> (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>) {
-    (positions[Int(triangle.a)], positions[Int(triangle.b)], positions[Int(triangle.c)])
-  }
-
-  /// Area of each triangle.
-  func triangleAreas() -> [Float] {
-    triangles.map { triangle in
-      let (a, b, c) = corners(of: triangle)
-      return (b - a).cross(c - a).length / 2
-    }
-  }
-
   /// Unit vertex normals: face normals weighted by their angle at the vertex (Thürmer and Wüthrich,
   /// 1998). Vertices without triangles get +y.
   func angleWeightedNormals() -> [SIMD3<Float>] {

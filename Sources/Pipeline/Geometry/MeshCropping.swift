@@ -132,21 +132,3 @@ struct MeshCropping: Sendable {
     }
   }
 }
-
-extension Mesh {
-  /// The vertices referenced by triangles, in their order.
-  fileprivate func withoutUnusedVertices() -> Mesh {
-    var isUsed = [Bool](repeating: false, count: positions.count)
-    for triangle in triangles { for vertex in triangle.vertices { isUsed[vertex] = true } }
-    let kept = positions.indices.filter { isUsed[$0] }
-    var numbers = [UInt32](repeating: 0, count: positions.count)
-    for (number, vertex) in kept.enumerated() { numbers[vertex] = UInt32(number) }
-    return Mesh(
-      positions: kept.map { positions[$0] },
-      normals: normals.isEmpty ? [] : kept.map { normals[$0] },
-      colors: colors.isEmpty ? [] : kept.map { colors[$0] },
-      triangles: triangles.map {
-        Triangle(numbers[Int($0.a)], numbers[Int($0.b)], numbers[Int($0.c)])
-      })
-  }
-}

@@ -34,6 +34,7 @@ struct MeshTopology: Sendable {
     collectEdges(of: mesh)
   }
 
+  /// The triangles incident to a vertex, ascending.
   func triangles(around vertex: Int) -> ArraySlice<Int32> {
     incident[Int(offsets[vertex])..<Int(offsets[vertex + 1])]
   }
@@ -61,9 +62,4 @@ struct MeshTopology: Sendable {
       }
     }
   }
-}
-
-extension Triangle {
-  /// The indices of the three vertices.
-  var vertices: [Int] { [Int(a), Int(b), Int(c)] }
 }

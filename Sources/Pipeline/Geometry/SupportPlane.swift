@@ -12,7 +12,8 @@ struct SupportPlane: Hashable, Sendable {
 }
 
 extension SupportPlane {
-  /// The plane through three points; nil if they are close together or nearly collinear.
+  /// The plane through three points; nil if they are close together (within ten bands) or nearly
+  /// collinear (within 3°).
   init?(through points: [SIMD3<Double>], up: SIMD3<Double>, band: Double) {
     let (u, v) = (points[1] - points[0], points[2] - points[0])
     let cross = u.cross(v)

@@ -17,6 +17,7 @@ struct VertexLists<Value: Equatable & Sendable>: Sendable {
     values = Array(repeating: empty, count: Int(sum))
   }
 
+  /// Appends a value to the list of a vertex, within its capacity.
   mutating func append(_ value: Value, at vertex: UInt32) {
     values[Int(ends[Int(vertex)])] = value
     ends[Int(vertex)] += 1

@@ -14,15 +14,15 @@ struct MembraneFill: Sendable {
     let edges = triangles.flatMap(\.edges).flatMap { [$0, SIMD2($0.y, $0.x)] }
       .filter { !isFixed[Int($0.x)] }
       .sorted { ($0.x, $0.y) < ($1.x, $1.y) }
-    var places: [UInt32: Int] = [:]
-    for edge in edges where places[edge.x] == nil {
-      places[edge.x] = vertices.count
+    var indices: [UInt32: Int] = [:]
+    for edge in edges where indices[edge.x] == nil {
+      indices[edge.x] = vertices.count
       vertices.append(Int(edge.x))
     }
     var last: SIMD2<UInt32>?
     for edge in edges where edge != last {
       if let last, last.x != edge.x { offsets.append(neighbors.count) }
-      neighbors.append(places[edge.y] ?? -1 - Int(edge.y))
+      neighbors.append(indices[edge.y] ?? -1 - Int(edge.y))
       last = edge
     }
     if !vertices.isEmpty { offsets.append(neighbors.count) }
@@ -49,22 +49,22 @@ struct MembraneFill: Sendable {
       for i in vertices.indices { direction[i] = residual[i] + beta * direction[i] }
       squaredNorm = next
     }
-    for (place, vertex) in vertices.enumerated() { positions[vertex] = SIMD3<Float>(x[place]) }
+    for (index, vertex) in vertices.enumerated() { positions[vertex] = SIMD3<Float>(x[index]) }
   }
 
   /// The residual of a vertex: the sum of differences from it to its neighbors.
   private func laplacianResidual(
-    _ place: Int, _ x: [SIMD3<Double>], _ positions: [SIMD3<Float>]
+    _ index: Int, _ x: [SIMD3<Double>], _ positions: [SIMD3<Float>]
   ) -> SIMD3<Double> {
-    neighbors[offsets[place]..<offsets[place + 1]].reduce(SIMD3<Double>.zero) {
-      $0 + ($1 >= 0 ? x[$1] : SIMD3<Double>(positions[-1 - $1])) - x[place]
+    neighbors[offsets[index]..<offsets[index + 1]].reduce(SIMD3<Double>.zero) {
+      $0 + ($1 >= 0 ? x[$1] : SIMD3<Double>(positions[-1 - $1])) - x[index]
     }
   }
 
   /// One row of the graph Laplacian of the free vertices times a vector.
-  private func laplacian(_ place: Int, _ vector: [SIMD3<Double>]) -> SIMD3<Double> {
-    let range = offsets[place]..<offsets[place + 1]
-    return neighbors[range].reduce(Double(range.count) * vector[place]) {
+  private func laplacian(_ index: Int, _ vector: [SIMD3<Double>]) -> SIMD3<Double> {
+    let range = offsets[index]..<offsets[index + 1]
+    return neighbors[range].reduce(Double(range.count) * vector[index]) {
       $1 >= 0 ? $0 - vector[$1] : $0
     }
   }

@@ -34,8 +34,3 @@ extension Mesh {
     return mesh
   }
 }
-
-extension Triangle {
-  /// The directed edges.
-  var edges: [SIMD2<UInt32>] { [[a, b], [b, c], [c, a]] }
-}

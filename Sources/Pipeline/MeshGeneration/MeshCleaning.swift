@@ -11,6 +11,9 @@ struct MeshCleaning {
     var coincidenceTolerance: Float = 1e-6
     /// Number of nearest samples that determine a vertex color.
     var colorNeighbors = 4
+    /// Added to the distance of a sample, in median footprints, before its weight is the inverse of
+    /// the sum: a coincident sample must not outweigh all others.
+    var colorSoftening: Float = 0.2
 
     init() {}
   }
@@ -27,7 +30,7 @@ struct MeshCleaning {
     result = result.splitIntoManifold()
     try context.control.step(0.4)
     keepLargeComponents(&result)
-    removeUnreferencedVertices(&result)
+    result = result.withoutUnusedVertices()
     guard !result.triangles.isEmpty else {
       throw PipelineError.noSurface(reason: "nothing of the surface is supported by the photos.")
     }
@@ -96,21 +99,6 @@ struct MeshCleaning {
       .filter { areas[Int($0.1)] >= limit }.map(\.0)
   }
 
-  /// Removes vertices that no face references.
-  private func removeUnreferencedVertices(_ mesh: inout Mesh) {
-    var numbers = [UInt32?](repeating: nil, count: mesh.positions.count)
-    for t in mesh.triangles { for vertex in t.vertices { numbers[vertex] = 0 } }
-    var positions: [SIMD3<Float>] = []
-    for index in numbers.indices where numbers[index] != nil {
-      numbers[index] = UInt32(positions.count)
-      positions.append(mesh.positions[index])
-    }
-    mesh.positions = positions
-    mesh.triangles = mesh.triangles.map { t in
-      Triangle(numbers[Int(t.a)] ?? 0, numbers[Int(t.b)] ?? 0, numbers[Int(t.c)] ?? 0)
-    }
-  }
-
   /// The mean color of the nearest samples, weighted by inverse distance.
   private func colors(
     _ mesh: Mesh, _ samples: PointCloud, _ control: KernelControl
@@ -123,7 +111,7 @@ struct MeshCleaning {
       for k in 0..<nearest.neighbors {
         let slot = vertex * nearest.neighbors + k
         guard nearest.indices[slot] >= 0 else { break }
-        let weight = 1 / (nearest.distances[slot] / unit + 0.2)
+        let weight = 1 / (nearest.distances[slot] / unit + options.colorSoftening)
         sum += weight * SIMD3<Float>(samples.colors[Int(nearest.indices[slot])])
         weights += weight
       }

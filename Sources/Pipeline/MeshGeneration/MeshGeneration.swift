@@ -16,6 +16,20 @@ package struct MeshGeneration {
     package var maximumDepth = 9
     /// Share of photos with masks from which on the masks determine what is the object.
     package var sufficientMaskShare = 0.5
+    /// Minimum number of finite points of a cloud.
+    package var minimumPoints = 100
+    var isolation = ObjectIsolation.Options()
+    var sceneTrimming = SceneTrimming.Options()
+    var downsampling = VoxelDownsampling.Options()
+    /// Its depth is limited by `maximumDepth`.
+    var poisson = PoissonSurface.Options()
+    /// Large holes are filled only in an object, and if `closesObject` is set.
+    var trimming = SurfaceTrimming.Options()
+    var cleaning = MeshCleaning.Options()
+
+    /// Number of pixels per view up to which the default depth suffices, and the largest depth for
+    /// more.
+    private static let (basePixels, largestDepth) = (500_000, 12)
 
     package init() {}
 
@@ -24,8 +38,9 @@ package struct MeshGeneration {
 
     /// From 0.5 MP on, four times the pixels double the resolution of the octree.
     package mutating func adapt(toViewPixels viewPixels: Int) {
-      let finer = log2(Double(max(500_000, viewPixels)) / 500_000) / 2
-      maximumDepth = min(12, 9 + Int(finer.rounded()))
+      let pixels = max(Self.basePixels, viewPixels)
+      let finer = log2(Double(pixels) / Double(Self.basePixels)) / 2
+      maximumDepth = min(Self.largestDepth, Self().maximumDepth + Int(finer.rounded()))
     }
   }
 
@@ -37,7 +52,6 @@ package struct MeshGeneration {
   /// object is what `silhouettes` retain.
   ///
   /// Throws `PipelineError.noSurface` if the cloud does not determine one.
-  /// Throws `PipelineError.noSurface` where the cloud does not determine one.
   package func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes? = nil,
     _ context: StageContext
@@ -45,15 +59,17 @@ package struct MeshGeneration {
     try check(cloud)
     let selection = try select(
       cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.05))
-    var downsampled = try VoxelDownsampling().run(
+    let downsampling = VoxelDownsampling(options: options.downsampling)
+    var downsampled = try downsampling.run(
       cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
-    downsampled.cloud = try downsampled.withoutOutliers(context.control.part(from: 0.07, to: 0.1))
+    downsampled.cloud = try downsampling.withoutOutliers(
+      downsampled, context.control.part(from: 0.07, to: 0.1))
     context.notes.record("samples", Double(downsampled.cloud.count))
-    var poisson = PoissonSurface()
+    var poisson = PoissonSurface(options: options.poisson)
     poisson.options.maximumDepth = options.maximumDepth
     let (closed, cell) = try poisson.run(
       downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
-    var trimming = SurfaceTrimming()
+    var trimming = SurfaceTrimming(options: options.trimming)
     trimming.options.holeFilling.fillsLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
@@ -61,7 +77,7 @@ package struct MeshGeneration {
       spacing: max(downsampled.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.85, to: 0.96))
-    let mesh = try MeshCleaning().run(
+    let mesh = try MeshCleaning(options: options.cleaning).run(
       trimmed, samples: downsampled.cloud, context.part(from: 0.96, to: 1))
     context.notes.record("triangles", Double(mesh.triangles.count))
     return mesh
@@ -72,7 +88,7 @@ package struct MeshGeneration {
   package func bounds(
     _ cloud: PointCloud?, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> (min: SIMD3<Float>, max: SIMD3<Float>)? {
-    try ObjectIsolation().bounds(cloud, reconstruction, context)
+    try ObjectIsolation(options: options.isolation).bounds(cloud, reconstruction, context)
   }
 
   /// The points that the surface is reconstructed from.
@@ -82,16 +98,15 @@ package struct MeshGeneration {
     var support: SupportPlane?
   }
 
-  /// Throws unless the cloud has at least 100 finite points with normals and footprints.
+  /// Throws unless the cloud has enough finite points, with normals and footprints.
   private func check(_ cloud: PointCloud) throws {
-    let finite = cloud.positions.reduce(0) {
-      $1.x.isFinite && $1.y.isFinite && $1.z.isFinite ? $0 + 1 : $0
-    }
-    guard finite >= 100, cloud.normals.count == cloud.count,
+    let finite = cloud.positions.count { $0.isFinite }
+    guard finite >= options.minimumPoints, cloud.normals.count == cloud.count,
       cloud.footprints.count == cloud.count
     else {
       throw PipelineError.noSurface(
-        reason: "the photos agree on \(finite) surface points only, at least 100 are needed.")
+        reason: "the photos agree on \(finite) surface points only, at least "
+          + "\(options.minimumPoints) are needed.")
     }
   }
 
@@ -101,7 +116,8 @@ package struct MeshGeneration {
     _ context: StageContext
   ) throws -> Selection {
     if let silhouettes, silhouettes.share >= options.sufficientMaskShare {
-      let isKept = try SceneTrimming().run(cloud, reconstruction, context)
+      let isKept = try SceneTrimming(options: options.sceneTrimming)
+        .run(cloud, reconstruction, context)
       context.notes.record("objectPoints", Double(isKept.count { $0 }))
       return Selection(
         isKept: isKept, isObject: true,
@@ -109,7 +125,8 @@ package struct MeshGeneration {
           under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
     }
     if options.isolatesObject {
-      let result = try ObjectIsolation().run(cloud, reconstruction, context)
+      let result = try ObjectIsolation(options: options.isolation)
+        .run(cloud, reconstruction, context)
       if let failure = result.failure {
         context.notes.warn(
           "The object could not be separated from its surroundings: \(failure) "
@@ -121,7 +138,8 @@ package struct MeshGeneration {
         return Selection(isKept: result.isKept, isObject: true, support: result.support)
       }
     }
-    let isKept = try SceneTrimming().run(cloud, reconstruction, context)
+    let isKept = try SceneTrimming(options: options.sceneTrimming)
+      .run(cloud, reconstruction, context)
     context.notes.record("removedPoints", Double(isKept.filter { !$0 }.count))
     return Selection(isKept: isKept, isObject: false, support: nil)
   }

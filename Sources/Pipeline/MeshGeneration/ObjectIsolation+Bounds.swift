@@ -12,13 +12,14 @@ extension ObjectIsolation {
     guard points.count > 0 else { return nil }
     let result = try run(points, reconstruction, context)
     let kept = points.positions.indices.filter { result.isKept[$0] }
-    // Outliers must not determine the box.
-    let q = result.failure == nil && cloud != nil ? 0.0005 : 0.01
+    let share =
+      result.failure == nil && cloud != nil
+      ? options.trimmedObjectShare : options.trimmedSceneShare
     let axes = (0..<3).compactMap { axis -> (Float, Float)? in
       let values = kept.map { points.positions[$0][axis] }.sorted()
       guard let first = values.first, let last = values.last else { return nil }
-      guard values.count > 50 else { return (first, last) }
-      let skip = Int(q * Double(values.count))
+      guard values.count > options.minimumTrimmedPoints else { return (first, last) }
+      let skip = Int(share * Double(values.count))
       return (values[skip], values[values.count - 1 - skip])
     }
     guard axes.count == 3 else { return nil }
@@ -29,17 +30,19 @@ extension ObjectIsolation {
 }
 
 extension Reconstruction {
-  /// The triangulated points as a cloud without normals; footprints are half the median spacing.
+  /// The triangulated points as a cloud without normals; footprints are half the median distance of
+  /// a point from its third neighbor.
   func sparseCloud(_ control: KernelControl) throws -> PointCloud {
     var cloud = PointCloud()
     for point in points {
       let position = SIMD3<Float>(point.position)
-      guard position.x.isFinite, position.y.isFinite, position.z.isFinite else { continue }
+      guard position.isFinite else { continue }
       cloud.positions.append(position)
       cloud.colors.append(point.color)
       cloud.photoIndices.append(contentsOf: point.track.map { UInt16($0.photo.index) })
       cloud.photoOffsets.append(UInt32(cloud.photoIndices.count))
     }
+    // Each point is its own nearest neighbor.
     let nearest = try NearestPoints(
       of: cloud.positions, in: cloud.positions, neighbors: 4, control)
     let spacing =

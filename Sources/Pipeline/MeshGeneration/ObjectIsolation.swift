@@ -24,13 +24,37 @@ struct ObjectIsolation {
     var secondaryShare = 0.25
     /// Minimum share of the object in the samples at the center of the view.
     var minimumShare = 0.02
+    var support = SupportPlaneDetection.Options()
+    /// Minimum number of samples in the region that most photos cover.
+    var minimumRegionSamples = 30
+    /// Samples closer to the focus than this share of the camera distance are at the center of the
+    /// view.
+    var centralDistance: Float = 0.5
+    /// Distance of a sample from the focus, in camera distances, at which its Gaussian weight is
+    /// 1/e.
+    var weightDistance = 0.35
+    /// Components with fewer samples are noise, however near.
+    var minimumComponentSamples = 8
+    /// Maximum number of rounds in which components are attached to the object.
+    var attachmentRounds = 4
+    /// Minimum of the attachment distance, in units of the distance of connected samples.
+    var minimumAttachment = 3.0
+    /// Samples beyond the region within this many sample sides of the object continue it.
+    var contactSamples = 1.5
     /// If more than this share of the outline is truncated at the region's border, no object is
     /// clear.
     var maximumTruncation = 0.25
+    /// Share of the points that are outliers at each side of the bounds: of an object in the dense
+    /// cloud, and of a scene or a sparse cloud.
+    var trimmedObjectShare = 0.0005
+    var trimmedSceneShare = 0.01
+    /// With at most this number of points, none is an outlier.
+    var minimumTrimmedPoints = 50
 
     init() {}
   }
 
+  /// The points of the object, or all points if there is no clear object.
   struct Result: Sendable {
     /// Whether each input point belongs to the object.
     var isKept: [Bool]
@@ -68,18 +92,22 @@ struct ObjectIsolation {
 /// The downsampled points with the features that decide whether they belong to the object.
 struct IsolationSamples {
   enum Outcome {
+    /// Whether each sample belongs to the object, and the plane that it stands on.
     case object([Bool], SupportPlane?)
+    /// Why there is no clear object, as a sentence.
     case failure(String)
   }
 
   let options: ObjectIsolation.Options
   let cloud: PointCloud
+  /// Side of a sample's voxel in world units.
   let cell: Double
   let focus: ViewFocus
   /// Share of the photos that have each sample in their frame, 0…1.
   let coverage: [Float]
   /// Distance of each sample from the focus in camera distances.
   let distance: [Float]
+  /// The up direction; if `isUpKnown` is false, the mean of the photos' up directions.
   let up: SIMD3<Double>
   let isUpKnown: Bool
 
@@ -107,9 +135,11 @@ struct IsolationSamples {
     let region = cloud.positions.indices.filter {
       Double(coverage[$0]) >= options.focusCoverage && distance[$0] < 1
     }
-    guard region.count >= 30 else { return .failure("too little is seen by most photos.") }
+    guard region.count >= options.minimumRegionSamples else {
+      return .failure("too little is seen by most photos.")
+    }
     try context.control.step(0.1)
-    let support = SupportPlaneDetection().run(
+    let support = SupportPlaneDetection(options: options.support).run(
       positions: region.map { cloud.positions[$0] },
       normals: cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] },
       up: up, isUpKnown: isUpKnown, focus: focus, cell: cell)
@@ -124,7 +154,7 @@ struct IsolationSamples {
     guard let isObject = try object(isCandidate, context) else {
       return .failure("there is no separate object in the photos' common view.")
     }
-    let central = region.filter { distance[$0] < 0.5 }
+    let central = region.filter { distance[$0] < options.centralDistance }
     let share = central.filter { isObject[$0] }.count
     guard Double(share) >= options.minimumShare * Double(central.count) else {
       return .failure("the object in the common view is too small.")
@@ -146,14 +176,14 @@ struct IsolationSamples {
     var weights = (0..<grid.componentCount).map { component in
       members[component].reduce(0.0) { sum, member in
         let index = indices[Int(member)]
-        let d = Double(distance[index]) / 0.35
+        let d = Double(distance[index]) / options.weightDistance
         return sum + Double(coverage[index]) * exp(-d * d)
       }
     }
     guard let main = weights.indices.max(by: { weights[$0] < weights[$1] }), weights[main] > 0
     else { return nil }
-    // Tiny components are noise, however near.
-    for component in weights.indices where members[component].count < 8 { weights[component] = 0 }
+    for component in weights.indices
+    where members[component].count < options.minimumComponentSamples { weights[component] = 0 }
     var isPart = weights.map { $0 > 0 && $0 >= options.secondaryShare * weights[main] }
     isPart[main] = true
     try attach(&isPart, weights, members, indices, context.control)
@@ -164,12 +194,12 @@ struct IsolationSamples {
     return isObject
   }
 
-  /// Adds components near the object, in at most four rounds.
+  /// Adds components near the object, round by round.
   private func attach(
     _ isPart: inout [Bool], _ weights: [Double], _ members: Members, _ indices: [Int],
     _ control: KernelControl
   ) throws {
-    for _ in 0..<4 {
+    for _ in 0..<options.attachmentRounds {
       let (parts, others) = (
         isPart.indices.filter { isPart[$0] },
         isPart.indices.filter { !isPart[$0] && weights[$0] > 0 }
@@ -177,7 +207,9 @@ struct IsolationSamples {
       let object = parts.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
       guard let bounds = Mesh(positions: object).bounds, !others.isEmpty else { return }
       let size = Double((bounds.max - bounds.min).length)
-      let reach = max(3 * cell * options.connectionSamples, options.attachmentDistance * size)
+      let reach = max(
+        options.minimumAttachment * cell * options.connectionSamples,
+        options.attachmentDistance * size)
       let queries = others.flatMap { members[$0] }.map { cloud.positions[indices[Int($0)]] }
       let nearest = try NearestPoints(
         of: queries, in: object, maximumDistance: reach, control)
@@ -207,7 +239,7 @@ struct IsolationSamples {
     guard !object.isEmpty, !beyond.isEmpty else { return 0 }
     let nearest = try NearestPoints(
       of: object.map { cloud.positions[$0] }, in: beyond.map { cloud.positions[$0] },
-      maximumDistance: 1.5 * cell, control)
+      maximumDistance: options.contactSamples * cell, control)
     let touching = nearest.indices.filter { $0 >= 0 }.count
     return Double(touching) / (2 * (Double.pi * Double(object.count)).squareRoot())
   }

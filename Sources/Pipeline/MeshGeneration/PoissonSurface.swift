@@ -8,9 +8,14 @@ struct PoissonSurface {
   struct Options: Hashable, Codable, Sendable {
     /// Maximum octree depth. Each level quadruples time and memory.
     var maximumDepth = 10
+    /// Minimum depth, also for a cloud of unknown spacing.
     var minimumDepth = 5
     /// Side of the solved cube relative to the cloud's largest extent.
     var scale = 1.1
+    /// Minimum number of points.
+    var minimumPoints = 20
+    /// Number of attempts, each with a coarser octree.
+    var attempts = 3
 
     init() {}
   }
@@ -22,7 +27,8 @@ struct PoissonSurface {
   func run(
     _ cloud: PointCloud, spacing: Double, _ context: StageContext
   ) throws -> (mesh: Mesh, cell: Double) {
-    guard let bounds = Mesh(positions: cloud.positions).bounds, cloud.count >= 20,
+    guard let bounds = Mesh(positions: cloud.positions).bounds,
+      cloud.count >= options.minimumPoints,
       cloud.normals.count == cloud.count
     else {
       throw PipelineError.noSurface(reason: "only \(cloud.count) points were found.")
@@ -33,7 +39,7 @@ struct PoissonSurface {
     let depth = depth(extent: extent, spacing: spacing)
     var failure = ""
     // The solver fails on rare inputs ("failed to close loop"); a coarser octree avoids them.
-    for coarser in 0..<3 where depth - coarser >= 2 {
+    for coarser in 0..<options.attempts where depth - coarser >= 2 {
       solver.depth = depth - coarser
       do {
         let surface = try solver.surface(
@@ -52,6 +58,7 @@ struct PoissonSurface {
   /// The depth at which a cell is 1 to 1.5 (at most 2) spacings wide.
   func depth(extent: Double, spacing: Double) -> Int {
     guard extent > 0, spacing > 0, (extent / spacing).isFinite else { return options.minimumDepth }
+    // Fractions of 0.6 or more are rounded up.
     let exact = log2(options.scale * extent / spacing)
     return max(options.minimumDepth, min(options.maximumDepth, Int((exact + 0.4).rounded(.down))))
   }

@@ -9,6 +9,7 @@ struct SupportPlaneDetection {
     var maximumTiltDegrees = 30.0
     /// The same if the up direction is only estimated from the photos.
     var maximumUnknownTiltDegrees = 60.0
+    /// Number of RANSAC hypotheses.
     var iterations = 800
     /// Number of samples that score a hypothesis.
     var scoringSamples = 4000
@@ -18,6 +19,20 @@ struct SupportPlaneDetection {
     var minimumShare = 0.08
     /// Share of the cameras that must be above the plane.
     var minimumCamerasAbove = 0.8
+    /// How far, in the cosine, a sample's normal may be steeper than the steepest plane.
+    var normalTolerance = 0.1
+    /// Minimum number of samples that a plane is fitted to.
+    var minimumSamples = 12
+    /// Minimum of the inlier threshold in sample spacings.
+    var minimumToleranceCells = 2.0
+    /// Number of fits to the inliers of the best hypothesis.
+    var refinements = 4
+    /// Minimum cosine of the angle between the normals of an inlier and of the plane in a fit.
+    var minimumNormalCosine = 0.7
+    /// Band of the plane in standard deviations of its inliers, and its minimum in sample spacings.
+    var bandDeviations = 3.5
+    var minimumBandCells = 1.0
+    var seed: UInt64 = 0x5eed_0001
 
     init() {}
   }
@@ -33,15 +48,17 @@ struct SupportPlaneDetection {
     let tilt = isUpKnown ? options.maximumTiltDegrees : options.maximumUnknownTiltDegrees
     let minimumCosine = cos(tilt * .pi / 180)
     let candidates = positions.indices.filter { index in
-      normals.isEmpty || SIMD3<Double>(normals[index]).dot(up) > minimumCosine - 0.1
+      normals.isEmpty
+        || SIMD3<Double>(normals[index]).dot(up) > minimumCosine - options.normalTolerance
     }
-    guard candidates.count >= 12 else { return nil }
-    let tolerance = max(2 * cell, options.tolerance * focus.distance)
+    guard candidates.count >= options.minimumSamples else { return nil }
+    let tolerance = max(
+      options.minimumToleranceCells * cell, options.tolerance * focus.distance)
     let stride = max(1, positions.count / options.scoringSamples)
     let scoring = Swift.stride(from: 0, to: positions.count, by: stride).map {
       SIMD3<Double>(positions[$0])
     }
-    var random = SplitMix64(seed: 0x5eed_0001)
+    var random = SplitMix64(seed: options.seed)
     var best: (plane: SupportPlane, score: Double)?
     for _ in 0..<options.iterations {
       let corners = (0..<3).map { _ in
@@ -55,7 +72,9 @@ struct SupportPlaneDetection {
       if score > (best?.score ?? 0) { best = (plane, score) }
     }
     guard var plane = best?.plane else { return nil }
-    for _ in 0..<4 { plane = refined(plane, positions, normals, up, tolerance, cell) ?? plane }
+    for _ in 0..<options.refinements {
+      plane = refined(plane, positions, normals, up, tolerance, cell) ?? plane
+    }
     let share = positions.reduce(0) {
       abs(plane.height(of: SIMD3<Double>($1))) < tolerance ? $0 + 1 : $0
     }
@@ -86,13 +105,16 @@ struct SupportPlaneDetection {
   ) -> SupportPlane? {
     let inliers = positions.indices.filter { index in
       abs(plane.height(of: SIMD3<Double>(positions[index]))) < tolerance
-        && (normals.isEmpty || SIMD3<Double>(normals[index]).dot(plane.normal) > 0.7)
+        && (normals.isEmpty
+          || SIMD3<Double>(normals[index]).dot(plane.normal)
+            > options.minimumNormalCosine)
     }.map { SIMD3<Double>(positions[$0]) }
-    guard inliers.count >= 12, var result = SupportPlane(fitting: inliers, near: plane) else {
-      return nil
-    }
+    guard inliers.count >= options.minimumSamples,
+      var result = SupportPlane(fitting: inliers, near: plane)
+    else { return nil }
     let deviation = 1.4826 * (inliers.map { abs(result.height(of: $0)) }.upperMedian ?? 0)
-    result.band = min(tolerance, max(3.5 * deviation, 1.0 * cell))
+    result.band = min(
+      tolerance, max(options.bandDeviations * deviation, options.minimumBandCells * cell))
     return result
   }
 }
@@ -104,8 +126,11 @@ extension SupportPlane {
     let heights = object.positions.map { Double($0.y) }
     guard up != .unknown, object.normals.count == object.count,
       let footprint = object.medianFootprint, let low = heights.quantile(0.002),
-      let high = heights.quantile(0.998), high - low > 20 * Double(footprint)
+      let high = heights.quantile(0.998),
+      // A flat object has no part that is clearly the lowest.
+      high - low > 20 * Double(footprint)
     else { return nil }
+    // The underside is visible if a tenth of the lowest part faces down.
     let lowest = heights.indices.filter { heights[$0] < low + 0.15 * (high - low) }
     let facingDown = lowest.count { object.normals[$0].y < -0.7 }
     guard 10 * facingDown < lowest.count else { return nil }

@@ -108,10 +108,3 @@ extension Triangle {
     max(values[Int(a)], values[Int(b)], values[Int(c)])
   }
 }
-
-extension Mesh {
-  func center(of triangle: Triangle) -> SIMD3<Float> {
-    let (a, b, c) = corners(of: triangle)
-    return (a + b + c) / 3
-  }
-}

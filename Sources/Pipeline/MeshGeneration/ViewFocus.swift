@@ -3,6 +3,13 @@ import SceneModel
 /// The focus of the photos: the point nearest to all optical axes, and the share of photos that
 /// have a point in their frame.
 struct ViewFocus: Sendable {
+  /// Number of rounds of iteratively reweighted least squares.
+  private static let rounds = 10
+  /// Minimum residual that a weight is the inverse of, in typical depths.
+  private static let minimumResidual = 0.05
+  /// Weight of an anchor relative to that of its axis.
+  private static let anchorWeight = 0.05
+
   /// World frame.
   var point: SIMD3<Double>
   /// Median distance of the cameras to `point`, in world units.
@@ -37,13 +44,13 @@ struct ViewFocus: Sendable {
     }
     var weights = [Double](repeating: 1, count: views.count)
     point = .zero
-    for _ in 0..<10 {
+    for _ in 0..<Self.rounds {
       guard let solution = Self.intersect(views, anchors, weights) else { return nil }
       point = solution
       for (index, view) in views.enumerated() {
         let offset = point - view.pose.center
         let residual = (offset - offset.dot(view.axis) * view.axis).length
-        weights[index] = 1 / max(0.05 * typical, residual)
+        weights[index] = 1 / max(Self.minimumResidual * typical, residual)
       }
     }
     let focus = point
@@ -69,9 +76,7 @@ struct ViewFocus: Sendable {
       guard p.z > 0 else { continue }
       let x = view.camera.focalLength.x * p.x / p.z + view.camera.principalPoint.x
       let y = view.camera.focalLength.y * p.y / p.z + view.camera.principalPoint.y
-      if x >= 0, y >= 0, x < Double(view.camera.width), y < Double(view.camera.height) {
-        count += 1
-      }
+      if view.camera.contains([x, y]) { count += 1 }
     }
     return Double(count) / Double(views.count)
   }
@@ -84,7 +89,7 @@ struct ViewFocus: Sendable {
     var matrix = Matrix3(rows: .zero, .zero, .zero)
     var right = SIMD3<Double>.zero
     for (index, view) in views.enumerated() {
-      let (d, w, pull) = (view.axis, weights[index], 0.05 * weights[index])
+      let (d, w, pull) = (view.axis, weights[index], anchorWeight * weights[index])
       let rows: [SIMD3<Double>] = [
         [1 - d.x * d.x, -d.x * d.y, -d.x * d.z], [-d.x * d.y, 1 - d.y * d.y, -d.y * d.z],
         [-d.x * d.z, -d.y * d.z, 1 - d.z * d.z],
@@ -96,21 +101,5 @@ struct ViewFocus: Sendable {
       matrix.row2 += w * rows[2] + SIMD3(0, 0, pull)
     }
     return matrix.solution(of: right)
-  }
-}
-
-extension Matrix3 {
-  /// The solution x of `self · x = right` by Cramer's rule; nil for a singular matrix.
-  func solution(of right: SIMD3<Double>) -> SIMD3<Double>? {
-    let columns = transpose
-    let determinant = determinant
-    guard determinant.isFinite, abs(determinant) > .leastNormalMagnitude else { return nil }
-    func replaced(_ index: Int) -> Double {
-      var c = [columns.row0, columns.row1, columns.row2]
-      c[index] = right
-      return c[0].dot(c[1].cross(c[2]))
-    }
-    let solution = SIMD3(replaced(0), replaced(1), replaced(2)) / determinant
-    return solution.x.isFinite && solution.y.isFinite && solution.z.isFinite ? solution : nil
   }
 }

@@ -12,6 +12,12 @@ struct VoxelDownsampling {
   struct Options: Hashable, Codable, Sendable {
     /// Side of a voxel in median footprints.
     var voxelFootprints = 1.0
+    /// Minimum weight of a point; weights are the points' consistencies.
+    var minimumWeight = 0.01
+    /// A point needs this number of others within `outlierRadius` spacings: isolated points are
+    /// mostly false matches, and each distorts a Poisson surface.
+    var outlierNeighbors = 5
+    var outlierRadius = 4.0
 
     init() {}
   }
@@ -55,7 +61,7 @@ struct VoxelDownsampling {
     var photos: [UInt16] = []
     for cell in 0..<grid.cellCount {
       let points = members[cell]
-      Self.append(points, of: cloud, to: &result, fallback: Float(size))
+      append(points, of: cloud, to: &result, fallback: Float(size))
       photos.removeAll(keepingCapacity: true)
       for point in points { photos.append(contentsOf: cloud.visiblePhotos(of: Int(point))) }
       photos.sort()
@@ -71,8 +77,9 @@ struct VoxelDownsampling {
       cloud: result, sampleOfPoint: grid.cells, weights: weights, voxelSize: size)
   }
 
-  /// Appends the weighted mean of some points, without their photos.
-  private static func append(
+  /// Appends the weighted mean of some points, without their photos; `fallback` is the footprint if
+  /// none of them has one.
+  private func append(
     _ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud,
     fallback: Float
   ) {
@@ -81,7 +88,8 @@ struct VoxelDownsampling {
     for point in points {
       let i = Int(point)
       let value = cloud.consistency.isEmpty ? 1 : Double(cloud.consistency[i])
-      let weight = max(0.01, value.isFinite ? value : 0.01)
+      let weight = max(
+        options.minimumWeight, value.isFinite ? value : options.minimumWeight)
       position += weight * SIMD3<Double>(cloud.positions[i])
       if !cloud.normals.isEmpty { normal += weight * SIMD3<Double>(cloud.normals[i]) }
       if !cloud.colors.isEmpty { color += weight * SIMD3<Double>(cloud.colors[i]) }
@@ -99,13 +107,11 @@ struct VoxelDownsampling {
   }
 }
 
-extension VoxelDownsampling.Result {
-  /// The mean points that have at least `neighbors` others within `radius` spacings.
-  ///
-  /// Isolated points are mostly false matches, and each distorts a Poisson surface.
-  func withoutOutliers(
-    neighbors: Int = 5, radius: Double = 4, _ control: KernelControl
-  ) throws -> PointCloud {
+extension VoxelDownsampling {
+  /// The mean points without isolated ones.
+  func withoutOutliers(_ result: Result, _ control: KernelControl) throws -> PointCloud {
+    let (cloud, voxelSize) = (result.cloud, result.voxelSize)
+    let (neighbors, radius) = (options.outlierNeighbors, options.outlierRadius)
     let coarsest = Double(cloud.footprints.quantile(0.99) ?? 0)
     let reach = radius * max(voxelSize, coarsest)
     let nearest = try NearestPoints(
@@ -117,28 +123,5 @@ extension VoxelDownsampling.Result {
         let spacing = max(Float(voxelSize), cloud.footprints[index])
         return nearest.distances[last] <= Float(radius) * spacing
       })
-  }
-}
-
-/// The elements of each group, ascending, in compressed-row storage (one array with offsets).
-struct Members: Sendable {
-  private var offsets: [Int32]
-  private var elements: [Int32]
-
-  /// `groups` holds each element's group; −1 means none.
-  init(of groups: [Int32], count: Int) {
-    offsets = Array(repeating: 0, count: count + 1)
-    for group in groups where group >= 0 { offsets[Int(group) + 1] += 1 }
-    for group in 0..<count { offsets[group + 1] += offsets[group] }
-    var cursor = offsets
-    elements = Array(repeating: 0, count: Int(offsets[count]))
-    for (element, group) in groups.enumerated() where group >= 0 {
-      elements[Int(cursor[Int(group)])] = Int32(element)
-      cursor[Int(group)] += 1
-    }
-  }
-
-  subscript(group: Int) -> ArraySlice<Int32> {
-    elements[Int(offsets[group])..<Int(offsets[group + 1])]
   }
 }

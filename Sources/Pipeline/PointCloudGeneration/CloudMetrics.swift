@@ -50,7 +50,7 @@ package struct CloudMetrics: Sendable {
   /// The share of the sparse points, 0…1, that have a dense point within reach.
   private func coverage(of points: [ScenePoint], by cloud: PointCloud) -> Double {
     let sparsePositions = points.map { SIMD3<Float>($0.position) }
-      .filter { $0.x.isFinite && $0.y.isFinite && $0.z.isFinite }
+      .filter(\.isFinite)
     guard !sparsePositions.isEmpty, cloud.count > 0 else { return 0 }
     // A few distant points must not enlarge the cells for all.
     let typical = stride(from: 0, to: cloud.count, by: 1 + cloud.count / 10_000)

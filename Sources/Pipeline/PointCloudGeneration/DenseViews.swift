@@ -28,7 +28,7 @@ struct DenseViews: Sendable {
   init(
     _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options
   ) throws {
-    let sources = SourceSelection().run(reconstruction)
+    let sources = SourceSelection(options: options.sourceSelection).run(reconstruction)
     let photos = reconstruction.registered.filter { !sources[$0.index].isEmpty }
     guard !photos.isEmpty else {
       throw PipelineError.noSurface(reason: "no two photos share enough points.")
@@ -70,7 +70,7 @@ struct DenseViews: Sendable {
     Set(indices.flatMap { [$0] + views[$0].sources }).sorted()
   }
 
-  /// The sparse points that each photo observes, by photo id.
+  /// The sparse points that each photo observes, by photo ID.
   private static func points(of reconstruction: Reconstruction) -> [[SIMD3<Double>]] {
     var points = [[SIMD3<Double>]](repeating: [], count: reconstruction.photos.count)
     for point in reconstruction.points {

@@ -5,6 +5,7 @@ extension PointCloudGeneration {
   package struct Options: Hashable, Codable, Sendable {
     /// Pixels of a view at full resolution.
     package var maximumPixelsPerView = 1_000_000
+    var sourceSelection = SourceSelection.Options()
     /// Optimization of the patches, at all resolutions.
     package var patches = PatchStereo.Options()
     /// Filter of the patches at full resolution.

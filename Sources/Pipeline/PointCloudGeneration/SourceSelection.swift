@@ -6,6 +6,7 @@ import SceneModel
 /// 2016).
 struct SourceSelection {
   struct Options: Hashable, Codable, Sendable {
+    /// Maximum number of sources of a view.
     var maximumSources = 8
     /// Optimal triangulation angle for stereo in degrees.
     var bestAngleDegrees = 11.0

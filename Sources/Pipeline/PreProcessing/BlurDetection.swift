@@ -25,10 +25,9 @@ package struct BlurDetection: Sendable {
 
   /// Returns for each sharpness whether the photo is too blurred.
   package func run(_ sharpness: [Double]) -> [Bool] {
-    guard sharpness.count >= options.minimumPhotos else {
+    guard sharpness.count >= options.minimumPhotos, let median = sharpness.upperMedian else {
       return sharpness.map { $0 < options.minimumSharpness }
     }
-    let median = sharpness.sorted()[sharpness.count / 2]
     let bound = min(options.minimumShareOfMedian * median, options.alwaysSharp)
     return sharpness.map { $0 < bound }
   }

@@ -13,6 +13,8 @@ package struct DuplicateDetection: Sendable {
     package var maximumShareOfContrast = 0.15
     /// Side of a block in thumbnail pixels.
     package var blockSide = 16
+    /// Side of the reduced thumbnails that are compared first, in pixels.
+    package var coarseSide = 16
     /// Maximum relative difference between the aspect ratios of one picture in two sizes.
     package var maximumAspectDifference = 0.01
 
@@ -31,7 +33,9 @@ package struct DuplicateDetection: Sendable {
       let (x, y) = (photos[a].width * photos[a].height, photos[b].width * photos[b].height)
       return x == y ? a < b : x > y
     }
-    let coarse = try photos.map { try $0.thumbnail.resized(width: 16, height: 16) }
+    let coarse = try photos.map {
+      try $0.thumbnail.resized(width: options.coarseSide, height: options.coarseSide)
+    }
     var kept: [Int] = []
     for (step, index) in order.enumerated() {
       try context.step(step, of: order.count)

@@ -13,6 +13,13 @@ package struct FocalLengthEstimation: Sendable {
     /// Width of 35 mm film in millimeters. Cameras that round the equivalent mostly compare widths,
     /// not diagonals; for 3:2 sensors there is no difference.
     package var filmWidth = 36.0
+    /// Bounds of a plausible focal length as a multiple of the photo's longer side, and of a
+    /// plausible sensor width in millimeters; metadata beyond them is ignored.
+    package var plausibleFactors = 0.2...50
+    package var plausibleSensorWidths = 1.0...200
+    /// Maximum difference in millimeters between the focal length and its rounded equivalent on a
+    /// full-frame body.
+    package var equivalentRounding = 0.5
 
     package init() {}
   }
@@ -27,7 +34,7 @@ package struct FocalLengthEstimation: Sendable {
   ) -> (focalLength: Double, calibration: Camera.Calibration) {
     let side = Double(max(width, height))
     if let ratio = filmRatio(metadata) ?? sensorRatio(metadata, width, height),
-      (0.2...50).contains(ratio)
+      options.plausibleFactors.contains(ratio)
     {
       return (ratio * side, .exif)
     }
@@ -38,7 +45,7 @@ package struct FocalLengthEstimation: Sendable {
   private func filmRatio(_ metadata: PhotoMetadata) -> Double? {
     guard let equivalent = metadata.focalLengthIn35mmFilm else { return nil }
     // For a full-frame body both focal lengths are equal, and the actual one isn't rounded.
-    if let exact = metadata.focalLength, abs(exact - equivalent) <= 0.5 {
+    if let exact = metadata.focalLength, abs(exact - equivalent) <= options.equivalentRounding {
       return exact / options.filmWidth
     }
     return equivalent / options.filmWidth
@@ -52,6 +59,6 @@ package struct FocalLengthEstimation: Sendable {
     else { return nil }
     let original = max(metadata.originalWidth ?? width, metadata.originalHeight ?? height)
     let sensorSide = Double(original) / resolution
-    return (1...200).contains(sensorSide) ? focalLength / sensorSide : nil
+    return options.plausibleSensorWidths.contains(sensorSide) ? focalLength / sensorSide : nil
   }
 }

@@ -1,3 +1,4 @@
+import Formats
 import Foundation
 
 /// Separates the masks of an input folder from its photos, by file name, and finds the mask of a
@@ -66,6 +67,7 @@ struct MaskFiles {
     return nil
   }
 
+  /// The name of the photo that a file in a folder of masks is the mask of; nil for other files.
   private static func ownerInMaskFolder(_ file: URL) -> String? {
     isImageName(file) ? ownerInPhotoFolder(file) ?? names(of: file)[1] : nil
   }
@@ -85,18 +87,12 @@ extension MaskFiles {
     let inner = PhotoFolder.maskFolderNames.map {
       folder.appendingPathComponent($0, isDirectory: true)
     }
-    let source = (named ?? inner.filter(Self.isFolder)).first
+    let source = (named ?? inner.filter(\.isExistingFolder)).first
     // In the folder of photos itself, every photo would be its own mask.
     let isSeparateFolder =
       source?.resolvingSymlinksInPath().standardizedFileURL.path
       != folder.resolvingSymlinksInPath().standardizedFileURL.path
     let maskFiles = try isSeparateFolder ? source.map(PhotoFolder.files) ?? [] : []
     self.init(files: files, maskFiles: maskFiles)
-  }
-
-  private static func isFolder(_ url: URL) -> Bool {
-    var isDirectory: ObjCBool = false
-    return FileManager.default.fileExists(atPath: url.path, isDirectory: &isDirectory)
-      && isDirectory.boolValue
   }
 }

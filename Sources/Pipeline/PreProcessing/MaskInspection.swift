@@ -118,11 +118,11 @@ struct MaskInspection: Sendable {
 
 /// The reason why a mask is not used.
 struct MaskFault: Error {
-  var mask: RefusedMask
+  var mask: RejectedMask
 
   /// `reason` completes the sentence "NAME is not used as a mask: …".
   init(_ name: String, _ photo: String, _ reason: String) {
-    mask = RefusedMask(
+    mask = RejectedMask(
       name: name,
       reason: "\(name) is not used as a mask: \(reason). \(photo) is used without a mask.")
   }

@@ -2,30 +2,6 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// The contents of an input folder: the usable photos, their cameras, and every rejected file with
-/// the reason.
-package struct IngestedPhotos: Sendable {
-  /// IDs are dense, in the order of the files.
-  package var photos: [Photo]
-  /// Initial cameras from the metadata.
-  package var cameras: [Camera]
-  /// Rejected files, in the order of the files.
-  package var refused: [RefusedPhoto]
-  /// Readings of other sensors, by sample ID.
-  package var readings: [Int: SensorReading] = [:]
-  /// All files of the folder except masks and sensor readings; a sample ID is an index into them.
-  package var files: [URL]
-  /// Masks that are not used, in the order of the files; their photos are used.
-  package var refusedMasks: [RefusedMask]
-  /// XXH64 of each photo's file, by photo id.
-  package var contentHashes: [UInt64]
-  /// Maximum pixels of a photo that stages may process within the memory budget; pass it to
-  /// `ImageStore`.
-  package var processingPixels: Int
-  /// Whether a photo has more than `processingPixels`.
-  package var isDownsampled: Bool
-}
-
 /// Validates the files of a folder: the first stage of a run.
 ///
 /// Every file is read and decoded once. File names are irrelevant, except for masks and sensor
@@ -67,29 +43,29 @@ package struct PhotoIngestion: Sendable {
   private func run(_ masks: MaskFiles, _ context: StageContext) throws -> IngestedPhotos {
     let sensors = SensorFiles(masks.photos)
     let files = sensors.photos
-    var (candidates, refused) = try inspect(files, masks, context.part(from: 0, to: 0.95))
-    // Those that are refused as blurred here were decoded, too.
-    let decoded = candidates.count + refused.count { $0.fault == .blurred }
+    var (candidates, rejected) = try inspect(files, masks, context.part(from: 0, to: 0.95))
+    // Those that are rejected as blurred here were decoded, too.
+    let decoded = candidates.count + rejected.count { $0.fault == .blurred }
     context.notes.record("decodedPhotos", Double(decoded))
     let originals = try DuplicateDetection(options.duplicates)
       .run(candidates, context.part(from: 0.95, to: 1))
     let names = candidates.map(\.url.lastPathComponent)
-    refused += originals.indices.compactMap { index in
+    rejected += originals.indices.compactMap { index in
       originals[index].map {
-        refusal(candidates[index], .duplicate, "it shows the same picture as \(names[$0])")
+        rejection(candidates[index], .duplicate, "it shows the same picture as \(names[$0])")
       }
     }
     candidates = zip(candidates, originals).filter { $0.1 == nil }.map(\.0)
     let isBlurred = BlurDetection(options.blur).run(candidates.map(\.sharpness))
-    refused += zip(candidates, isBlurred).filter(\.1).map {
-      refusal($0.0, .blurred, "it is blurred; take it again with a steady, focused camera")
+    rejected += zip(candidates, isBlurred).filter(\.1).map {
+      rejection($0.0, .blurred, "it is blurred; take it again with a steady, focused camera")
     }
     candidates = zip(candidates, isBlurred).filter { !$0.1 }.map(\.0)
     resolveMaskOrientations(&candidates)
-    var result = assemble(candidates, refused.sorted { $0.sampleID < $1.sampleID }, files)
+    var result = assemble(candidates, rejected.sorted { $0.sampleID < $1.sampleID }, files)
     if options.inspection.usesMasks {
-      result.refusedMasks += masks.masksWithoutPhoto.map {
-        RefusedMask(
+      result.rejectedMasks += masks.masksWithoutPhoto.map {
+        RejectedMask(
           name: $0.lastPathComponent,
           reason: "\($0.lastPathComponent) is a mask without a photo; it is not used.")
       }
@@ -107,10 +83,10 @@ package struct PhotoIngestion: Sendable {
   /// Reads files in blocks, so that files beyond the maximum are not even opened.
   private func inspect(
     _ files: [URL], _ masks: MaskFiles, _ context: StageContext
-  ) throws -> ([InspectedPhoto], [RefusedPhoto]) {
+  ) throws -> ([InspectedPhoto], [RejectedPhoto]) {
     let inspection = PhotoInspection(options.inspection)
     var accepted: [InspectedPhoto] = []
-    var refused: [RefusedPhoto] = []
+    var rejected: [RejectedPhoto] = []
     let blockSize = 64
     for start in stride(from: 0, to: files.count, by: blockSize) {
       let block = start..<min(start + blockSize, files.count)
@@ -121,53 +97,53 @@ package struct PhotoIngestion: Sendable {
       let results = try control.parallelMap(block.count) { index in
         let (file, sampleID) = (files[start + index], start + index)
         guard !isFull else {
-          return Result<InspectedPhoto, Refusal>.failure(tooMany(file, sampleID))
+          return Result<InspectedPhoto, Rejection>.failure(tooMany(file, sampleID))
         }
-        return try Self.refusing(file, sampleID) {
+        return try Self.rejecting(file, sampleID) {
           try inspection.run(file, sampleID: sampleID, mask: masks.mask(of: file))
         }
       }
       for result in results {
         switch result {
         case .success(let photo) where accepted.count >= options.maximumPhotos:
-          refused.append(tooMany(photo.url, photo.sampleID).photo)
+          rejected.append(tooMany(photo.url, photo.sampleID).photo)
         case .success(let photo): accepted.append(photo)
-        case .failure(let refusal): refused.append(refusal.photo)
+        case .failure(let rejection): rejected.append(rejection.photo)
         }
       }
     }
-    return (accepted, refused)
+    return (accepted, rejected)
   }
 
   /// Converts every error except cancellation to a rejection.
-  private static func refusing(
+  private static func rejecting(
     _ file: URL, _ sampleID: Int, _ body: () throws -> InspectedPhoto
-  ) throws -> Result<InspectedPhoto, Refusal> {
+  ) throws -> Result<InspectedPhoto, Rejection> {
     do {
       return .success(try body())
-    } catch let refusal as Refusal {
-      return .failure(refusal)
+    } catch let rejection as Rejection {
+      return .failure(rejection)
     } catch let error as CancellationError {
       throw error
     } catch {
       return .failure(
-        Refusal(
-          RefusedPhoto(
+        Rejection(
+          RejectedPhoto(
             sampleID: sampleID, name: file.lastPathComponent, fault: .unreadable, end: "\(error)")))
     }
   }
 
-  private func tooMany(_ file: URL, _ sampleID: Int) -> Refusal {
-    Refusal(
-      RefusedPhoto(
+  private func tooMany(_ file: URL, _ sampleID: Int) -> Rejection {
+    Rejection(
+      RejectedPhoto(
         sampleID: sampleID, name: file.lastPathComponent, fault: .tooMany,
         end: "a run accepts \(options.maximumPhotos) photos; leave some out"))
   }
 
-  private func refusal(
-    _ photo: InspectedPhoto, _ fault: RefusedPhoto.Fault, _ end: String
-  ) -> RefusedPhoto {
-    RefusedPhoto(
+  private func rejection(
+    _ photo: InspectedPhoto, _ fault: RejectedPhoto.Fault, _ end: String
+  ) -> RejectedPhoto {
+    RejectedPhoto(
       sampleID: photo.sampleID, name: photo.url.lastPathComponent, fault: fault, end: end)
   }
 
@@ -186,7 +162,7 @@ package struct PhotoIngestion: Sendable {
   }
 
   private func assemble(
-    _ accepted: [InspectedPhoto], _ refused: [RefusedPhoto], _ files: [URL]
+    _ accepted: [InspectedPhoto], _ rejected: [RejectedPhoto], _ files: [URL]
   ) -> IngestedPhotos {
     let (cameras, cameraIDs) = CameraGrouping(FocalLengthEstimation(options.focalLength))
       .run(accepted)
@@ -200,8 +176,9 @@ package struct PhotoIngestion: Sendable {
     let processingPixels = max(
       options.inspection.minimumPixels, options.memoryBudget / max(1, options.bytesPerPixel))
     return IngestedPhotos(
-      photos: photos, cameras: cameras, refused: refused, files: files,
-      refusedMasks: accepted.compactMap(\.refusedMask), contentHashes: accepted.map(\.contentHash),
+      photos: photos, cameras: cameras, rejected: rejected, files: files,
+      rejectedMasks: accepted.compactMap(\.rejectedMask),
+      contentHashes: accepted.map(\.contentHash),
       processingPixels: processingPixels,
       isDownsampled: photos.contains { $0.width * $0.height > processingPixels })
   }
@@ -211,20 +188,20 @@ package struct PhotoIngestion: Sendable {
   ) {
     notes.record("files", Double(result.files.count))
     notes.record("photos", Double(result.photos.count))
-    notes.record("refused", Double(result.refused.count))
+    notes.record("refused", Double(result.rejected.count))
     notes.record("cameras", Double(result.cameras.count))
     let masked = result.photos.compactMap(\.mask)
     notes.record("masks", Double(masked.count))
-    notes.record("refusedMasks", Double(result.refusedMasks.count))
+    notes.record("refusedMasks", Double(result.rejectedMasks.count))
     if !masked.isEmpty {
       let coverage = masked.reduce(0) { $0 + $1.coverage } / Double(masked.count)
       notes.record("meanMaskCoverage", coverage)
       notes.log("\(masked.count) of \(result.photos.count) photos have a mask.")
     }
-    result.refusedMasks.forEach { notes.warn($0.reason) }
+    result.rejectedMasks.forEach { notes.warn($0.reason) }
     notes.record("megapixels", PhotoTotals(result.photos).megapixels)
-    if !accepted.isEmpty {
-      notes.record("medianSharpness", accepted.map(\.sharpness).sorted()[accepted.count / 2])
+    if let median = accepted.map(\.sharpness).upperMedian {
+      notes.record("medianSharpness", median)
     }
   }
 }

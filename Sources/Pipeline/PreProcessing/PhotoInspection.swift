@@ -22,7 +22,7 @@ package struct InspectedPhoto: Sendable {
   /// The mask of the photo, if it has one.
   var mask: MaskInspection.ValidatedMask?
   /// The photo's mask if it is unusable.
-  var refusedMask: RefusedMask?
+  var rejectedMask: RejectedMask?
 }
 
 /// Reads and decodes one file and makes all checks that don't depend on the other photos.
@@ -50,11 +50,11 @@ package struct PhotoInspection: Sendable {
   package init(_ options: Options = Options()) { self.options = options }
 
   /// Inspects one file. `mask` is the mask file of the photo; without it, the alpha channel is
-  /// used. Throws `Refusal` if the photo is unusable.
+  /// used. Throws `Rejection` if the photo is unusable.
   package func run(_ url: URL, sampleID: Int, mask: URL? = nil) throws -> InspectedPhoto {
     let name = url.lastPathComponent
-    func refusal(_ fault: RefusedPhoto.Fault, _ sentenceEnd: String) -> Refusal {
-      Refusal(RefusedPhoto(sampleID: sampleID, name: name, fault: fault, end: sentenceEnd))
+    func rejection(_ fault: RejectedPhoto.Fault, _ sentenceEnd: String) -> Rejection {
+      Rejection(RejectedPhoto(sampleID: sampleID, name: name, fault: fault, end: sentenceEnd))
     }
     do {
       let bytes = try ImageCodec.contents(of: url, limits: options.limits)
@@ -63,7 +63,7 @@ package struct PhotoInspection: Sendable {
         header.width.multipliedReportingOverflow(by: header.height).partialValue
           >= options.minimumPixels
       else {
-        throw refusal(
+        throw rejection(
           .tooSmall,
           "it has \(header.width) × \(header.height) pixels; photos need \(options.minimumSide) "
             + "or more per side and \(options.minimumPixels) or more in total")
@@ -76,7 +76,7 @@ package struct PhotoInspection: Sendable {
       do {
         sharpness = try reduced.sharpness()
       } catch KernelError.degenerate {
-        throw refusal(.blurred, "it is blank: it is badly exposed, or the lens was covered")
+        throw rejection(.blurred, "it is blank: it is badly exposed, or the lens was covered")
       }
       var photo = InspectedPhoto(
         sampleID: sampleID, url: url, width: upright.width, height: upright.height,
@@ -85,7 +85,7 @@ package struct PhotoInspection: Sendable {
       if options.usesMasks { photo.findMask(mask, bytes) }
       return photo
     } catch let error as ImageError {
-      throw refusal(error.fault, error.errorDescription ?? "it can't be read")
+      throw rejection(error.fault, error.errorDescription ?? "it can't be read")
     }
   }
 }
@@ -105,19 +105,19 @@ extension InspectedPhoto {
         mask = try MaskInspection().alpha(bytes, of: stored)
       }
     } catch {
-      refusedMask = error.mask
+      rejectedMask = error.mask
     }
   }
 }
 
 /// The rejection of a file, as an error.
-struct Refusal: Error {
-  var photo: RefusedPhoto
+struct Rejection: Error {
+  var photo: RejectedPhoto
 
-  init(_ photo: RefusedPhoto) { self.photo = photo }
+  init(_ photo: RejectedPhoto) { self.photo = photo }
 }
 
-extension RefusedPhoto {
+extension RejectedPhoto {
   /// `end` completes the sentence "NAME is not used: …".
   init(sampleID: Int, name: String, fault: Fault, end: String) {
     self.init(
@@ -126,7 +126,7 @@ extension RefusedPhoto {
 }
 
 extension ImageError {
-  var fault: RefusedPhoto.Fault {
+  var fault: RejectedPhoto.Fault {
     switch self {
     case .unsupportedFormat, .notAnImage: .unsupportedFormat
     case .tooLarge: .tooLarge

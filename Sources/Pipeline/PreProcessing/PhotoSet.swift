@@ -3,7 +3,7 @@ import SceneModel
 /// The usable photos of a run and the store that decodes them.
 struct PhotoSet: Sendable {
   let ingested: IngestedPhotos
-  /// Gravity and depth by sample id.
+  /// Gravity and depth by sample ID.
   let readings: [Int: SensorReading]
   let images: ImageStore
   private let byteBudget: Int

@@ -10,6 +10,9 @@ import SceneModel
 struct SensorFiles {
   /// The other files, in their original order.
   private(set) var photos: [URL] = []
+  /// Larger files, in bytes, hold something other than three numbers.
+  private static let maximumGravityFileSize = 4096
+
   /// Depth and gravity files by the lowercase stem of their photo.
   private var depth: [String: URL] = [:]
   private var gravity: [String: URL] = [:]
@@ -55,15 +58,18 @@ struct SensorFiles {
     return reading == SensorReading() ? nil : reading
   }
 
+  /// The lowercase stem of a file name.
   private static func name(_ file: URL) -> String {
     file.deletingPathExtension().lastPathComponent.lowercased()
   }
 
+  /// The stem of the photo that a file with this ending belongs to; nil without the ending.
   private static func owner(_ file: URL, _ ending: String) -> String? {
     let name = name(file)
     return name.hasSuffix(ending) ? String(name.dropLast(ending.count)) : nil
   }
 
+  /// The depth or disparity map in a file.
   private static func depth(_ file: URL) throws(ImageError) -> DepthMap {
     let (width, height, values) = try ImageCodec.decodeNumbers(ImageCodec.contents(of: file))
     guard var map = DepthMap(width: width, height: height, depths: values) else {
@@ -83,9 +89,8 @@ struct SensorFiles {
 
   /// Three numbers separated by commas.
   private static func gravity(_ file: URL) -> SIMD3<Double>? {
-    let limits = {
-      var limits = ImageCodec.Limits(); limits.maximumFileSize = 4096; return limits
-    }()
+    var limits = ImageCodec.Limits()
+    limits.maximumFileSize = maximumGravityFileSize
     guard let bytes = try? ImageCodec.contents(of: file, limits: limits) else { return nil }
     let parts = String(decoding: bytes, as: UTF8.self).split(separator: ",")
       .map { Double($0.trimmingCharacters(in: .whitespacesAndNewlines)) }

@@ -77,6 +77,7 @@ struct ReconstructionMethod {
     }
   }
 
+  /// Meshes the cloud, and refines the mesh if configured, which takes three fifths of the stage.
   private func mesh(
     _ cloud: PointCloud, _ photos: PhotoSet, _ reconstruction: Reconstruction
   ) throws -> Mesh {

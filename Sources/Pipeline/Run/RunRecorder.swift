@@ -88,14 +88,14 @@ final class RunRecorder {
 extension RunRecorder {
   /// Records which photos of a folder are used; throws if there are fewer than `minimumPhotos`.
   func record(_ ingested: IngestedPhotos, folder: URL, minimumPhotos: Int) throws {
-    report.photos += ingested.refused.map {
-      .init(name: $0.name, status: .refused, reason: $0.reason)
+    report.photos += ingested.rejected.map {
+      .init(name: $0.name, status: .rejected, reason: $0.reason)
     }
-    ingested.refused.forEach { onEvent(.refused($0)) }
+    ingested.rejected.forEach { onEvent(.rejected($0)) }
     if ingested.isDownsampled { onEvent(.downsampled) }
     try recordingErrors {
       guard !ingested.photos.isEmpty else {
-        throw PipelineError.noPhotos(folder: folder.path, refused: ingested.refused.count)
+        throw PipelineError.noPhotos(folder: folder.path, rejected: ingested.rejected.count)
       }
       onEvent(.ingested(PhotoTotals(ingested.photos)))
       try PipelineError.checkCount(ingested.photos.count, needed: minimumPhotos)
@@ -118,7 +118,7 @@ extension RunRecorder {
     report.photos.sort { $0.name < $1.name }
     report.meanReprojectionError = reconstruction.meanReprojectionError
     report.worldFrame = reconstruction.worldFrame
-    reconstruction.unregistered.forEach { onEvent(.refused($0)) }
+    reconstruction.unregistered.forEach { onEvent(.rejected($0)) }
     let (registered, all) = (reconstruction.registered.count, reconstruction.photos.count)
     if registered < all { onEvent(.stitchingIncomplete(registered: registered, of: all)) }
   }

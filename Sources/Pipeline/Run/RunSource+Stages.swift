@@ -5,11 +5,12 @@ import SceneModel
 // How each kind of source provides photos, cameras and a surface.
 
 extension RunSource {
-  /// Gravity and depth by sample id, as passed by the caller.
+  /// Gravity and depth by sample ID, as passed by the caller.
   var readings: [Int: SensorReading] {
     if case .photos(_, let readings) = self { readings } else { [:] }
   }
 
+  /// Reads and validates the photos.
   func ingest(
     _ configuration: PipelineConfiguration, _ context: StageContext
   ) throws -> IngestedPhotos {

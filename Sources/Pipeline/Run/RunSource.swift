@@ -3,7 +3,7 @@ import SceneModel
 
 /// The input of a run.
 package enum RunSource: Sendable {
-  /// A folder of photos, which are aligned. `readings` are by sample id, and take precedence over
+  /// A folder of photos, which are aligned. `readings` are by sample ID, and take precedence over
   /// those in files next to the photos.
   case photos(in: URL, readings: [Int: SensorReading] = [:])
   /// A folder of photos with cameras, poses and optionally points, which are used unchanged.

@@ -6,6 +6,7 @@ import SceneModel
 /// Starts with the first job and ends after `stop()`. The numeric stages block for minutes, which
 /// is not allowed on threads of Swift's cooperative pool.
 package final class SerialThread<Local>: Sendable {
+  /// A unit of work with exclusive access to the thread's value.
   package typealias Job = @Sendable (inout Local) -> Void
 
   private struct Queue {
@@ -42,13 +43,16 @@ package final class SerialThread<Local>: Sendable {
     wake()
   }
 
+  /// Bytes of the thread's stack.
+  private static var stackSize: Int { 16 << 20 }
+
   private func start() {
     let thread = Thread { [self] in
       var local = makeLocal()
       while let job = next() { job(&local) }
     }
     thread.name = name
-    thread.stackSize = 16 << 20
+    thread.stackSize = Self.stackSize
     thread.start()
   }
 

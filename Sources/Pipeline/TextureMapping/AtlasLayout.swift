@@ -39,7 +39,13 @@ struct AtlasPacking: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Maximum texture side in texels.
     var maximumSide = 4096
+    /// Maximum number of textures.
     var maximumAtlases = 1
+    /// A texture with fewer texels per side is not halved.
+    var minimumHalvedSide = 512
+    /// Padding between charts as one in this number of a texture's side, and its minimum in texels.
+    var paddingDivisor = 1024
+    var minimumPadding = 2
     /// Texels per photo pixel, linear, that preserve all detail. The smallest texture size that
     /// provides it is chosen and filled; beyond `maximumSide` further textures are added.
     var sufficientMagnification: Float = 1.5
@@ -57,7 +63,8 @@ struct AtlasPacking: Sendable {
     // Pixel y points down, chart-plane y points up.
     let corners = map.corners.map { SIMD2($0.x, -$0.y) }
     let packing = ChartPacking(
-      side: side, atlasCount: count, padding: max(2, side / 1024),
+      side: side, atlasCount: count,
+      padding: max(options.minimumPadding, side / options.paddingDivisor),
       maximumScale: options.maximumMagnification)
     let placements = try packing.run(
       corners: corners, charts: map.charts, density: map.densities, context.control)
@@ -84,7 +91,7 @@ struct AtlasPacking: Sendable {
     }
     func capacity(_ side: Int) -> Float { options.expectedUsage * Float(side) * Float(side) }
     var side = options.maximumSide
-    while side >= 512, area < capacity(side / 2) { side /= 2 }
+    while side >= options.minimumHalvedSide, area < capacity(side / 2) { side /= 2 }
     let needed = (area / capacity(side)).rounded(.up)
     return (side, max(1, Int(min(needed, Float(options.maximumAtlases)))))
   }

@@ -6,7 +6,7 @@ import SceneModel
 struct ChartMap: Sendable {
   /// The chart index of each triangle.
   var charts: [Int32]
-  /// Plane coordinates, in world units, of each triangle's three corners; counter-clockwise, y up.
+  /// Plane coordinates, in world units, of each triangle's three corners; counterclockwise, y up.
   var corners: [SIMD2<Float>]
   /// Photo pixels per world unit for each chart: the resolution that its texture requires.
   var densities: [Float]
@@ -24,6 +24,9 @@ struct Charting: Sendable {
     var unseenDensity: Float = 0.3
     /// Bounds of a chart's resolution relative to the typical chart.
     var densityRange: ClosedRange<Float> = 0.3...2
+    /// Number of rotations within a quarter turn that are tested for the smallest bounding
+    /// rectangle.
+    var rotations = 30
   }
 
   var options = Options()
@@ -61,21 +64,21 @@ struct Charting: Sendable {
     }
     guard faces.count > 2 else { return }
     let points = faces.flatMap { [corners[3 * $0], corners[3 * $0 + 1], corners[3 * $0 + 2]] }
-    let turn = Self.smallestBoxRotation(of: points)
+    let turn = smallestBoxRotation(of: points)
     for face in faces {
       for index in 3 * face..<3 * face + 3 { corners[index] = Self.rotate(corners[index], turn) }
     }
   }
 
-  /// The rotation, out of 30 within a quarter turn, with the smallest bounding rectangle.
-  private static func smallestBoxRotation(of points: [SIMD2<Float>]) -> (cos: Float, sin: Float) {
+  /// The tested rotation with the smallest bounding rectangle.
+  private func smallestBoxRotation(of points: [SIMD2<Float>]) -> (cos: Float, sin: Float) {
     var best: (area: Float, turn: (cos: Float, sin: Float)) = (.infinity, (1, 0))
-    for step in 0..<30 {
-      let angle = Float(step) / 30 * Float.pi / 2
+    for step in 0..<options.rotations {
+      let angle = Float(step) / Float(options.rotations) * Float.pi / 2
       let turn = (cos: cos(angle), sin: sin(angle))
-      var (low, high) = (rotate(points[0], turn), rotate(points[0], turn))
+      var (low, high) = (Self.rotate(points[0], turn), Self.rotate(points[0], turn))
       for point in points {
-        let p = rotate(point, turn)
+        let p = Self.rotate(point, turn)
         low = pointwiseMin(low, p)
         high = pointwiseMax(high, p)
       }

@@ -23,6 +23,8 @@ struct ColorLeveling: Sendable {
     var smoothness = 1.0
     /// Weight of the mean color of all photos.
     var consensus = 0.02
+    /// Weight that fixes the color interpolated where no photo sees the surface.
+    var interpolated = 1000.0
   }
 
   var options = Options()
@@ -80,7 +82,7 @@ struct ColorLeveling: Sendable {
         continue
       }
       // The interpolated color is fixed; photos adapt to it.
-      let weight = view < 0 ? 1000 : options.consensus
+      let weight = view < 0 ? options.interpolated : options.consensus
       system.add(a, value: SIMD3<Double>(agreed - color), weight: weight)
       for b in range.lowerBound..<a {
         guard let other = colors[b] else { continue }
@@ -125,8 +127,10 @@ private struct Nodes {
     }
   }
 
+  /// The unknowns of a vertex.
   func range(of vertex: Int) -> Range<Int> { Int(offsets[vertex])..<Int(offsets[vertex + 1]) }
 
+  /// The unknown of a vertex and a view; nil if the view doesn't color the vertex.
   func index(of vertex: Int, view: Int32) -> Int? {
     range(of: vertex).first { items[$0].view == view }
   }
@@ -134,6 +138,9 @@ private struct Nodes {
 
 /// The triangles' consensus colors, averaged at the vertices.
 struct VertexColors: Sendable {
+  /// Weight of the mean color, which only determines components without any color.
+  private static let meanWeight = 1e-6
+
   private var colors: [SIMD3<Float>?]
   private let topology: MeshTopology
 
@@ -155,6 +162,7 @@ struct VertexColors: Sendable {
   /// all.
   func filled(_ control: KernelControl) throws -> [SIMD3<Float>] {
     let known = colors.compactMap { $0 }
+    // Without any color the surface is gray.
     let mean =
       known.isEmpty
       ? SIMD3<Float>(repeating: 128) : known.reduce(.zero, +) / Float(known.count)
@@ -164,7 +172,7 @@ struct VertexColors: Sendable {
     for (unknown, vertex) in missing.enumerated() { unknownOf[vertex] = unknown }
     var system = SparseLeastSquares(unknownCount: missing.count)
     for unknown in missing.indices {
-      system.add(unknown, value: SIMD3<Double>(mean), weight: 1e-6)
+      system.add(unknown, value: SIMD3<Double>(mean), weight: Self.meanWeight)
     }
     for edge in topology.edges {
       let (low, high) = (Int(edge.low), Int(edge.high))

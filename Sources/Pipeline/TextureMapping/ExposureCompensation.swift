@@ -10,6 +10,7 @@ struct ExposureCompensation: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Residuals beyond this, in natural logarithms, are down-weighted.
     var huber = 0.1
+    /// Number of reweighted solutions.
     var rounds = 3
     /// Weight of the prior gain of 1, as a share of the observations' weight.
     var prior = 0.02
@@ -17,6 +18,8 @@ struct ExposureCompensation: Sendable {
     var maximumGain: Float = 2.5
     /// Observations at a smaller cosine (more oblique) are ignored.
     var minimumCosine: Float = 0.35
+    /// Values of a channel, exclusive, between which the sensor response is linear, 0…255.
+    var linearRange: ClosedRange<Float> = 6...246
     /// On surfaces with more triangles, every nth is used, so that at least this many remain.
     var sufficientFaces = 200_000
   }
@@ -56,14 +59,15 @@ struct ExposureCompensation: Sendable {
     for index in views.range(of: face) {
       let entry = views.entries[index]
       let value = entry.color[channel]
-      // Near black and white the sensor response isn't linear.
-      guard entry.cosine >= options.minimumCosine, value > 6, value < 246 else { continue }
+      guard entry.cosine >= options.minimumCosine, value > options.linearRange.lowerBound,
+        value < options.linearRange.upperBound
+      else { continue }
       items.append(
         (Int(entry.view), log(Double(value + ExposureGain.encodingOffset)), Double(entry.cosine)))
     }
-    guard items.count >= 2 else { return }
-    let corrected = items.map { $0.log + gains[$0.view][channel] }.sorted()
-    let median = corrected[corrected.count / 2]
+    guard items.count >= 2,
+      let median = items.map({ $0.log + gains[$0.view][channel] }).upperMedian
+    else { return }
     for index in items.indices {
       let residual = abs(items[index].log + gains[items[index].view][channel] - median)
       if residual > options.huber { items[index].weight *= options.huber / residual }

@@ -24,6 +24,8 @@ struct TransientOccluders: Sendable {
     /// Minimum similarity to the occluder's color for a neighbor without other evidence: 0 is the
     /// surface's color, 1 the occluder's.
     var colorSimilarity: Float = 0.7
+    /// The same where too few photos see the surface.
+    var unverifiedColorSimilarity: Float = 0.5
     /// Rings of triangles around an occluder that its blurred boundary may cover.
     var rings = 2
   }
@@ -137,7 +139,9 @@ struct TransientOccluders: Sendable {
       let mayDiffer =
         !hasEnoughViews(other, views) && (isAlone || excess[other] > options.lowThresholdShare)
       let share = occluderColor.share(of: views.entries[other].color)
-      guard share > (mayDiffer ? 0.5 : options.colorSimilarity) else { return false }
+      guard share > (mayDiffer ? options.unverifiedColorSimilarity : options.colorSimilarity) else {
+        return false
+      }
       isOccluder[other] = true
       return true
     }
@@ -197,8 +201,8 @@ struct FaceNeighbors: Sendable {
 
   private mutating func add(_ neighbor: Int32, to face: Int32) {
     let start = 3 * Int(face)
-    guard let place = (start..<start + 3).first(where: { faces[$0] < 0 }) else { return }
-    faces[place] = neighbor
+    guard let slot = (start..<start + 3).first(where: { faces[$0] < 0 }) else { return }
+    faces[slot] = neighbor
   }
 
   /// Flood fill from `start` over the same view's entries of adjacent triangles that `accepts`.
@@ -217,8 +221,8 @@ struct FaceNeighbors: Sendable {
   /// Calls `body` with the same view's entries of the triangles adjacent to that of `entry`.
   func forEach(adjacentTo entry: Int, in views: FaceViews, _ body: (Int) -> Void) {
     let (face, view) = (Int(views.entries[entry].face), views.entries[entry].view)
-    for place in 3 * face..<3 * face + 3 where faces[place] >= 0 {
-      if let other = views.index(of: Int(faces[place]), in: view) { body(other) }
+    for slot in 3 * face..<3 * face + 3 where faces[slot] >= 0 {
+      if let other = views.index(of: Int(faces[slot]), in: view) { body(other) }
     }
   }
 }

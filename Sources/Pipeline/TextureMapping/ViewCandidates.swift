@@ -16,6 +16,9 @@ struct ViewCandidates: Sendable {
     /// At the outline, observations below this cosine show background if the surface is slightly
     /// too large; they are excluded.
     var minimumCosineAtOutline: Float = 0.5
+    /// Bounds of a view's sharpness relative to the triangle's median view, as a factor on the
+    /// quality.
+    var sharpnessRange: ClosedRange<Float> = 0.5...1.5
     /// Channel means at which overexposure becomes possible and certain, 0…255.
     var brightRange: ClosedRange<Float> = 225...248
   }
@@ -50,17 +53,18 @@ struct ViewCandidates: Sendable {
 
   /// Computes the qualities and the consensus color of one triangle.
   private func rate(_ face: Int, _ gains: [ExposureGain], _ rated: inout RatedViews) {
-    let range = rated.views.range(of: face)
-    guard !range.isEmpty else { return }
+    let entries = rated.views.range(of: face)
+    guard !entries.isEmpty else { return }
     // A gradient times a length doesn't depend on the distance, only on the focus.
-    let sharpness = range.map {
+    let sharpness = entries.map {
       rated.views.entries[$0].gradient * rated.views.entries[$0].area.squareRoot()
     }
     let typical = max(sharpness.upperMedian ?? 0, 1e-3)
     var (sum, weight) = (SIMD3<Float>.zero, Float(0))
-    for (index, sharp) in zip(range, sharpness) {
+    let range = options.sharpnessRange
+    for (index, sharp) in zip(entries, sharpness) {
       let entry = rated.views.entries[index]
-      var quality = entry.area * min(max(sharp / typical, 0.5), 1.5)
+      var quality = entry.area * min(max(sharp / typical, range.lowerBound), range.upperBound)
       for _ in 0..<options.cosinePower { quality *= entry.cosine }
       let trust = trust(in: entry, gains[Int(entry.view)])
       quality *= trust

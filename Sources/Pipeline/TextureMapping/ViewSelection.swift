@@ -8,6 +8,9 @@ struct ViewSelection: Sendable {
     /// Cost of a label change along an edge of mean length; a triangle's worst photo costs at most
     /// 1.
     var smoothness: Float = 0.5
+    /// Bounds of an edge's length relative to the mean, for this cost.
+    var lengthRange: ClosedRange<Float> = 0.2...3
+    /// Number of iterations of TRW-S.
     var iterations = 20
   }
 
@@ -32,7 +35,9 @@ struct ViewSelection: Sendable {
     }
     let mean = lengths.reduce(0, +) / Float(max(1, lengths.count))
     for (edge, length) in zip(topology.edges, lengths) where edge.second >= 0 {
-      let relative = mean > 0 ? min(max(length / mean, 0.2), 3) : 1
+      let bounds = options.lengthRange
+      let relative =
+        mean > 0 ? min(max(length / mean, bounds.lowerBound), bounds.upperBound) : 1
       selection.edges.append(
         .init(
           UInt32(edge.first), UInt32(edge.second), weight: options.smoothness * relative))

@@ -127,6 +127,6 @@ extension FeatureSensitivity {
 extension SampleFolder {
   /// Converts an event about files to one about samples.
   fileprivate func translated(_ event: PipelineEvent) -> PipelineEvent {
-    if case .refused(let photo) = event { .refused(translated(photo)) } else { event }
+    if case .rejected(let photo) = event { .rejected(translated(photo)) } else { event }
   }
 }

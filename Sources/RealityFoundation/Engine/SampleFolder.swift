@@ -17,7 +17,7 @@ final class SampleFolder: @unchecked Sendable {
   private var folder: URL?
   private var seen: Set<Int> = []
   private var isComplete = false
-  private var refused: [RefusedPhoto] = []
+  private var rejected: [RejectedPhoto] = []
 
   init<S: Sequence>(_ samples: S) where S.Element == PhotogrammetrySample {
     var iterator: S.Iterator?
@@ -34,7 +34,7 @@ final class SampleFolder: @unchecked Sendable {
     flag: CancellationFlag, onEvent: (PipelineEvent) -> Void
   ) throws -> URL {
     let folder = try makeFolder()
-    refused.forEach { onEvent(.refused($0)) }
+    rejected.forEach { onEvent(.rejected($0)) }
     while !isComplete {
       if flag.isCancelled { throw CancellationError() }
       guard let sample = next() else {
@@ -54,19 +54,19 @@ final class SampleFolder: @unchecked Sendable {
   private func write(
     _ sample: PhotogrammetrySample, to folder: URL, _ onEvent: (PipelineEvent) -> Void
   ) throws {
-    func refuse(_ reason: String) {
-      let photo = RefusedPhoto(
+    func reject(_ reason: String) {
+      let photo = RejectedPhoto(
         sampleID: sample.id, name: "Sample \(sample.id)", fault: .unsupportedFormat,
         reason: "Sample \(sample.id) is not used: \(reason).")
-      refused.append(photo)
-      onEvent(.refused(photo))
+      rejected.append(photo)
+      onEvent(.rejected(photo))
     }
     guard (0...Int(Int32.max)).contains(sample.id) else {
-      return refuse("its id is not between 0 and \(Int32.max)")
+      return reject("its id is not between 0 and \(Int32.max)")
     }
-    guard seen.insert(sample.id).inserted else { return refuse("its id is a duplicate") }
+    guard seen.insert(sample.id).inserted else { return reject("its id is a duplicate") }
     guard let image = sample.image.image else {
-      return refuse("its image is neither 32BGRA nor 32ARGB")
+      return reject("its image is neither 32BGRA nor 32ARGB")
     }
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.name(ids.count)))
@@ -81,15 +81,15 @@ final class SampleFolder: @unchecked Sendable {
     _ mask: CVPixelBuffer, of sample: PhotogrammetrySample, to folder: URL,
     _ onEvent: (PipelineEvent) -> Void
   ) throws {
-    func refuse(_ reason: String) {
+    func reject(_ reason: String) {
       onEvent(
         .warning("The object mask of sample \(sample.id) is not used: \(reason)."))
     }
-    guard let image = mask.grayImage else { return refuse("it is not OneComponent8") }
+    guard let image = mask.grayImage else { return reject("it is not OneComponent8") }
     guard (mask.width, mask.height) == (sample.image.width, sample.image.height) else {
-      return refuse("its size differs from the image's")
+      return reject("its size differs from the image's")
     }
-    guard image.pixels.contains(where: { $0 > 0 }) else { return refuse("all its pixels are zero") }
+    guard image.pixels.contains(where: { $0 > 0 }) else { return reject("all its pixels are zero") }
     let png = sample.exif.inserted(intoPNG: try ImageCodec.encodePNG(image))
     try Data(png).write(to: folder.appendingPathComponent(Self.maskName(ids.count)))
   }
@@ -113,8 +113,8 @@ final class SampleFolder: @unchecked Sendable {
   /// The file name of that sample's mask.
   static func maskName(_ index: Int) -> String { "sample\(index)_mask.png" }
 
-  /// Converts the refusal of a file to that of its sample.
-  func translated(_ photo: RefusedPhoto) -> RefusedPhoto {
+  /// Converts the rejection of a file to that of its sample.
+  func translated(_ photo: RejectedPhoto) -> RejectedPhoto {
     guard ids.indices.contains(photo.sampleID) else { return photo }
     var result = photo
     result.sampleID = ids[photo.sampleID]

@@ -162,7 +162,7 @@ final class SessionCore: SessionWorker {
     switch event {
     case .progress(let stage, let fraction):
       emit { $0.progressed(stage, fraction: fraction, at: now()) }
-    case .refused(let photo): emit { $0.refused(photo) }
+    case .rejected(let photo): emit { $0.rejected(photo) }
     case .downsampled: emit { $0.downsampled() }
     case .stitchingIncomplete: emit { $0.stitchingIncomplete() }
     case .ingested, .warning, .detail: break
@@ -178,7 +178,7 @@ final class SessionCore: SessionWorker {
 /// Writes an event of the engine to the log.
 private func log(_ event: PipelineEvent) {
   switch event {
-  case .refused(let photo):
+  case .rejected(let photo):
     sessionLogger.warning("\(photo.reason)", source: sessionOutputSource)
   case .downsampled:
     sessionLogger.notice("Photos are used at a lower resolution to fit the memory.")

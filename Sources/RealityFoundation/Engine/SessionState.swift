@@ -73,7 +73,7 @@ struct SessionState: Sendable {
   }
 
   /// A photo is not used.
-  mutating func refused(_ photo: RefusedPhoto) -> [Output] {
+  mutating func rejected(_ photo: RejectedPhoto) -> [Output] {
     guard isWorking, reportedSamples.insert(photo.sampleID).inserted else { return [] }
     return photo.fault == .notRegistered
       ? [.skippedSample(id: photo.sampleID)]

@@ -15,7 +15,7 @@ package struct Quaternion: Hashable, Codable, Sendable {
 
   package static let identity = Quaternion(x: 0, y: 0, z: 0, w: 1)
 
-  /// The rotation by `angle` radians about `axis`, counter-clockwise when viewed against the axis.
+  /// The rotation by `angle` radians about `axis`, counterclockwise when viewed against the axis.
   package init(angle: Double, axis: SIMD3<Double>) {
     let v = axis.normalized * sin(angle / 2)
     self.init(x: v.x, y: v.y, z: v.z, w: cos(angle / 2))

@@ -1,6 +1,9 @@
 import Foundation
 
 extension SimilarityTransform {
+  /// Minimum relative gap between the two largest eigenvalues for the rotation to be unique.
+  private static let minimumGap = 1e-9
+
   /// The similarity that maps `source` to `target` with the least sum of squared distances.
   ///
   /// Rotation by Horn's unit quaternion method (JOSA A 1987), which never yields a reflection,
@@ -54,8 +57,7 @@ extension SimilarityTransform {
     let scale = eigen.values.reduce(0) { max($0, abs($1)) }
     let others = eigen.values.indices.filter { $0 != largest }.map { eigen.values[$0] }
     let gap = eigen.values[largest] - (others.max() ?? 0)
-    return (
-      Quaternion(x: q[1], y: q[2], z: q[3], w: q[0]).normalized, scale > 0 && gap > 1e-9 * scale
-    )
+    let isUnique = scale > 0 && gap > minimumGap * scale
+    return (Quaternion(x: q[1], y: q[2], z: q[3], w: q[0]).normalized, isUnique)
   }
 }

@@ -6,12 +6,17 @@ package struct SymmetricEigen: Sendable {
   /// `vectors[i]` belongs to `values[i]`.
   package private(set) var vectors: [[Double]]
 
+  /// Maximum number of sweeps; five to ten suffice.
+  private static let maximumSweeps = 50
+  /// Off-diagonal elements up to this value count as zero.
+  private static let tolerance = 1e-300
+
   /// Decomposes a matrix given by rows.
   package init(_ matrix: [[Double]]) {
     var a = matrix
     let n = matrix.count
     var v = (0..<n).map { row in (0..<n).map { $0 == row ? 1.0 : 0.0 } }
-    for _ in 0..<50 {
+    for _ in 0..<Self.maximumSweeps {
       var change = 0.0
       for p in 0..<n {
         for q in (p + 1)..<max(p + 1, n) where a[p][q] != 0 {
@@ -19,7 +24,7 @@ package struct SymmetricEigen: Sendable {
           Self.rotate(&a, &v, p, q)
         }
       }
-      if change < 1e-300 { break }
+      if change < Self.tolerance { break }
     }
     values = (0..<n).map { a[$0][$0] }
     vectors = (0..<n).map { column in (0..<n).map { v[$0][column] } }

@@ -19,6 +19,9 @@ extension SIMD3 where Scalar: FloatingPoint {
     let length = length
     return length > 0 ? self / length : self
   }
+
+  /// Whether all components are finite.
+  @inlinable package var isFinite: Bool { x.isFinite && y.isFinite && z.isFinite }
 }
 
 extension SIMD2 where Scalar: FloatingPoint {

@@ -4,11 +4,13 @@
 /// lengths and principal point are in pixels of the upright photo, with the origin at the top-left
 /// corner of the top-left pixel.
 package struct Camera: Hashable, Codable, Sendable {
-  /// The source of the focal length.
+  /// The source of the focal length: a guess, the photo's metadata, or alignment.
   package enum Calibration: String, Hashable, Codable, Sendable { case assumed, exif, refined }
 
+  /// Size of the upright photo in pixels.
   package var width: Int
   package var height: Int
+  /// Horizontal and vertical focal length in pixels.
   package var focalLength: SIMD2<Double>
   package var principalPoint: SIMD2<Double>
   /// OpenCV's k1, k2, p1, p2.
@@ -28,6 +30,9 @@ package struct Camera: Hashable, Codable, Sendable {
     self.calibration = calibration
   }
 
+  /// The longer side of the photo in pixels.
+  package var longerSide: Double { Double(max(width, height)) }
+
   /// The pixel of a point in the camera frame (x right, y down, z forward, z > 0).
   package func project(_ point: SIMD3<Double>) -> SIMD2<Double> {
     distort(SIMD2(point.x, point.y) / point.z) * focalLength + principalPoint
@@ -38,17 +43,17 @@ package struct Camera: Hashable, Codable, Sendable {
     let distorted = (pixel - principalPoint) / focalLength
     guard distortion != .zero else { return distorted }
     var p = distorted
-    for _ in 0..<20 {
+    for _ in 0..<Self.maximumIterations {
       let (value, jacobian) = distortWithJacobian(p)
       let residual = value - distorted
       let determinant = jacobian.0 * jacobian.3 - jacobian.1 * jacobian.2
-      guard abs(determinant) > 1e-9 else { break }
+      guard abs(determinant) > Self.minimumDeterminant else { break }
       let step =
         SIMD2(
           jacobian.3 * residual.x - jacobian.1 * residual.y,
           jacobian.0 * residual.y - jacobian.2 * residual.x) / determinant
       p -= step
-      if step.squaredLength < 1e-24 { break }
+      if step.squaredLength < Self.squaredTolerance { break }
     }
     return p
   }
@@ -80,6 +85,17 @@ package struct Camera: Hashable, Codable, Sendable {
         radial + slope * p.y * p.y + 6 * p1 * p.y + 2 * p2 * p.x
       )
     )
+  }
+
+  /// Number of Newton iterations; the determinant of the distortion's Jacobian below which it can't
+  /// be inverted; and the squared step at which the iteration has converged.
+  private static let maximumIterations = 20
+  private static let minimumDeterminant = 1e-9
+  private static let squaredTolerance = 1e-24
+
+  /// Whether a pixel is inside the photo.
+  package func contains(_ pixel: SIMD2<Double>) -> Bool {
+    pixel.x >= 0 && pixel.y >= 0 && pixel.x < Double(width) && pixel.y < Double(height)
   }
 
   /// The camera of the photo resized to `width` × `height`.

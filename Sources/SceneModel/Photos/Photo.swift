@@ -8,6 +8,7 @@ package struct Photo: Hashable, Codable, Sendable {
   package var sampleID: Int
   /// The file name relative to the input folder.
   package var name: String
+  /// The file.
   package var url: URL
   /// Size in pixels after rotation upright.
   package var width: Int
@@ -15,6 +16,7 @@ package struct Photo: Hashable, Codable, Sendable {
   /// EXIF orientation 1…8 that rotates the stored pixels upright.
   package var orientation: Int
   package var camera: ID<Camera>
+  /// Where the photo was taken; nil without GPS data.
   package var position: GeographicPosition?
   /// The mask that marks the object; nil without one.
   package var mask: PhotoMask?
@@ -51,7 +53,7 @@ package struct GeographicPosition: Hashable, Codable, Sendable {
 }
 
 /// A rejected input file and the reason.
-package struct RefusedPhoto: Hashable, Codable, Sendable {
+package struct RejectedPhoto: Hashable, Codable, Sendable {
   /// The kind of fault.
   package enum Fault: String, Hashable, Codable, Sendable {
     case unreadable, unsupportedFormat, tooSmall, tooLarge, blurred, duplicate, tooMany

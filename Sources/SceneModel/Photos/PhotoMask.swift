@@ -20,7 +20,7 @@ package struct PhotoMask: Hashable, Codable, Sendable {
 }
 
 /// A mask that is not used, and the reason; its photo is used without a mask.
-package struct RefusedMask: Hashable, Codable, Sendable {
+package struct RejectedMask: Hashable, Codable, Sendable {
   /// The name of the mask file, or of the photo with the alpha channel.
   package var name: String
   /// A message for the user.

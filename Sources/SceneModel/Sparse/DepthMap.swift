@@ -22,10 +22,10 @@ package struct DepthMap: Hashable, Codable, Sendable {
   /// The depth at a position from (0, 0), the photo's top-left corner, to (1, 1); nil outside,
   /// where it is unknown, and at depth edges, where one pixel of the map covers both foreground and
   /// background.
-  package func depth(at place: SIMD2<Double>) -> Double? {
-    guard place.x >= 0, place.x < 1, place.y >= 0, place.y < 1 else { return nil }
-    let column = Int(place.x * Double(width))
-    let row = Int(place.y * Double(height))
+  package func depth(at position: SIMD2<Double>) -> Double? {
+    guard position.x >= 0, position.x < 1, position.y >= 0, position.y < 1 else { return nil }
+    let column = Int(position.x * Double(width))
+    let row = Int(position.y * Double(height))
     let center = depths[row * width + column]
     guard center > 0, center.isFinite else { return nil }
     for y in max(0, row - 1)...min(height - 1, row + 1) {

@@ -15,7 +15,9 @@ package struct Observation: Hashable, Codable, Sendable {
 
 /// A triangulated point and its observations.
 package struct ScenePoint: Hashable, Codable, Sendable {
+  /// In the world frame.
   package var position: SIMD3<Double>
+  /// RGB.
   package var color: SIMD3<UInt8>
   /// Mean reprojection error in pixels.
   package var error: Double
@@ -37,6 +39,7 @@ package struct ScenePoint: Hashable, Codable, Sendable {
 package struct WorldFrame: Hashable, Codable, Sendable {
   /// The source of the scale.
   package enum Scale: String, Hashable, Codable, Sendable {
+    /// Depth maps, GPS, distances measured by the user, or none of them.
     case depth, gps, knownDistance, arbitrary
     /// The cameras were given, and their unit was declared to be the meter.
     case given
@@ -67,11 +70,11 @@ package struct Reconstruction: Sendable {
   package var points: [ScenePoint]
   package var worldFrame: WorldFrame
   /// Photos that passed validation but could not be registered, with the reasons.
-  package var unregistered: [RefusedPhoto]
+  package var unregistered: [RejectedPhoto]
 
   package init(
     cameras: [Camera], photos: [Photo], poses: [RigidTransform?], points: [ScenePoint],
-    worldFrame: WorldFrame = WorldFrame(), unregistered: [RefusedPhoto] = []
+    worldFrame: WorldFrame = WorldFrame(), unregistered: [RejectedPhoto] = []
   ) {
     self.cameras = cameras
     self.photos = photos

@@ -2,6 +2,7 @@
 package struct SensorReading: Hashable, Codable, Sendable {
   /// The direction of gravity in the camera frame of the upright photo: x right, y down, z forward.
   package var gravity: SIMD3<Double>?
+  /// Depths in meters, for the upright photo.
   package var depth: DepthMap?
 
   package init(gravity: SIMD3<Double>? = nil, depth: DepthMap? = nil) {

@@ -1,4 +1,4 @@
-/// Three vertex indices, counter-clockwise when viewed from outside; 12 bytes.
+/// Three vertex indices, counterclockwise when viewed from outside; 12 bytes.
 package struct Triangle: Hashable, Sendable, BitwiseCopyable {
   package var a: UInt32
   package var b: UInt32

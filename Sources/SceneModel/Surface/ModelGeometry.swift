@@ -12,7 +12,7 @@ package struct ModelGeometry: Hashable, Sendable {
 }
 
 extension TexturedMesh {
-  /// The transformed model. Triangles stay counter-clockwise under a reflection.
+  /// The transformed model. Triangles stay counterclockwise under a reflection.
   package func transformed(by transform: AffineMap) -> TexturedMesh {
     guard transform != .identity else { return self }
     var result = self

@@ -65,8 +65,8 @@ import Testing
     reconstruction.worldFrame = WorldFrame(scale: .gps, up: .supportPlane)
     self.reconstruction = reconstruction
     ingested = IngestedPhotos(
-      photos: reconstruction.photos, cameras: reconstruction.cameras, refused: [], files: [],
-      refusedMasks: [], contentHashes: reconstruction.photos.indices.map { UInt64($0) },
+      photos: reconstruction.photos, cameras: reconstruction.cameras, rejected: [], files: [],
+      rejectedMasks: [], contentHashes: reconstruction.photos.indices.map { UInt64($0) },
       processingPixels: 1000, isDownsampled: false)
   }
 

@@ -10,7 +10,7 @@ import Testing
 @Suite struct FixtureTests {
   @Test func unusableFilesAreRejectedAndTheOthersUsed() throws {
     let result = try PhotoIngestion().run(folder: Fixtures.folder("bad"), StageContext())
-    let faults = Dictionary(uniqueKeysWithValues: result.refused.map { ($0.name, $0.fault) })
+    let faults = Dictionary(uniqueKeysWithValues: result.rejected.map { ($0.name, $0.fault) })
     #expect(
       faults == [
         "black.jpg": .blurred, "blurred.jpg": .blurred, "corrupt.jpg": .unreadable,

@@ -66,10 +66,10 @@ import Testing
     let notes = StageNotes()
     let result = try ingest(folder, notes: notes)
     #expect(result.photos.map(\.name) == (0..<7).map { "\($0).png" })
-    #expect(result.refused.isEmpty)
+    #expect(result.rejected.isEmpty)
     #expect(result.files.count == 7)
     #expect(result.photos.map { $0.mask != nil } == [true, true, false, false, false, true, false])
-    let reasons = result.refusedMasks.map(\.reason)
+    let reasons = result.rejectedMasks.map(\.reason)
     #expect(reasons.count == 4)
     #expect(reasons[0].hasPrefix("2_mask.png") && reasons[0].contains("320 × 320"))
     #expect(reasons[1].hasPrefix("3_mask.png") && reasons[1].contains("no pixel"))
@@ -99,7 +99,7 @@ import Testing
     let result = try ingest(folder, usesMasks: false)
     #expect(result.photos.map(\.name) == ["a.png"])
     #expect(result.photos[0].mask == nil)
-    #expect(result.refused.isEmpty && result.refusedMasks.isEmpty)
+    #expect(result.rejected.isEmpty && result.rejectedMasks.isEmpty)
   }
 
   @Test func foldersTakePrecedenceOverFilesAndAlpha() throws {
@@ -145,8 +145,8 @@ import Testing
     try folder.write(ImageCodec.encodePNG(clear), as: "b.png")
     let result = try ingest(folder)
     #expect(result.photos.map { $0.mask == nil } == [true, true])
-    #expect(result.refusedMasks.count == 1)
-    #expect(result.refusedMasks[0].reason.contains("b.png"))
+    #expect(result.rejectedMasks.count == 1)
+    #expect(result.rejectedMasks[0].reason.contains("b.png"))
   }
 
   /// Writes a photo in stored orientation, and its mask in upright or in stored orientation.
@@ -172,7 +172,7 @@ import Testing
       try write(orientation, orientation, maskAsStored: maskAsStored, to: folder)
     }
     let result = try ingest(folder)
-    #expect(result.photos.count == 8 && result.refusedMasks.isEmpty)
+    #expect(result.photos.count == 8 && result.rejectedMasks.isEmpty)
     let images = store(result)
     for photo in result.photos {
       #expect(try difference(images.mask(photo.id), mask()) == 0, "\(photo.name)")

@@ -45,7 +45,7 @@ import Testing
     try folder.write(good[0], as: "deeper/other.jpg")
 
     let result = try PhotoIngestion().run(folder: folder.url, StageContext())
-    let faults = Dictionary(uniqueKeysWithValues: result.refused.map { ($0.name, $0.fault) })
+    let faults = Dictionary(uniqueKeysWithValues: result.rejected.map { ($0.name, $0.fault) })
     #expect(
       faults == [
         "cut.jpg": .unreadable, "notes.txt": .unsupportedFormat, "empty.jpg": .unreadable,
@@ -58,9 +58,9 @@ import Testing
       ])
     #expect(result.files.count == 14)
     for photo in result.photos { #expect(result.files[photo.sampleID] == photo.url) }
-    for refused in result.refused {
-      #expect(refused.reason.hasPrefix(refused.name))
-      #expect(result.files[refused.sampleID].lastPathComponent == refused.name)
+    for rejected in result.rejected {
+      #expect(rejected.reason.hasPrefix(rejected.name))
+      #expect(result.files[rejected.sampleID].lastPathComponent == rejected.name)
     }
     #expect(result.photos.map(\.id.index) == Array(0..<6))
     #expect(result.cameras.count == 1)
@@ -75,7 +75,7 @@ import Testing
     try folder.write(Array("not a picture".utf8), as: "c.jpg")
     let result = try PhotoIngestion().run(folder: folder.url, StageContext())
     #expect(result.photos.map(\.name) == ["a.jpg", "b.png"])
-    #expect(result.refused.map(\.fault) == [.unsupportedFormat])
+    #expect(result.rejected.map(\.fault) == [.unsupportedFormat])
   }
 
   /// The photos of a slow turntable differ little; all of them must be kept.
@@ -138,7 +138,7 @@ import Testing
     options.memoryBudget = 64 * 110_000
     let result = try PhotoIngestion(options).run(folder: folder.url, StageContext())
     #expect(result.photos.map(\.name) == ["0.jpg", "1.jpg", "2.jpg"])
-    #expect(result.refused.map(\.fault) == [.tooLarge, .tooMany, .tooMany])
+    #expect(result.rejected.map(\.fault) == [.tooLarge, .tooMany, .tooMany])
     #expect(result.isDownsampled)
     let store = ImageStore(photos: result.photos, processingPixels: result.processingPixels)
     let image = try store.image(ID(0))

@@ -54,7 +54,7 @@ import Testing
     #expect(result.photos.map(\.name) == ["IMG_1.HEIC", "IMG_2.HEIC", "IMG_3.HEIC"])
     #expect(result.photos[0].orientation == 1 && result.photos[0].width == 320)
     // A reading without a photo is treated like any other file.
-    #expect(result.refused.map(\.name) == ["other_gravity.txt"])
+    #expect(result.rejected.map(\.name) == ["other_gravity.txt"])
     #expect(Array(result.readings.keys) == [result.photos[0].sampleID])
     let reading = try #require(result.readings[result.photos[0].sampleID])
     #expect(reading.gravity == [0, 1, 0])

@@ -19,7 +19,7 @@ import Testing
     switch event {
     case .progress(let stage, let fraction): "\(stage.rawValue) \(fraction)"
     case .ingested(let photos): "ingested \(photos.count)"
-    case .refused(let photo): "refused \(photo.name)"
+    case .rejected(let photo): "refused \(photo.name)"
     case .downsampled: "downsampled"
     case .stitchingIncomplete(let registered, let all): "stitched \(registered) of \(all)"
     case .warning(let sentence): "warning \(sentence)"
@@ -75,9 +75,9 @@ import Testing
     let scene = SphereScene(viewCount: 2, imageSize: 64) { _ in SIMD3(120, 130, 140) }
     var photos = IngestedPhotos(
       photos: scene.reconstruction.photos, cameras: scene.reconstruction.cameras,
-      refused: [
-        RefusedPhoto(sampleID: 2, name: "c.txt", fault: .unsupportedFormat, reason: "No photo.")
-      ], files: [], refusedMasks: [], contentHashes: [1, 2], processingPixels: 1000,
+      rejected: [
+        RejectedPhoto(sampleID: 2, name: "c.txt", fault: .unsupportedFormat, reason: "No photo.")
+      ], files: [], rejectedMasks: [], contentHashes: [1, 2], processingPixels: 1000,
       isDownsampled: true)
     func record() throws {
       try recorder.record(
@@ -85,8 +85,8 @@ import Testing
     }
     #expect(throws: PipelineError.tooFewPhotos(found: 2, needed: 3)) { try record() }
     #expect(events.withLock { $0 } == ["refused c.txt", "downsampled", "ingested 2"])
-    #expect(recorder.report.photos.map(\.status) == [.refused])
+    #expect(recorder.report.photos.map(\.status) == [.rejected])
     photos.photos = []
-    #expect(throws: PipelineError.noPhotos(folder: "/photos", refused: 1)) { try record() }
+    #expect(throws: PipelineError.noPhotos(folder: "/photos", rejected: 1)) { try record() }
   }
 }

@@ -29,7 +29,7 @@ struct CratePaths {
     var jumps: [Int32] = []
     func visit(_ index: Int, hasSibling: Bool) {
       let node = nodes[index]
-      let place = paths.count
+      let position = paths.count
       paths.append(Int32(index))
       tokens.append(node.isProperty ? -Int32(node.token) : Int32(node.token))
       jumps.append(hasSibling ? 0 : -2)
@@ -37,7 +37,7 @@ struct CratePaths {
         visit(child, hasSibling: order + 1 < node.children.count)
       }
       if !node.children.isEmpty {
-        jumps[place] = hasSibling ? Int32(paths.count - place) : -1
+        jumps[position] = hasSibling ? Int32(paths.count - position) : -1
       }
     }
     visit(0, hasSibling: false)

@@ -10,6 +10,13 @@ struct CrateValues {
   var strings = CrateTable<UInt32>()
   var paths = CratePaths()
 
+  /// Bits of a list edit's header.
+  private enum ListOpBits {
+    static let isExplicit: UInt8 = 1 << 0
+    static let hasExplicitItems: UInt8 = 1 << 1
+    static let hasPrependedItems: UInt8 = 1 << 5
+  }
+
   /// Shorter integer arrays are stored uncompressed.
   private static let minimumCompressedCount = 16
 
@@ -18,6 +25,7 @@ struct CrateValues {
     _ = tokens.index("")
   }
 
+  /// The index of a string in `strings`.
   mutating func string(_ text: String) -> UInt32 { strings.index(tokens.index(text)) }
 
   /// Stores a value and returns its representation.
@@ -101,10 +109,10 @@ struct CrateValues {
     file.append(UInt64(entries.count))
     for entry in entries {
       file.append(string(entry.name))
-      let place = file.count
+      let start = file.count
       file.append(Int64(0))
       let value = store(entry.value)
-      file.replace(at: place, with: Int64(file.count - place))
+      file.replace(at: start, with: Int64(file.count - start))
       file.append(value.bits)
     }
     return .stored(.dictionary, at: offset)
@@ -122,13 +130,14 @@ struct CrateValues {
 
   /// A list edit that prepends tokens.
   mutating func storePrepended(_ names: [String]) -> CrateValueRep {
-    storeListOp(.tokenListOp, header: 1 << 5, names.map { tokens.index($0) })
+    storeListOp(.tokenListOp, header: ListOpBits.hasPrependedItems, names.map { tokens.index($0) })
   }
 
   /// A list edit that replaces the list by these paths.
   mutating func storeExplicit(paths: [String]) -> CrateValueRep {
     let indices = paths.map { UInt32(self.paths.index($0, &tokens)) }
-    return storeListOp(.pathListOp, header: 1 << 0 | 1 << 1, indices)
+    return storeListOp(
+      .pathListOp, header: ListOpBits.isExplicit | ListOpBits.hasExplicitItems, indices)
   }
 
   private mutating func storeListOp(

@@ -1,10 +1,19 @@
-/// Compresses bytes to one LZ4 block (greedy matching, hash table with one candidate).
+/// Compresses bytes to one LZ4 block (LZ4 Block Format Description, Collet): greedy matching, hash
+/// table with one candidate.
 enum LZ4Block {
   private static let minimumMatch = 4
   /// The format requires the last five bytes as literals, and no match start in the last twelve.
+  private static let literalTail = 5
   private static let tail = 12
+  private static let maximumOffset = 0xFFFF
   private static let hashBits: UInt32 = 15
+  /// Knuth's multiplicative hash: 2³² divided by the golden ratio, rounded to a prime.
+  private static let hashFactor: UInt32 = 2_654_435_761
+  /// After every 2⁶ positions without a match the search advances by one byte more, so that
+  /// incompressible data is skipped quickly.
+  private static let accelerationShift = 6
 
+  /// The block for `input`.
   static func compress(_ input: [UInt8]) -> [UInt8] {
     var output: [UInt8] = []
     output.reserveCapacity(input.count / 2 + 16)
@@ -14,19 +23,19 @@ enum LZ4Block {
     var misses = 0
     while position + tail < input.count {
       let word = word(input, position)
-      let slot = Int((word &* 2_654_435_761) >> (32 - hashBits))
+      let slot = Int((word &* hashFactor) >> (32 - hashBits))
       let candidate = Int(table[slot])
       table[slot] = Int32(truncatingIfNeeded: position)
-      guard candidate >= 0, position - candidate <= 0xFFFF,
+      guard candidate >= 0, position - candidate <= maximumOffset,
         self.word(input, candidate) == word
       else {
         misses += 1
-        position += 1 + misses >> 6
+        position += 1 + misses >> accelerationShift
         continue
       }
       misses = 0
       var length = minimumMatch
-      while position + length < input.count - 5,
+      while position + length < input.count - literalTail,
         input[candidate + length] == input[position + length]
       { length += 1 }
       append(

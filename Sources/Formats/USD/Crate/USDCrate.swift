@@ -11,6 +11,7 @@ package enum USDCrate {
   }
 }
 
+/// Collects the specs of a layer and writes the sections of the file.
 private struct CrateWriter {
   private struct Spec {
     var path: Int
@@ -18,22 +19,27 @@ private struct CrateWriter {
     var type: CrateSpecType
   }
 
+  private static let version: [UInt8] = [0, 7, 0, 0, 0, 0, 0, 0]
   private static let headerSize = 88
+  /// Offset in the header of the position of the table of contents.
+  private static let contentsOffset = 16
+  /// Bytes of a section's name in the table of contents.
+  private static let sectionNameSize = 16
   private static let endOfSet: UInt32 = .max
 
   private var values: CrateValues
   private var fields = CrateTable<CrateField>()
   /// Field indices; each set is terminated by `endOfSet`.
   private var fieldSets: [UInt32] = []
-  private var fieldSetPlaces: [[UInt32]: Int] = [:]
+  private var fieldSetStarts: [[UInt32]: Int] = [:]
   private var specs: [Spec] = []
   private var sections: [(name: String, start: Int, size: Int)] = []
 
   init() {
     var file = ByteWriter(capacity: 1 << 20)
     file.append("PXR-USDC")
-    file.append(contentsOf: [0, 7, 0, 0, 0, 0, 0, 0])
-    file.append(contentsOf: [UInt8](repeating: 0, count: Self.headerSize - 16))
+    file.append(contentsOf: Self.version)
+    file.append(contentsOf: [UInt8](repeating: 0, count: Self.headerSize - file.count))
     values = CrateValues(file: file)
   }
 
@@ -98,12 +104,12 @@ private struct CrateWriter {
     let set = entries.map { name, value in
       fields.index(CrateField(token: values.tokens.index(name), value: value))
     }
-    let place = fieldSetPlaces[set] ?? fieldSets.count
-    if fieldSetPlaces.updateValue(place, forKey: set) == nil {
+    let start = fieldSetStarts[set] ?? fieldSets.count
+    if fieldSetStarts.updateValue(start, forKey: set) == nil {
       fieldSets += set + [Self.endOfSet]
     }
     let index = values.paths.index(path, &values.tokens)
-    specs.append(Spec(path: index, fieldSet: place, type: type))
+    specs.append(Spec(path: index, fieldSet: start, type: type))
   }
 
   // MARK: Sections
@@ -148,11 +154,12 @@ private struct CrateWriter {
       writer.appendIntegers(writer.specs.map { Int32($0.fieldSet) })
       writer.appendIntegers(writer.specs.map { $0.type.rawValue })
     }
-    values.file.replace(at: 16, with: Int64(values.file.count))
+    values.file.replace(at: Self.contentsOffset, with: Int64(values.file.count))
     values.file.append(UInt64(sections.count))
     for section in sections {
       let name = Array(section.name.utf8)
-      values.file.append(contentsOf: name + [UInt8](repeating: 0, count: 16 - name.count))
+      values.file.append(
+        contentsOf: name + [UInt8](repeating: 0, count: Self.sectionNameSize - name.count))
       values.file.append(Int64(section.start))
       values.file.append(Int64(section.size))
     }

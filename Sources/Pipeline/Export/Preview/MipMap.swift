@@ -36,8 +36,8 @@ struct MipMap: Sendable {
 
   private static func rgb(_ image: RasterImage) -> RasterImage {
     let channels = image.channels
-    let pixels = stride(from: 0, to: image.pixels.count, by: channels).flatMap { place in
-      (0..<3).map { image.pixels[place + (channels > 3 ? $0 : 0)] }
+    let pixels = stride(from: 0, to: image.pixels.count, by: channels).flatMap { start in
+      (0..<3).map { image.pixels[start + (channels > 3 ? $0 : 0)] }
     }
     return RasterImage(width: image.width, height: image.height, channels: 3, pixels: pixels)
   }
@@ -68,9 +68,9 @@ struct MipMap: Sendable {
     return above * (1 - t) + below * t
   }
 
-  private func texel(_ level: Int, _ place: Int) -> SIMD3<Float> {
+  private func texel(_ level: Int, _ start: Int) -> SIMD3<Float> {
     level == 0
-      ? SIMD3(Float(base[place]), Float(base[place + 1]), Float(base[place + 2]))
-      : SIMD3(Float(coarser[place]), Float(coarser[place + 1]), Float(coarser[place + 2]))
+      ? SIMD3(Float(base[start]), Float(base[start + 1]), Float(base[start + 2]))
+      : SIMD3(Float(coarser[start]), Float(coarser[start + 1]), Float(coarser[start + 2]))
   }
 }

@@ -91,8 +91,8 @@ private struct ViewingRays {
 
   /// The unit vector toward the viewer at a sample.
   func direction(_ x: Int, _ y: Int) -> SIMD3<Float> {
-    let place = SIMD2(Float(x), Float(y)) + 0.5 - center
-    return -(right * place.x + down * place.y + forward).normalized
+    let offset = SIMD2(Float(x), Float(y)) + 0.5 - center
+    return -(right * offset.x + down * offset.y + forward).normalized
   }
 }
 

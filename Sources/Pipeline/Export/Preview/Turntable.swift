@@ -8,6 +8,7 @@ import SceneModel
 /// Azimuth is measured from +z toward +x, elevation upward from the horizon; both in radians.
 struct Turntable: Sendable {
   struct Options: Hashable, Codable, Sendable {
+    /// Number of viewpoints.
     var viewCount = 8
     /// Approximate angle that a picture spans.
     var fieldOfViewDegrees = 30.0
@@ -23,6 +24,9 @@ struct Turntable: Sendable {
     /// Photos whose horizontal unit directions have a longer mean than this, 0…1, show one side;
     /// 0.64 corresponds to a semicircle.
     var oneSidedConcentration = 0.6
+    /// Minimum mean length, 0…1, of the horizontal part of the photos' unit directions: for photos
+    /// from above it carries no information.
+    var minimumHorizontalShare = 0.2
     /// Bounds of half the angle that viewpoints of a single side span.
     var minimumReachDegrees = 40.0
     var maximumReachDegrees = 80.0
@@ -83,10 +87,10 @@ struct Turntable: Sendable {
     var high = -low
     for position in positions {
       let p = SIMD3<Double>(position)
-      let place =
+      let point =
         SIMD2(matrix.row0.dot(p) + t.x, matrix.row1.dot(p) + t.y) / (matrix.row2.dot(p) + t.z)
-      low = pointwiseMin(low, place)
-      high = pointwiseMax(high, place)
+      low = pointwiseMin(low, point)
+      high = pointwiseMax(high, point)
     }
     return (low, high)
   }
@@ -125,10 +129,9 @@ struct Turntable: Sendable {
 
   /// The median elevation of the photos, within bounds.
   private func medianElevation(_ viewDirections: [SIMD3<Double>]) -> Double {
-    let elevations = viewDirections.map { asin(min(max($0.y, -1), 1)) }.sorted()
-    let middle = elevations.isEmpty ? nil : elevations[elevations.count / 2] * 180 / .pi
-    let degrees = middle.map {
-      min(max($0, options.minimumElevationDegrees), options.maximumElevationDegrees)
+    let median = viewDirections.map { asin(min(max($0.y, -1), 1)) }.upperMedian
+    let degrees = median.map {
+      min(max($0 * 180 / .pi, options.minimumElevationDegrees), options.maximumElevationDegrees)
     }
     return (degrees ?? options.elevationDegrees) * .pi / 180
   }
@@ -138,8 +141,8 @@ struct Turntable: Sendable {
     let flat = viewDirections.map { SIMD2($0.x, $0.z) }
     let sum = flat.reduce(SIMD2<Double>.zero, +)
     let lengths = flat.reduce(0) { $0 + $1.length }
-    // For photos from above, the horizontal part carries no information.
-    guard lengths > 0.2 * Double(flat.count), sum.length > options.oneSidedConcentration * lengths
+    guard lengths > options.minimumHorizontalShare * Double(flat.count),
+      sum.length > options.oneSidedConcentration * lengths
     else { return nil }
     let azimuth = atan2(sum.x, sum.y)
     let offsets = flat.map { abs(remainder(atan2($0.x, $0.y) - azimuth, 2 * .pi)) }.sorted()

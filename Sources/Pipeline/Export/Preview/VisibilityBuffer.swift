@@ -4,6 +4,11 @@ import SceneModel
 struct ScreenVertex: Hashable, Sendable {
   /// Fixed-point units per sample.
   static let subdivision = 256.0
+  /// The same as an integer, and its number of bits.
+  static let units: Int64 = 256
+  static let unitBits = 8
+  /// The center of a sample in these units.
+  static let center: Int64 = 128
 
   /// In fixed-point units from the top-left corner of the picture.
   var x: Int32
@@ -64,7 +69,10 @@ struct VisibilityBuffer: Sendable {
   /// coordinates.
   private func span(_ a: Int32, _ b: Int32, _ c: Int32, _ count: Int) -> (first: Int, last: Int) {
     let (low, high) = (Int(min(a, b, c)), Int(max(a, b, c)))
-    return (max(0, (low + 127) >> 8), min(count - 1, (high - 128) >> 8))
+    return (
+      max(0, (low + Int(ScreenVertex.center) - 1) >> ScreenVertex.unitBits),
+      min(count - 1, (high - Int(ScreenVertex.center)) >> ScreenVertex.unitBits)
+    )
   }
 }
 
@@ -84,8 +92,9 @@ struct TriangleEdges: Sendable {
     init(from a: ScreenVertex, to b: ScreenVertex, sign: Int64) {
       let (x, y) = (Int64(b.x) - Int64(a.x), Int64(b.y) - Int64(a.y))
       let (dx, dy) = (sign * x, sign * y)
-      origin = dx * (128 - Int64(a.y)) - dy * (128 - Int64(a.x))
-      (stepX, stepY) = (-256 * dy, 256 * dx)
+      let center = ScreenVertex.center
+      origin = dx * (center - Int64(a.y)) - dy * (center - Int64(a.x))
+      (stepX, stepY) = (-ScreenVertex.units * dy, ScreenVertex.units * dx)
       exclusion = dy < 0 || (dy == 0 && dx > 0) ? 0 : 1
     }
 
@@ -107,7 +116,7 @@ struct TriangleEdges: Sendable {
     let (vx, vy) = (Int64(c.x) - Int64(a.x), Int64(c.y) - Int64(a.y))
     let area = ux * vy - uy * vx
     guard area != 0 else { return nil }
-    // y points down: counter-clockwise in the picture means negative area.
+    // y points down: counterclockwise in the picture means negative area.
     isFront = area < 0
     let sign: Int64 = isFront ? -1 : 1
     self.a = Edge(from: b, to: c, sign: sign)

@@ -11,7 +11,7 @@ package struct PureRotationCheck: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Focal lengths range from the given one divided by this to the one multiplied by it, for
     /// assumed values and for values from metadata.
-    package var assumedRange = 2.6
+    package var assumedRange = SelfCalibration.Options().range
     package var exifRange = 1.15
     /// Number of focal lengths tested, evenly spaced in their logarithms.
     package var candidates = 81
@@ -45,9 +45,7 @@ package struct PureRotationCheck: Sendable {
   package func isPureRotation(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera]
   ) -> Bool {
-    let pairs = graph.pairs.sorted {
-      ($0.matches.count, $1.pair) > ($1.matches.count, $0.pair)
-    }.prefix(options.maximumPairs)
+    let pairs = graph.strongestPairs().prefix(options.maximumPairs)
     let samples = pairs.map { sample($0, features, photos, cameras) }
     guard !samples.isEmpty else { return false }
     let isAssumed = cameras.contains { $0.calibration == .assumed }
@@ -63,17 +61,14 @@ package struct PureRotationCheck: Sendable {
   private func sample(
     _ pair: VerifiedPair, _ features: [FeatureSet], _ photos: [Photo], _ cameras: [Camera]
   ) -> Sample {
-    let stride = max(1, pair.matches.count / options.maximumMatches)
-    let matches = Swift.stride(from: 0, to: pair.matches.count, by: stride).map { pair.matches[$0] }
-    func points(_ photo: ID<Photo>, _ index: (FeatureMatch) -> Int32) -> [SIMD2<Double>] {
-      let camera = cameras[photos[photo.index].camera.index]
-      let positions = features[photo.index].positions
-      return matches.map { camera.unproject(SIMD2<Double>(positions[Int(index($0))])) }
-    }
-    let camera = cameras[photos[pair.pair.first.index].camera.index]
-    let pixels = options.relativeError * Double(max(camera.width, camera.height))
+    let (first, second) = (pair.pair.first.index, pair.pair.second.index)
+    let matches = pair.thinnedMatches(options.maximumMatches)
+    let camera = cameras[photos[first].camera.index]
+    let otherCamera = cameras[photos[second].camera.index]
+    let pixels = options.relativeError * camera.longerSide
     return Sample(
-      first: points(pair.pair.first) { $0.first }, second: points(pair.pair.second) { $0.second },
+      first: camera.normalizedPositions(of: matches, in: features[first], \.first),
+      second: otherCamera.normalizedPositions(of: matches, in: features[second], \.second),
       limit: pixels / camera.focalLength.x)
   }
 
@@ -87,8 +82,8 @@ package struct PureRotationCheck: Sendable {
     let half = first.count / 2
     let changes = (0..<half).map { i in
       abs(angle(first[i], first[i + half]) - angle(second[i], second[i + half]))
-    }.sorted()
-    return changes.isEmpty ? .infinity : changes[changes.count / 2]
+    }
+    return changes.upperMedian ?? .infinity
   }
 
   private func angle(_ a: SIMD3<Double>, _ b: SIMD3<Double>) -> Double {

@@ -19,6 +19,10 @@ extension SceneAmbiguityCheck {
     /// photo's longer side.
     package var stepPerScale = 1.0 / 3
     package var relativeStep = 1.0 / 1400
+    /// Half the side of a template plus the search range, in template samples.
+    package var templateReach = 10.0
+    /// Maximum displacement of a template from where its search starts, in template samples.
+    package var maximumShift = 4.0
     /// Photos with more pixels are reduced to this size.
     package var workingPixels = 6_500_000
     /// Correlation (ZNCC) from which on a point counts as present, and below which it counts as
@@ -36,6 +40,13 @@ extension SceneAmbiguityCheck {
     /// Minimum fraction and minimum number of the compared pairs that must be in conflict.
     package var minimumConflictShare = 0.1
     package var minimumConflicts = 2
+    /// Maximum distance of a projected point from a match with it, as a fraction of the photo's
+    /// longer side.
+    package var contradictionTolerance = 0.01
+    /// Pairs with fewer matches that have a point are not evaluated.
+    package var minimumPairMatches = 30
+    /// Fraction of agreeing matches below which a pair contradicts the reconstruction.
+    package var maximumAgreement = 0.2
     /// Number of pairs whose matches contradict the reconstruction from which on it is questioned.
     package var minimumContradicted = 2
 

@@ -48,7 +48,7 @@ package struct SceneAmbiguityCheck: Sendable {
     findings.conflicts = evidence.filter(isConflict).sorted {
       ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
     }
-    findings.contradicted = graph.contradicted(by: reconstruction, features: features)
+    findings.contradicted = graph.contradicted(by: reconstruction, features: features, options)
     let needed = max(
       Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
     let signs = [

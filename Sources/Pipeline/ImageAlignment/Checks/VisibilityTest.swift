@@ -2,99 +2,6 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// A point of one photo that another photo is expected to show.
-struct ExpectedPoint: Sendable {
-  /// The point and its template in the first photo.
-  var reference: TrackReference
-  /// The expected position in the other photo, in pixels, and the local affine warp of the
-  /// template.
-  var pixel: SIMD2<Double>
-  var warp: SIMD4<Double>
-}
-
-/// A visibility hypothesis: the points of photo `other` that `photo` should show if both poses are
-/// correct, and the points that it demonstrably shows.
-struct VisibilityHypothesis: Sendable {
-  var other: Int
-  var photo: Int
-  var points: [ExpectedPoint] = []
-  /// Pixels in `photo` of points that are matched features of both photos.
-  var confirmedPixels: [SIMD2<Double>] = []
-}
-
-/// Predicts which points a photo should show, from its pose and the points it observes.
-struct VisibilityPrediction {
-  let photo: Int
-  let pose: RigidTransform
-  private let depths: DepthGrid
-  /// Tracks observed by features of the photo, and their pixels.
-  private let known: [Int32: SIMD2<Double>]
-
-  /// `seen` lists the tracks observed by features of the photo.
-  init(
-    _ photo: Int, at pose: RigidTransform, seen: [(track: Int32, pixel: SIMD2<Double>)],
-    _ map: SparseMap, _ options: SceneAmbiguityCheck.Options
-  ) {
-    (self.photo, self.pose) = (photo, pose)
-    depths = DepthGrid(
-      map.photos.cameras[Int(map.photos.cameraOfPhoto[photo])],
-      seen.map { ($0.pixel, (pose * map.positions[Int($0.track)]).z) }, cells: options.cells)
-    known = Dictionary(seen.map { ($0.track, $0.pixel) }) { first, _ in first }
-  }
-
-  /// Median depth of all points that the photo observes; nil without any.
-  var medianDepth: Double? { depths.medianDepth }
-
-  /// The points of another photo that this photo should show.
-  func hypothesis(
-    about other: Int, _ map: SparseMap, _ options: SceneAmbiguityCheck.Options,
-    reference: (_ observation: Int) -> TrackReference
-  ) -> VisibilityHypothesis {
-    var hypothesis = VisibilityHypothesis(other: other, photo: photo)
-    guard let theirs = map.photos.poses[other]?.center else { return hypothesis }
-    var photos = map.photos
-    photos.poses[photo] = pose
-    for index in map.tracks.observationsOfPhoto[other].map(Int.init) where map.isActive[index] {
-      if let pixel = known[map.tracks.trackOfObservation[index]] {
-        hypothesis.confirmedPixels.append(pixel)
-      } else if let point = expected(reference(index), from: theirs, photos, options) {
-        hypothesis.points.append(point)
-      }
-    }
-    let stride = max(
-      1, (hypothesis.points.count + options.maximumPoints - 1) / options.maximumPoints)
-    hypothesis.points = Swift.stride(from: 0, to: hypothesis.points.count, by: stride).map {
-      hypothesis.points[$0]
-    }
-    return hypothesis
-  }
-
-  /// The expected position of a point observed from the center `theirs`; nil if it may be occluded,
-  /// lies outside, or is viewed too differently.
-  private func expected(
-    _ reference: TrackReference, from theirs: SIMD3<Double>, _ photos: PosedPhotos,
-    _ options: SceneAmbiguityCheck.Options
-  ) -> ExpectedPoint? {
-    let camera = photos.cameras[Int(photos.cameraOfPhoto[photo])]
-    let (mine, their) = (pose.center - reference.point, theirs - reference.point)
-    let ratio = mine.length / their.length
-    let depth = (pose * reference.point).z
-    let (limit, most) = (options.maximumAngleDegrees * .pi / 180, options.maximumDistanceRatio)
-    guard depth > 0, ratio < most, 1 / ratio < most,
-      mine.dot(their) > cos(limit) * mine.length * their.length,
-      let (pixel, warp) = reference.warp(to: photo, in: photos)
-    else { return nil }
-    // The whole template, including the search range, must lie within the photo.
-    let margin = VisibilityTest.templateReach * reference.step
-    guard pixel.x > margin, pixel.y > margin, pixel.x < Double(camera.width) - margin,
-      pixel.y < Double(camera.height) - margin,
-      let nearestDepth = depths.nearestDepth(at: pixel),
-      depth < options.depthTolerance * nearestDepth
-    else { return nil }
-    return ExpectedPoint(reference: reference, pixel: pixel, warp: warp)
-  }
-}
-
 /// Tests visibility hypotheses between nearby photos by template matching.
 struct VisibilityTest: Sendable {
   let map: SparseMap
@@ -121,6 +28,7 @@ struct VisibilityTest: Sendable {
     }
   }
 
+  /// The observation as a template for other photos.
   private func reference(_ observation: Int) -> TrackReference {
     let (photo, track) = (
       Int(map.tracks.photos[observation]), Int(map.tracks.trackOfObservation[observation])
@@ -156,12 +64,13 @@ struct VisibilityTest: Sendable {
     func axis(_ pose: RigidTransform) -> SIMD3<Double> {
       pose.rotation.conjugate * SIMD3(0, 0, 1)
     }
-    let (center, ahead) = (pose.center, axis(pose))
-    let leastCosine = cos(options.axisDegrees * .pi / 180)
+    let (center, ownAxis) = (pose.center, axis(pose))
+    let minimumCosine = cos(options.axisDegrees * .pi / 180)
     let near = map.registered.compactMap { other -> (distance: Double, photo: Int)? in
-      guard other != photo, let theirs = map.photos.poses[other] else { return nil }
-      let distance = (theirs.center - center).length
-      return distance < reach && axis(theirs).dot(ahead) > leastCosine ? (distance, other) : nil
+      guard other != photo, let otherPose = map.photos.poses[other] else { return nil }
+      let distance = (otherPose.center - center).length
+      return distance < reach && axis(otherPose).dot(ownAxis) > minimumCosine
+        ? (distance, other) : nil
     }
     return near.sorted { ($0.distance, $0.photo) < ($1.distance, $1.photo) }
       .prefix(options.neighbors).map(\.photo)
@@ -209,14 +118,14 @@ struct VisibilityTest: Sendable {
     // Masked-out areas may occlude the point or differ between photos.
     var best = numbers.map { number -> Double? in
       let (pixel, reach) = (
-        points[number].pixel, Self.templateReach * points[number].reference.step
+        points[number].pixel, options.templateReach * points[number].reference.step
       )
       let isShown = Self.corners.allSatisfy { isOnObject((pixel + reach * $0) * factor) }
       return templates.isValid[number] && isShown ? -1.0 : nil
     }
     var matching = TemplateMatching()
     matching.maximumShift =
-      4 * (numbers.map { points[$0].reference.step }.max() ?? 1) * factor.x
+      options.maximumShift * (numbers.map { points[$0].reference.step }.max() ?? 1) * factor.x
     for offsets in [Self.offsets.prefix(1), Self.offsets.dropFirst()] {
       let open = best.indices.filter { best[$0].map { $0 < options.presentCorrelation } ?? false }
       guard !open.isEmpty else { break }
@@ -234,8 +143,7 @@ struct VisibilityTest: Sendable {
     return best
   }
 
-  /// Half the side of a template plus the search range, in template samples.
-  fileprivate static let templateReach = 10.0
+  /// The corners of a square around its center, in halves of its side.
   private static let corners: [SIMD2<Double>] = [[-1, -1], [1, -1], [-1, 1], [1, 1]]
 
   /// Starting positions of the search, in template samples.
@@ -243,6 +151,7 @@ struct VisibilityTest: Sendable {
     [0, 0], [2, 0], [-2, 0], [0, 2], [0, -2], [2, 2], [-2, -2], [2, -2], [-2, 2],
   ]
 
+  /// Counts the present and absent points of a hypothesis, given their correlations.
   private func evidence(
     _ hypothesis: VisibilityHypothesis, _ correlations: [Double?]
   ) -> SceneAmbiguityCheck.Evidence {

@@ -69,6 +69,9 @@ package struct FeatureExtraction {
     package init() {}
   }
 
+  /// A photo with fewer features can rarely be registered.
+  static let fewFeatures = 100
+
   package var options: Options
 
   package init(_ options: Options = Options()) { self.options = options }
@@ -82,7 +85,7 @@ package struct FeatureExtraction {
       try Self.features(of: photos[index], images, options)
     }
     context.notes.record("features", Double(sets.reduce(0) { $0 + $1.count }))
-    for (photo, set) in zip(photos, sets) where set.count < 100 {
+    for (photo, set) in zip(photos, sets) where set.count < Self.fewFeatures {
       let part = photo.mask == nil ? "" : " inside its mask"
       context.notes.warn(
         "\(photo.name) shows hardly any texture\(part) (\(set.count) features); it may not be used."

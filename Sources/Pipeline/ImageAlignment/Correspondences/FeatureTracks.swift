@@ -31,6 +31,7 @@ package struct FeatureTracks: Sendable {
     Int(offsets[track])..<Int(offsets[track + 1])
   }
 
+  /// Moves an observation within its photo.
   mutating func movePixel(of observation: Int, to pixel: SIMD2<Double>) {
     pixels[observation] = pixel
   }

@@ -38,7 +38,7 @@ package struct GuidedMatching {
     let isNeeded = Set(weak.flatMap { [graph.pairs[$0].pair.first, graph.pairs[$0].pair.second] })
     let points = try context.control.parallelMap(photos.count) { index in
       isNeeded.contains(ID(index))
-        ? features[index].positions.map { cameraOfPhoto[index].unproject(SIMD2<Double>($0)) } : []
+        ? cameraOfPhoto[index].normalizedPositions(of: features[index]) : []
     }
     let better = try context.control.parallelMap(weak.count) { index in
       try guided(graph.pairs[weak[index]], features, points, cameraOfPhoto)

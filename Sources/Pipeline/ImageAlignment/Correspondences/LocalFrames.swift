@@ -20,8 +20,7 @@ struct LocalFrames {
 
   init(_ known: [FeatureMatch], _ first: FeatureSet, _ second: FeatureSet) {
     (self.first, self.second) = (first, second)
-    let ratios = known.map(logarithmOfScales).sorted()
-    scale = ratios.isEmpty ? 0 : ratios[ratios.count / 2]
+    scale = known.map(logarithmOfScales).upperMedian ?? 0
     turn = known.reduce(SIMD2<Double>.zero) { $0 + direction($1) } / Double(max(1, known.count))
   }
 

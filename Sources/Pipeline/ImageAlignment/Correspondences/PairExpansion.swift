@@ -73,18 +73,11 @@ package struct PairExpansion {
 
   /// The lowest photo index in each photo's connected component.
   private func groups(_ partners: [[Int]]) -> [Int] {
-    var group = [Int](repeating: -1, count: partners.count)
-    for start in partners.indices where group[start] < 0 {
-      group[start] = start
-      var open = [start]
-      while let photo = open.popLast() {
-        for other in partners[photo] where group[other] < 0 {
-          group[other] = start
-          open.append(other)
-        }
-      }
+    var sets = DisjointSets(count: partners.count)
+    for (photo, others) in partners.enumerated() {
+      for other in others { sets.join(photo, other) }
     }
-    return group
+    return partners.indices.map { sets.root($0) }
   }
 
   /// Pairs of each photo with those that share the most verified partners with it.

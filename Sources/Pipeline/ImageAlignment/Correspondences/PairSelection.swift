@@ -166,22 +166,23 @@ package struct PairSelection {
   private func nearest(
     _ positions: [GeographicPosition?], _ features: [FeatureSet]
   ) -> Set<PhotoPair> {
+    // Of latitude; on the scale of one set the Earth is flat.
     let metersPerDegree = 111_320.0
-    let places = positions.enumerated().compactMap { photo, position in
+    let points = positions.enumerated().compactMap { photo, position in
       position.map { position in
         let narrowing = cos(position.latitudeDegrees * .pi / 180)
         return (
           photo: photo,
-          place: metersPerDegree
+          point: metersPerDegree
             * SIMD2(position.longitudeDegrees * narrowing, position.latitudeDegrees)
         )
       }
     }
     .filter { features[$0.photo].count > 0 }
     return Set(
-      places.flatMap { origin in
-        places.filter { $0.photo != origin.photo }
-          .map { (photo: $0.photo, distance: ($0.place - origin.place).squaredLength) }
+      points.flatMap { origin in
+        points.filter { $0.photo != origin.photo }
+          .map { (photo: $0.photo, distance: ($0.point - origin.point).squaredLength) }
           .sorted { ($0.distance, $0.photo) < ($1.distance, $1.photo) }
           .prefix(options.positionPartners).map { pair(origin.photo, $0.photo) }
       })

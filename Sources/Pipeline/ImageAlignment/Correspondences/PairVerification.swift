@@ -20,6 +20,7 @@ package struct PairVerification {
     package var homographyRatio = 0.8
     /// Estimates fundamental matrices if the focal length is only assumed.
     package var isUncalibratedWhereAssumed = true
+    /// Combined with the photos' IDs for the random samples of each pair.
     package var seed: UInt64 = 0
 
     package init() {}
@@ -36,8 +37,7 @@ package struct PairVerification {
     cameras: [Camera], _ context: StageContext
   ) throws -> ViewGraph {
     let points = try context.part(from: 0, to: 0.1).control.parallelMap(photos.count) { index in
-      let camera = cameras[photos[index].camera.index]
-      return features[index].positions.map { camera.unproject(SIMD2<Double>($0)) }
+      cameras[photos[index].camera.index].normalizedPositions(of: features[index])
     }
     let verified = try context.part(from: 0.1, to: 1).control.parallelMap(pairs.count) { index in
       let pair = pairs[index]
@@ -60,6 +60,7 @@ package struct PairVerification {
     return graph
   }
 
+  /// The result of verifying a pair.
   enum Verdict: Sendable {
     case verified(VerifiedPair)
     case rejected(RejectedPair)
@@ -111,9 +112,6 @@ package struct PairVerification {
 
   /// The error limit in normalized image coordinates (depth 1), the mean over both photos.
   func maximumError(_ cameras: (Camera, Camera)) -> Double {
-    func size(_ camera: Camera) -> Double {
-      Double(max(camera.width, camera.height)) * 2 / (camera.focalLength.x + camera.focalLength.y)
-    }
-    return options.relativeMaximumError * (size(cameras.0) + size(cameras.1)) / 2
+    options.relativeMaximumError * (cameras.0.normalizedSide + cameras.1.normalizedSide) / 2
   }
 }

@@ -9,6 +9,7 @@ package struct PhotoRetrieval: Sendable {
     package var words = 128
     /// Number of descriptors, over all photos, that the words are learned from.
     package var sampledDescriptors = 40_000
+    /// Seed of the vocabulary's clustering.
     package var seed: UInt64 = 0
 
     package init() {}

@@ -30,7 +30,7 @@ package struct SelfCalibration {
     /// Minimum total weight of all votes, in matches that become outliers.
     package var minimumWeight = 10.0
     /// Error at which the cost saturates, as a fraction of the photo's longer side.
-    package var relativeMaximumError = 0.0012
+    package var relativeMaximumError = PairVerification.Options().relativeMaximumError
 
     package init() {}
   }
@@ -64,14 +64,11 @@ package struct SelfCalibration {
   private func usablePairs(
     of camera: ID<Camera>, _ graph: ViewGraph, _ photos: [Photo]
   ) -> [VerifiedPair] {
-    let pairs = graph.pairs.filter {
+    let pairs = graph.strongestPairs {
       photos[$0.pair.first.index].camera == camera && photos[$0.pair.second.index].camera == camera
         && $0.model != .homography && $0.matches.count >= options.minimumMatches
     }
-    let sorted = pairs.sorted {
-      ($0.matches.count, $1.pair) > ($1.matches.count, $0.pair)
-    }
-    return Array(sorted.prefix(options.maximumPairs))
+    return Array(pairs.prefix(options.maximumPairs))
   }
 
   /// The factor from the assumed to the estimated focal length; nil if the pairs don't determine
@@ -80,17 +77,16 @@ package struct SelfCalibration {
     _ camera: Camera, _ pairs: [VerifiedPair], _ features: [FeatureSet], _ context: StageContext
   ) throws -> Double? {
     let limit =
-      options.relativeMaximumError * Double(max(camera.width, camera.height))
+      options.relativeMaximumError * camera.longerSide
       / camera.focalLength.x
-    let collected = try context.control.parallelMap(pairs.count) {
-      try self.evidence(pairs[$0], camera, features, limit)
-    }
-    let evidence = collected.compactMap { $0 }
+    let usable = try context.control.parallelMap(pairs.count) {
+      try matches(of: pairs[$0], camera, features, limit)
+    }.compactMap { $0 }
     let steps = options.candidates - 1
     let candidates = (0...steps).map { log(options.range) * (2 * Double($0) / Double(steps) - 1) }
     let factors = candidates.map(exp)
-    let costs = try context.control.parallelMap(evidence.count) { index in
-      let pair = evidence[index]
+    let costs = try context.control.parallelMap(usable.count) { index in
+      let pair = usable[index]
       return try FocalLengthCost.costs(
         pair.first, pair.second, fundamental: pair.fundamental, maximumError: limit,
         factors: factors, KernelControl()
@@ -130,17 +126,16 @@ package struct SelfCalibration {
     return agreeing >= options.minimumAgreement * total ? median : nil
   }
 
-  private func evidence(
-    _ pair: VerifiedPair, _ camera: Camera, _ features: [FeatureSet], _ limit: Double
+  /// The matches of a pair and their fundamental matrix; nil if none fits them. `limit` is the
+  /// error at depth 1 at which the cost saturates.
+  private func matches(
+    of pair: VerifiedPair, _ camera: Camera, _ features: [FeatureSet], _ limit: Double
   ) throws -> PairMatches? {
-    let stride = max(1, pair.matches.count / options.maximumMatches)
-    let matches = Swift.stride(from: 0, to: pair.matches.count, by: stride).map { pair.matches[$0] }
-    func points(_ photo: ID<Photo>, _ index: (FeatureMatch) -> Int32) -> [SIMD2<Double>] {
-      let positions = features[photo.index].positions
-      return matches.map { camera.unproject(SIMD2<Double>(positions[Int(index($0))])) }
-    }
-    let first = points(pair.pair.first) { $0.first }
-    let second = points(pair.pair.second) { $0.second }
+    let matches = pair.thinnedMatches(options.maximumMatches)
+    let first = camera.normalizedPositions(
+      of: matches, in: features[pair.pair.first.index], \.first)
+    let second = camera.normalizedPositions(
+      of: matches, in: features[pair.pair.second.index], \.second)
     var estimation = TwoViewEstimation()
     estimation.isCalibrated = false
     estimation.maximumError = limit

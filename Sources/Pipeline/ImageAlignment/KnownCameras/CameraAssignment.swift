@@ -35,13 +35,13 @@ package struct CameraAssignment: Sendable {
     var assigned = AssignmentBuilder(
       photos: ingested.photos, worldFrame: known.reconstruction.worldFrame)
     for photo in ingested.photos {
-      if let place = names.place(of: photo.name) {
-        assigned.take(place, of: known, for: photo)
+      if let index = names.index(of: photo.name) {
+        assigned.assignCamera(index, of: known, to: photo)
       } else {
-        assigned.refuse(photo, because: "no camera of that name was given")
+        assigned.leaveOut(photo, because: "no camera of that name was given")
       }
     }
-    assigned.takePoints(of: known)
+    assigned.copyPoints(of: known)
     let missing = known.reconstruction.photos.map(\.name)
       .filter { !files.contains($0) && !files.contains(PhotoNames.last($0)) }
     let result = Result(reconstruction: assigned.reconstruction, missing: missing)
@@ -62,37 +62,34 @@ package struct CameraAssignment: Sendable {
     notes.record("camerasWithoutPhoto", Double(result.missing.count))
     if !result.missing.isEmpty {
       notes.warn(
-        "\(result.missing.count) cameras have no photo in the folder: \(list(result.missing)).")
+        "\(result.missing.count) cameras have no photo in the folder: "
+          + "\(result.missing.list(options.namesInSentence)).")
     }
     if !assigned.scaled.isEmpty {
       notes.log(
-        "Cameras were scaled to the size of these photos: \(list(assigned.scaled)).")
+        "Cameras were scaled to the size of these photos: "
+          + "\(assigned.scaled.list(options.namesInSentence)).")
     }
     if !assigned.turned.isEmpty {
       notes.log(
         "Cameras of photos in stored orientation were rotated upright: "
-          + "\(list(assigned.turned)).")
+          + "\(assigned.turned.list(options.namesInSentence)).")
     }
-  }
-
-  private func list(_ names: [String]) -> String {
-    let shown = names.prefix(options.namesInSentence).joined(separator: ", ")
-    let rest = names.count - options.namesInSentence
-    return rest > 0 ? "\(shown) and \(rest) more" : shown
   }
 }
 
 /// Looks up cameras by file name: by the full name, or by its last path component if that is
 /// unique.
 private struct PhotoNames {
-  private var places: [String: Int] = [:]
-  private var lastPlaces: [String: Int?] = [:]
+  private var indices: [String: Int] = [:]
+  /// By last path component; nil if several names have it.
+  private var indicesOfLast: [String: Int?] = [:]
 
   init(_ names: [String]) {
-    for (place, name) in names.enumerated() {
-      if places[name] == nil { places[name] = place }
+    for (index, name) in names.enumerated() {
+      if indices[name] == nil { indices[name] = index }
       let last = Self.last(name)
-      lastPlaces.updateValue(lastPlaces[last] == nil ? place : nil, forKey: last)
+      indicesOfLast.updateValue(indicesOfLast[last] == nil ? index : nil, forKey: last)
     }
   }
 
@@ -101,7 +98,8 @@ private struct PhotoNames {
     String(name[(name.lastIndex(of: "/").map(name.index(after:)) ?? name.startIndex)...])
   }
 
-  func place(of name: String) -> Int? { places[name] ?? lastPlaces[name] ?? nil }
+  /// The index of the camera for a file name; nil if there is none or several.
+  func index(of name: String) -> Int? { indices[name] ?? indicesOfLast[name] ?? nil }
 }
 
 /// The photos that have been assigned a camera so far.
@@ -119,12 +117,12 @@ private struct AssignmentBuilder {
       worldFrame: worldFrame)
   }
 
-  /// Assigns camera and pose number `place` of `known` to `photo`.
-  mutating func take(_ place: Int, of known: KnownCameras, for photo: Photo) {
-    let knownPhoto = known.reconstruction.photos[place]
+  /// Assigns camera and pose number `index` of `known` to `photo`.
+  mutating func assignCamera(_ index: Int, of known: KnownCameras, to photo: Photo) {
+    let knownPhoto = known.reconstruction.photos[index]
     let camera = known.reconstruction.camera(of: knownPhoto.id)
-    guard let pose = known.reconstruction.poses[place] else {
-      return refuse(photo, because: "its camera has no pose")
+    guard let pose = known.reconstruction.poses[index] else {
+      return leaveOut(photo, because: "its camera has no pose")
     }
     let isSizeKnown = !known.photosOfUnknownSize.contains(knownPhoto.id)
     guard let fit = CameraFit(camera, to: photo, isSizeKnown: isSizeKnown) else {
@@ -133,7 +131,7 @@ private struct AssignmentBuilder {
         isSizeKnown
         ? "is for \(camera.width) × \(camera.height) pixels"
         : "has its principal point at (\(Int(center.x)), \(Int(center.y)))"
-      return refuse(
+      return leaveOut(
         photo,
         because: "its camera \(size), but the photo has \(photo.width) × \(photo.height) pixels, "
           + "upright")
@@ -147,19 +145,19 @@ private struct AssignmentBuilder {
     }
     reconstruction.photos[photo.id.index].camera = id
     reconstruction.poses[photo.id.index] = fit.pose(pose)
-    fits[place] = (photo.id, fit)
+    fits[index] = (photo.id, fit)
   }
 
   /// Records that `photo` has no pose; `end` completes the sentence "NAME is not used: …".
-  mutating func refuse(_ photo: Photo, because end: String) {
+  mutating func leaveOut(_ photo: Photo, because end: String) {
     reconstruction.unregistered.append(
-      RefusedPhoto(sampleID: photo.sampleID, name: photo.name, fault: .notRegistered, end: end))
+      RejectedPhoto(sampleID: photo.sampleID, name: photo.name, fault: .notRegistered, end: end))
     // A photo without a pose still needs a valid camera index; it is never read.
     reconstruction.photos[photo.id.index].camera = ID(0)
   }
 
   /// Copies the points that at least two assigned photos observe.
-  mutating func takePoints(of known: KnownCameras) {
+  mutating func copyPoints(of known: KnownCameras) {
     reconstruction.points = known.reconstruction.points.compactMap { point in
       var point = point
       point.track = point.track.compactMap { observation in

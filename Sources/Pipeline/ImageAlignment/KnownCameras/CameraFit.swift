@@ -3,6 +3,12 @@ import SceneModel
 /// The conversion of a camera that was estimated for one size or orientation of a photo to the
 /// photo at hand.
 struct CameraFit: Hashable {
+  /// Maximum distance of the principal point from the center, as a fraction of the photo's width or
+  /// height, for a camera of unknown size.
+  private static let maximumOffset = 0.2
+  /// Clockwise quarter turns to the upright photo, by EXIF orientation.
+  private static let quarterTurnsOfOrientation = [6: 1, 8: 3]
+
   /// The camera of the upright photo.
   private(set) var camera: Camera
   /// Clockwise quarter turns from the photo that the camera was estimated for to the upright photo.
@@ -21,7 +27,7 @@ struct CameraFit: Hashable {
     }
     self.camera = camera
     original = [Double(camera.width), Double(camera.height)]
-    if !Self.agree(camera, photo), let turns = [6: 1, 8: 3][photo.orientation] {
+    if !Self.agree(camera, photo), let turns = Self.quarterTurnsOfOrientation[photo.orientation] {
       for _ in 0..<turns { self.camera = self.camera.turnedClockwise() }
       quarterTurns = turns
     }
@@ -39,12 +45,12 @@ struct CameraFit: Hashable {
     _ principalPoint: SIMD2<Double>, _ photo: Photo
   ) -> (width: Int, height: Int)? {
     func offset(_ width: Int, _ height: Int) -> Double {
-      let place = principalPoint / SIMD2(Double(width), Double(height))
-      return max(abs(place.x - 0.5), abs(place.y - 0.5))
+      let center = principalPoint / SIMD2(Double(width), Double(height))
+      return max(abs(center.x - 0.5), abs(center.y - 0.5))
     }
     let upright = offset(photo.width, photo.height)
     let stored = photo.orientation > 4 ? offset(photo.height, photo.width) : .infinity
-    guard min(upright, stored) < 0.2 else { return nil }
+    guard min(upright, stored) < maximumOffset else { return nil }
     return upright <= stored ? (photo.width, photo.height) : (photo.height, photo.width)
   }
 

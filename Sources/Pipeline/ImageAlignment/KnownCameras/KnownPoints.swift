@@ -48,13 +48,11 @@ struct KnownPoints: Sendable {
         let camera = reconstruction.camera(of: observation.photo)
         let seen = pose * point.position
         guard seen.z > 0 else { return .infinity }
-        let size = Double(max(camera.width, camera.height))
+        let size = camera.longerSide
         return (camera.project(seen) - observation.pixel).length / size
       }
-    }.sorted()
-    guard let median = errors.isEmpty ? nil : errors[errors.count / 2],
-      !(median <= options.relativeMaximumError)
-    else { return }
+    }
+    guard let median = errors.upperMedian, !(median <= options.relativeMaximumError) else { return }
     throw PipelineError.camerasDontFit(
       reason: "most points given with them are not where the photos see them.")
   }

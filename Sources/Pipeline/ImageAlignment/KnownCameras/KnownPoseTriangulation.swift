@@ -12,7 +12,7 @@ package struct KnownPoseTriangulation: Sendable {
     package var guided = EpipolarMatching()
     /// Maximum distance from the epipolar line, and then maximum reprojection error, as a fraction
     /// of the photo's longer side.
-    package var relativeMaximumError = 0.0012
+    package var relativeMaximumError = PairVerification.Options().relativeMaximumError
     /// Pairs with fewer matches consistent with the poses are dropped.
     package var minimumMatches = 12
     /// Maximum reprojection error as a multiple of the median, which reflects the accuracy of the
@@ -76,8 +76,7 @@ package struct KnownPoseTriangulation: Sendable {
     let matches = try FeatureMatching(options.matching)
       .run(pairs, features: features, context.part(from: 0.1, to: 0.8))
     let points = try context.control.parallelMap(features.count) { photo in
-      let camera = reconstruction.camera(of: ID(photo))
-      return features[photo].positions.map { camera.unproject(SIMD2<Double>($0)) }
+      reconstruction.camera(of: ID(photo)).normalizedPositions(of: features[photo])
     }
     let verified = try context.part(from: 0.8, to: 1).control.parallelMap(pairs.count) { index in
       try verify(pairs[index], matches[index], reconstruction, features, points)
@@ -135,10 +134,7 @@ package struct KnownPoseTriangulation: Sendable {
 
   /// The error limit in normalized image coordinates (depth 1), the mean over both photos.
   private func maximumError(_ first: Camera, _ second: Camera) -> Double {
-    let sizes = [first, second].map {
-      Double(max($0.width, $0.height)) * 2 / $0.focalLength.sum()
-    }
-    return options.relativeMaximumError * (sizes[0] + sizes[1]) / 2
+    options.relativeMaximumError * (first.normalizedSide + second.normalizedSide) / 2
   }
 
   /// Records the metrics, and warns or throws if too few of `all` matches agree with the cameras.
@@ -172,9 +168,9 @@ package struct KnownPoseTriangulation: Sendable {
       if let pose = reconstruction.poses[photo.index] { map.register(photo.index, pose) }
     }
     let sides = reconstruction.registered.map { photo in
-      Double(max(reconstruction.camera(of: photo).width, reconstruction.camera(of: photo).height))
-    }.sorted()
-    let side = sides.isEmpty ? 0 : sides[sides.count / 2]
+      reconstruction.camera(of: photo).longerSide
+    }
+    let side = sides.upperMedian ?? 0
     var step = PointTriangulation()
     step.options.minimumAngleDegrees = options.minimumAngleDegrees
     step.options.maximumError = max(

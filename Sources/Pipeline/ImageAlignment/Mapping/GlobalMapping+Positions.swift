@@ -37,19 +37,20 @@ extension GlobalMapping {
     let seen = TrackDirections(chosenTracks(map, rotations), map, rotations)
     guard !seen.tracks.isEmpty else { return false }
     var random = SplitMix64(seed: options.seed)
-    let places = try GlobalPositioning(options.positioning).run(
-      seen.directions, centers: rotations.map { _ in random.place() },
-      points: seen.tracks.map { _ in random.place() }, control: context.control)
+    let start = options.initialHalfExtent
+    let solution = try GlobalPositioning(options.positioning).run(
+      seen.directions, centers: rotations.map { _ in random.position(within: start) },
+      points: seen.tracks.map { _ in random.position(within: start) }, control: context.control)
     for photo in Set(seen.directions.map { Int($0.photo) }).sorted() {
       guard let rotation = rotations[photo] else { continue }
       map.register(
         photo,
-        RigidTransform(rotation: rotation, translation: -(rotation * places.centers[photo])))
+        RigidTransform(rotation: rotation, translation: -(rotation * solution.centers[photo])))
     }
-    for (track, place) in zip(seen.tracks, places.points) { map.setPoint(track, place) }
+    for (track, point) in zip(seen.tracks, solution.points) { map.setPoint(track, point) }
     let least = cos(options.positionErrorDegrees * .pi / 180)
     for (direction, index) in zip(seen.directions, seen.observations) {
-      let offset = places.points[Int(direction.point)] - places.centers[Int(direction.photo)]
+      let offset = solution.points[Int(direction.point)] - solution.centers[Int(direction.photo)]
       map.isActive[index] = offset.normalized.dot(direction.direction) >= least
     }
     for track in seen.tracks where map.activeObservations(of: track).count < 2 {
@@ -85,8 +86,8 @@ extension GlobalMapping {
       registered.contains(pair.pair.first.index) && registered.contains(pair.pair.second.index)
     }.max {
       let (a, b) = ($0.element, $1.element)
-      return (Double(a.matches.count) * min(a.medianAngle, 0.3), -$0.offset)
-        < (Double(b.matches.count) * min(b.medianAngle, 0.3), -$1.offset)
+      return (Double(a.matches.count) * min(a.medianAngle, options.saturationAngle), -$0.offset)
+        < (Double(b.matches.count) * min(b.medianAngle, options.saturationAngle), -$1.offset)
     }
     guard let pair = best?.element.pair, let first = map.photos.poses[pair.first.index],
       let second = map.photos.poses[pair.second.index]
@@ -117,7 +118,7 @@ extension GlobalMapping {
     for (round, factor) in options.errorFactors.enumerated() {
       try context.step(round, of: options.errorFactors.count + 1)
       let control = context.control.part(from: 0.5, to: 0.5)
-      var adjustment = MapAdjustment(options: self.adjustment, initialCameras: initialCameras)
+      var adjustment = MapAdjustment(options: growth.adjustment, initialCameras: initialCameras)
       adjustment.options.huberWidth *= factor
       try adjustment.adjustGlobally(&map, control)
       points.options.maximumError = factor * growth.growthError
@@ -129,6 +130,7 @@ extension GlobalMapping {
     dropContradictingPhotos(&map)
   }
 
+  /// Removes the photos that agree with too few of the points they observe.
   private func dropContradictingPhotos(_ map: inout SparseMap) {
     let bad = map.registered.filter { photo in
       let seen = map.tracks.observationsOfPhoto[photo]
@@ -142,9 +144,9 @@ extension GlobalMapping {
 }
 
 extension SplitMix64 {
-  /// A random position in the cube [−100, 100]³.
-  fileprivate mutating func place() -> SIMD3<Double> {
+  /// A random position in a cube around the origin, given by half its side.
+  fileprivate mutating func position(within halfExtent: Double) -> SIMD3<Double> {
     let (x, y, z) = (uniform(), uniform(), uniform())
-    return 100 * (2 * SIMD3(x, y, z) - 1)
+    return halfExtent * (2 * SIMD3(x, y, z) - 1)
   }
 }

@@ -28,20 +28,18 @@ extension GlobalMapping {
   private func calibratedRotation(
     _ pair: VerifiedPair, _ features: [FeatureSet], _ photos: PosedPhotos
   ) throws -> Quaternion? {
-    func rays(_ photo: ID<Photo>, _ index: (FeatureMatch) -> Int32) -> [SIMD2<Double>] {
-      let camera = photos.cameras[Int(photos.cameraOfPhoto[photo.index])]
-      let positions = features[photo.index].positions
-      return pair.matches.map { camera.unproject(SIMD2<Double>(positions[Int(index($0))])) }
+    let (first, second) = (pair.pair.first.index, pair.pair.second.index)
+    let cameras = [first, second].map { photos.cameras[Int(photos.cameraOfPhoto[$0])] }
+    let limits = cameras.map {
+      options.relativeMaximumError * $0.longerSide / $0.focalLength.x
     }
-    let cameras = [pair.pair.first, pair.pair.second]
-      .map { photos.cameras[Int(photos.cameraOfPhoto[$0.index])] }
     var estimation = TwoViewEstimation()
-    // Allows for a wrong focal length, which causes errors of a few pixels.
-    estimation.maximumError =
-      cameras.map { 0.003 * Double(max($0.width, $0.height)) / $0.focalLength.x }.max() ?? 0.003
-    estimation.seed = UInt64(pair.pair.first.index) << 32 &+ UInt64(pair.pair.second.index)
+    estimation.maximumError = max(limits[0], limits[1])
+    estimation.seed = UInt64(first) << 32 &+ UInt64(second)
     let geometry = try estimation.geometry(
-      rays(pair.pair.first) { $0.first }, rays(pair.pair.second) { $0.second }, KernelControl())
+      cameras[0].normalizedPositions(of: pair.matches, in: features[first], \.first),
+      cameras[1].normalizedPositions(of: pair.matches, in: features[second], \.second),
+      KernelControl())
     guard let geometry, geometry.inliers.count >= options.minimumMatches else { return nil }
     return geometry.secondFromFirst.rotation
   }

@@ -11,6 +11,10 @@ package struct GlobalMapping: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Minimum number of matches of a pair whose rotation is used.
     package var minimumMatches = 30
+    /// Maximum distance from the epipolar line, as a fraction of the photo's longer side, in pairs
+    /// that were verified without focal lengths: a wrong focal length causes errors of a few
+    /// pixels.
+    package var relativeMaximumError = 0.003
     /// Maximum rotation of a consistent triplet's loop, in degrees.
     package var tripletErrorDegrees = 5.0
     /// Minimum fraction of its triplets in which a pair must be consistent.
@@ -33,7 +37,13 @@ package struct GlobalMapping: Sendable {
     package var errorFactors = [4.0, 1.0]
     /// Minimum fraction of the points it observes that a photo must agree with.
     package var minimumPhotoShare = 0.4
-    /// Seed of the random initial positions of global positioning.
+    /// Median triangulation angle in radians beyond which a pair's points aren't any better
+    /// conditioned.
+    package var saturationAngle = 0.3
+    /// Half the side of the cube of random initial positions of global positioning; its unit is
+    /// arbitrary.
+    package var initialHalfExtent = 100.0
+    /// Seed of these positions.
     package var seed: UInt64 = 1
 
     package init() {}
@@ -42,7 +52,6 @@ package struct GlobalMapping: Sendable {
   package var options: Options
   /// Options of the incremental completion of the global start.
   package var growth: IncrementalMapping.Options
-  var adjustment = MapAdjustment.Options()
 
   package init(
     _ options: Options = Options(),

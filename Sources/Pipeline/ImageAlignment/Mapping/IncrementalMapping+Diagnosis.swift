@@ -5,12 +5,12 @@ extension IncrementalMapping {
   func unregistered(
     _ map: SparseMap, others: [SparseMap], _ graph: ViewGraph, _ features: [FeatureSet],
     _ photos: [Photo]
-  ) -> [RefusedPhoto] {
+  ) -> [RejectedPhoto] {
     let reasons = UnregisteredPhotoDiagnosis(
       map: map, others: others, graph: graph, features: features, photos: photos,
       neededPoints: options.relaxedMinimumInliers)
     return photos.filter { !map.isRegistered($0.id.index) }.map { photo in
-      RefusedPhoto(
+      RejectedPhoto(
         sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
         reason: "\(photo.name) \(reasons.reason(photo.id.index)).")
     }
@@ -37,8 +37,6 @@ private struct UnregisteredPhotoDiagnosis {
   /// The links of each photo, the strongest first.
   private var links: [[Link]]
 
-  /// Photos with fewer features can rarely be registered.
-  private static let fewFeatures = 100
   /// Fewer matches may occur by chance.
   private static let chanceMatches = 8
   /// Pairs below this median triangulation angle, in radians, share one viewpoint.
@@ -63,10 +61,11 @@ private struct UnregisteredPhotoDiagnosis {
     self.links = links.map { $0.sorted { ($1.matches, $0.other) < ($0.matches, $1.other) } }
   }
 
+  /// A sentence without its subject, the name of the photo, and without the final period.
   func reason(_ photo: Int) -> String {
     let verified = links[photo].filter { $0.needed == nil }
     if let group = others.first(where: { $0.isRegistered(photo) }) { return separate(group) }
-    if features[photo].count < Self.fewFeatures {
+    if features[photo].count < FeatureExtraction.fewFeatures {
       return "shows hardly any texture (\(features[photo].count) features); "
         + "take it sharper, in better light, or with something textured next to the object"
     }

@@ -6,6 +6,8 @@ struct MapAdjustment: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Number of photos in a local adjustment, including the new one.
     var localPhotoCount = 6
+    /// Maximum number of iterations of a local and of a global adjustment; the final one has twice
+    /// as many.
     var localIterations = 15
     var globalIterations = 30
     /// Relative cost decrease at which an adjustment terminates, while the map grows and for the
@@ -119,7 +121,7 @@ struct MapAdjustment: Sendable {
     prior.focalLengthDeviation =
       camera.calibration == .assumed ? options.assumedFocalDeviation : options.exifFocalDeviation
     prior.principalPointDeviation =
-      options.principalPointDeviation * Double(max(camera.width, camera.height))
+      options.principalPointDeviation * camera.longerSide
     prior.radialDeviation = options.radialDeviation
     return prior
   }
@@ -161,9 +163,11 @@ struct MapAdjustment: Sendable {
 }
 
 extension Camera {
-  /// False for a focal length, principal point or distortion that no real lens has.
+  /// False for a focal length, principal point or distortion that no real lens has. The limits
+  /// correspond to fields of view of 157° and 4° along the longer side, and to a principal point in
+  /// the outer fifth of the photo.
   var isPlausible: Bool {
-    let ratio = focalLength.x / Double(max(width, height))
+    let ratio = focalLength.x / longerSide
     let center = principalPoint / SIMD2(Double(width), Double(height))
     return ratio > 0.1 && ratio < 15 && abs(distortion.x) < 1 && abs(distortion.y) < 3
       && center.x > 0.2 && center.x < 0.8 && center.y > 0.2 && center.y < 0.8

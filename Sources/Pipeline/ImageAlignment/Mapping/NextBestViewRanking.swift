@@ -35,8 +35,9 @@ struct NextBestViewRanking: Sendable {
     var cells = [Bool](repeating: false, count: finest * finest)
     for index in map.tracks.observationsOfPhoto[photo]
     where map.isTriangulated[Int(map.tracks.trackOfObservation[Int(index)])] {
-      let place = map.tracks.pixels[Int(index)] / size * Double(finest)
-      let (x, y) = (Int(min(31, max(0, place.x))), Int(min(31, max(0, place.y))))
+      let position = map.tracks.pixels[Int(index)] / size * Double(finest)
+      let last = Double(finest - 1)
+      let (x, y) = (Int(min(last, max(0, position.x))), Int(min(last, max(0, position.y))))
       cells[y * finest + x] = true
     }
     var (score, side) = (0, finest)

@@ -63,7 +63,7 @@ extension SparseMap {
     return point
   }
 
-  /// The median reprojection error of the active observations in pixels.
+  /// The median reprojection error of the active observations in pixels; 0 without any.
   func medianError(_ control: KernelControl) throws -> Double {
     var batch = TrackObservations()
     var points: [SIMD3<Double>] = []
@@ -71,10 +71,9 @@ extension SparseMap {
       batch.append(activeObservations(of: track).map { pointObservation($0, point: points.count) })
       points.append(positions[track])
     }
-    let errors = try Triangulation.measure(
-      batch, positions: points, photos: photos, maximumError: 1, control: control
-    ).errors.sorted()
-    return errors.isEmpty ? 0 : errors[errors.count / 2]
+    let (errors, _) = try Triangulation.measure(
+      batch, positions: points, photos: photos, maximumError: 1, control: control)
+    return errors.upperMedian ?? 0
   }
 
   /// Drops points with fewer than two active observations.

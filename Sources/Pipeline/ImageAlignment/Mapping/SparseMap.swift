@@ -30,6 +30,7 @@ struct SparseMap: Sendable {
 
   func isRegistered(_ photo: Int) -> Bool { photos.poses[photo] != nil }
 
+  /// Registers a photo, or moves a registered one.
   mutating func register(_ photo: Int, _ cameraFromWorld: RigidTransform) {
     if photos.poses[photo] == nil { registered.append(photo) }
     photos.poses[photo] = cameraFromWorld
@@ -47,6 +48,7 @@ struct SparseMap: Sendable {
     }
   }
 
+  /// Sets or moves the point of a track.
   mutating func setPoint(_ track: Int, _ position: SIMD3<Double>) {
     positions[track] = position
     guard !isTriangulated[track] else { return }
@@ -55,6 +57,7 @@ struct SparseMap: Sendable {
     noteChange(of: track)
   }
 
+  /// Removes the point of a track and deactivates its observations.
   mutating func dropPoint(_ track: Int) {
     for index in tracks.observations(of: track) { isActive[index] = false }
     guard isTriangulated[track] else { return }
@@ -80,10 +83,12 @@ struct SparseMap: Sendable {
     return changedPhotos
   }
 
+  /// The indices of the observations that support the track's point.
   func activeObservations(of track: Int) -> [Int] {
     tracks.observations(of: track).filter { isActive[$0] }
   }
 
+  /// The number of observations of a photo that support a point.
   func activeCount(ofPhoto photo: Int) -> Int {
     tracks.observationsOfPhoto[photo].count { isActive[Int($0)] }
   }
@@ -102,6 +107,7 @@ struct SparseMap: Sendable {
     isActive = members.flatMap { $0.map(\.isActive) }
   }
 
+  /// An observation for the kernels; `point` is the index of its point in their arrays.
   func pointObservation(_ index: Int, point: Int) -> PointObservation {
     PointObservation(
       photo: tracks.photos[index], point: Int32(point), pixel: tracks.pixels[index])

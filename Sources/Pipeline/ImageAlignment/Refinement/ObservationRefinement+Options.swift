@@ -29,6 +29,9 @@ extension ObservationRefinement {
     package var errorBounds = 0.5...2.0
     /// Transition of the Huber loss from quadratic to linear, as a multiple of the median error.
     package var huberFactor = 2.5
+    /// Its minimum in working pixels.
+    package var minimumHuberWidth = 0.1
+    var adjustment = MapAdjustment.Options()
 
     package init() {}
 

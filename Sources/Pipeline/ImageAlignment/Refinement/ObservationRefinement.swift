@@ -22,7 +22,7 @@ package struct ObservationRefinement: Sendable {
   ) throws -> Reconstruction {
     guard !reconstruction.points.isEmpty else { return reconstruction }
     var map = SparseMap(reconstruction)
-    var adjustment = MapAdjustment(initialCameras: cameras)
+    var adjustment = MapAdjustment(options: options.adjustment, initialCameras: cameras)
     let search = try TemplateSearch(
       map, features: features, photos: reconstruction.photos, images: images, options,
       context.part(from: 0, to: 0.2))
@@ -38,12 +38,12 @@ package struct ObservationRefinement: Sendable {
       Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
     guard !losesTooManyPoints else { return reconstruction }
     refined.unregistered += reconstruction.registered.map(\.index)
-      .filter { !map.isRegistered($0) }.map { Self.refusal(of: reconstruction.photos[$0]) }
+      .filter { !map.isRegistered($0) }.map { Self.rejection(of: reconstruction.photos[$0]) }
     return refined
   }
 
-  private static func refusal(of photo: Photo) -> RefusedPhoto {
-    RefusedPhoto(
+  private static func rejection(of photo: Photo) -> RejectedPhoto {
+    RejectedPhoto(
       sampleID: photo.sampleID, name: photo.name, fault: .notRegistered,
       reason: "\(photo.name) shows hardly any point where its pose predicts it; it may be "
         + "blurred, or something moved.")
@@ -59,7 +59,8 @@ package struct ObservationRefinement: Sendable {
       map.photos.cameras.map { options.workingPixel(width: $0.width, height: $0.height) }
       .max() ?? 1
     let median = try map.medianError(context.control)
-    adjustment.options.huberWidth = max(options.huberFactor * median, 0.1 * pixel)
+    adjustment.options.huberWidth = max(
+      options.huberFactor * median, options.minimumHuberWidth * pixel)
     try adjustment.adjustGlobally(&map, isFinal: isFinal, context.control)
     let bounds = options.errorBounds
     let error = min(

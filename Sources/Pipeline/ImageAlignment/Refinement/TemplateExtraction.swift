@@ -21,7 +21,7 @@ struct TemplateExtraction: Sendable {
     guard let mask = try images.mask(ID(photo), maximumPixels: workingPixels) else {
       return { _ in true }
     }
-    return { place in mask.isMarked(at: place) }
+    return { pixel in mask.isMarked(at: pixel) }
   }
 
   /// The template of each reference, by index; invalid where the reference is nil.

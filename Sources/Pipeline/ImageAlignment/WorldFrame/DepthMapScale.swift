@@ -89,9 +89,9 @@ struct DepthMapScale: Sendable {
         let index = observation.photo.index
         guard let map = maps[index], let pose = reconstruction.poses[index] else { continue }
         let photo = reconstruction.photos[index]
-        let place = observation.pixel / SIMD2(Double(photo.width), Double(photo.height))
+        let position = observation.pixel / SIMD2(Double(photo.width), Double(photo.height))
         let depth = (pose * point.position).z
-        guard depth > 0, let measured = map.depth(at: place) else { continue }
+        guard depth > 0, let measured = map.depth(at: position) else { continue }
         let isInverse = isDisparity && map.mayBeDisparities
         ratios[index].append(log((isInverse ? 1 / measured : measured) / depth))
       }

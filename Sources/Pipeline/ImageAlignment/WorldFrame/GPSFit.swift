@@ -56,7 +56,8 @@ struct GPSFit: Sendable {
     residual = Self.residual(fit, used, of: pairs.count, hasAltitudes)
     // A vertical error tilts the ground less the wider and the more numerous the positions are.
     let width = Self.spread(used.map(\.world)).second / 2
-    let vertical = max(residual.vertical ?? .infinity, 0.2 * options.gpsNoise)
+    let vertical = max(
+      residual.vertical ?? .infinity, options.gpsMinimumVerticalShare * options.gpsNoise)
     let tilt = vertical / (max(width, 1e-9) * Double(max(1, used.count - 3)).squareRoot())
     let isKnown = hasAltitudes && tilt < options.gpsTiltDegrees * .pi / 180
     up = isKnown ? fit.rotation.conjugate * SIMD3(0, 1, 0) : nil
@@ -110,15 +111,11 @@ struct GPSFit: Sendable {
   /// Twice the standard deviations along the two directions of largest variance.
   private static func spread(_ points: [SIMD3<Double>]) -> (largest: Double, second: Double) {
     let mean = points.reduce(.zero, +) / Double(max(1, points.count))
-    var rows = [SIMD3<Double>](repeating: .zero, count: 3)
-    for point in points {
-      let d = point - mean
-      for axis in 0..<3 { rows[axis] += d[axis] * d / Double(points.count) }
-    }
-    let values = Matrix3(rows: rows[0], rows[1], rows[2]).symmetricEigen.values
+    let values = Matrix3(scatterOf: points, about: mean).symmetricEigen.values
     return (2 * max(0, values[2]).squareRoot(), 2 * max(0, values[1]).squareRoot())
   }
 
+  /// The root mean square errors of a fit over its inliers.
   private static func residual(
     _ fit: SimilarityTransform, _ used: [Located], of count: Int, _ hasAltitudes: Bool
   ) -> Residual {
@@ -139,15 +136,15 @@ struct GPSFit: Sendable {
     var random = SplitMix64(seed: options.seed)
     var best: SimilarityTransform?
     var bestScore = Double.infinity
-    let limit = 3 * options.gpsNoise
+    let limit = options.gpsInlierFactor * options.gpsNoise
     func error(_ fit: SimilarityTransform, _ pair: Located) -> Double {
       (fit * pair.center - pair.world).length
     }
-    for round in 0..<300 {
+    for round in 0..<options.gpsIterations {
       // The first hypothesis is the fit to all pairs.
       let sample =
         round == 0
-        ? pairs : (0..<4).map { _ in pairs[random.below(pairs.count)] }
+        ? pairs : (0..<options.gpsSampleSize).map { _ in pairs[random.below(pairs.count)] }
       guard
         let fit = SimilarityTransform.fitting(sample.map(\.center), to: sample.map(\.world))
       else { continue }
@@ -156,7 +153,7 @@ struct GPSFit: Sendable {
     }
     guard var fit = best else { return nil }
     var used: [Located] = []
-    for _ in 0..<3 {
+    for _ in 0..<options.gpsRefinements {
       used = pairs.filter { error(fit, $0) < limit }
       guard used.count >= 3, 2 * used.count > pairs.count,
         let refined = SimilarityTransform.fitting(used.map(\.center), to: used.map(\.world))

@@ -11,6 +11,9 @@ struct GravityUp: Sendable {
     /// Maximum roll of the camera: people hold cameras roughly upright, so gravity deviates from
     /// the downward image axis by at most this.
     var maximumRollDegrees = 60.0
+    /// Minimum sine of the angle between gravity and the optical axis at which the roll is
+    /// meaningful.
+    var minimumSine = 0.3
   }
 
   var options = Options()
@@ -51,7 +54,7 @@ struct GravityUp: Sendable {
   /// Whether gravity points down in the photo, or is nearly parallel to the optical axis.
   private func isUpright(_ down: SIMD3<Double>) -> Bool {
     let (across, along) = (down.x, down.y)
-    guard hypot(across, along) > 0.3 else { return true }
+    guard hypot(across, along) > options.minimumSine else { return true }
     return abs(atan2(across, along)) < options.maximumRollDegrees * .pi / 180
   }
 }

@@ -9,7 +9,11 @@ struct MeasuredScale: Sendable {
   var deviations: [Double]
 
   /// Maximum reprojection error of a pick, as a fraction of the photo's longer side.
-  static let largestPickError = 0.01
+  static let maximumPickError = 0.01
+  /// Maximum relative deviation of a distance from its measured value without a warning.
+  static let maximumDeviation = 0.02
+  /// Minimum of 1 − cos α for two rays at an angle α to determine a point.
+  static let minimumIntersection = 0.001
 
   /// Estimates the scale. It is nil without a usable distance; `problems` are messages about
   /// distances that are unusable or inconsistent.
@@ -20,8 +24,8 @@ struct MeasuredScale: Sendable {
     var used: [(length: Double, meters: Double)] = []
     for distance in distances {
       do throws(UnusableDistance) {
-        let a = try place(of: distance.from, in: reconstruction, &problems)
-        let b = try place(of: distance.to, in: reconstruction, &problems)
+        let a = try position(of: distance.from, in: reconstruction, &problems)
+        let b = try position(of: distance.to, in: reconstruction, &problems)
         guard (a - b).length > 0, distance.meters > 0 else {
           throw UnusableDistance(reason: "its ends are the same place")
         }
@@ -36,7 +40,7 @@ struct MeasuredScale: Sendable {
     guard squares > 0 else { return (nil, problems) }
     let scale = used.reduce(0) { $0 + $1.length * $1.meters } / squares
     let deviations = used.map { scale * $0.length / $0.meters - 1 }
-    if let worst = deviations.map({ abs($0) }).max(), worst > 0.02 {
+    if let worst = deviations.map({ abs($0) }).max(), worst > maximumDeviation {
       problems.append(
         "The known distances disagree by up to \(Int((100 * worst).rounded())) %; check them and "
           + "their end points.")
@@ -49,7 +53,8 @@ struct MeasuredScale: Sendable {
     var reason: String
   }
 
-  private static func place(
+  /// The position of an end, in the frame of the reconstruction.
+  private static func position(
     of end: KnownDistance.End, in reconstruction: Reconstruction, _ problems: inout [String]
   ) throws(UnusableDistance) -> SIMD3<Double> {
     switch end {
@@ -91,7 +96,7 @@ struct MeasuredScale: Sendable {
         throw UnusableDistance(reason: "the picks of a point don't show the same place")
       }
       let error = (view.camera.project(inCamera) - [view.pick.x, view.pick.y]).length
-      if error > largestPickError * Double(max(view.camera.width, view.camera.height)) {
+      if error > maximumPickError * view.camera.longerSide {
         problems.append(
           "A pick in \(view.pick.photo) is \(Int(error.rounded())) pixels away from the point "
             + "picked in the other photos; check that all picks show the same point.")
@@ -121,7 +126,9 @@ struct MeasuredScale: Sendable {
       right += [rows[0].dot(center), rows[1].dot(center), rows[2].dot(center)]
     }
     // For two rays at an angle α the smallest eigenvalue is 1 − cos α.
-    guard views.count >= 2, matrix.symmetricEigen.values[0] > 0.001 else { return nil }
+    guard views.count >= 2, matrix.symmetricEigen.values[0] > minimumIntersection else {
+      return nil
+    }
     return matrix.solution(of: right)
   }
 }

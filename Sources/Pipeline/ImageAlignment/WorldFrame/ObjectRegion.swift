@@ -2,9 +2,17 @@ import SceneModel
 
 /// The part of the scene that most photos show.
 struct ObjectRegion: Sendable {
+  /// Approximate maximum number of points that are examined.
+  private static let maximumPoints = 4000
+  /// A point is in view of most photos if at least eight tenths as many photos show it as the ninth
+  /// decile of all points.
+  private static let (coreTenths, decile) = (8, 9)
+  /// Radius of the surroundings in camera distances.
+  private static let surroundingsRadius = 1.5
+
   /// The points that are in view of most photos.
   var core: [SIMD3<Double>] = []
-  /// The points within 1.5 camera distances of the center.
+  /// The points within `surroundingsRadius` camera distances of the center.
   var surroundings: [SIMD3<Double>] = []
   /// The component-wise median of the core.
   var center = SIMD3<Double>.zero
@@ -14,7 +22,7 @@ struct ObjectRegion: Sendable {
   init(_ reconstruction: Reconstruction) {
     let registered = reconstruction.registered
     let points = reconstruction.points
-    let step = max(1, points.count / 4000)
+    let step = max(1, points.count / Self.maximumPoints)
     let sample = stride(from: 0, to: points.count, by: step).map { points[$0].position }
     let views = sample.map { point in
       registered.count { photo in
@@ -22,23 +30,19 @@ struct ObjectRegion: Sendable {
         let camera = reconstruction.camera(of: photo)
         let inCamera = pose * point
         guard inCamera.z > 0 else { return false }
-        let pixel = camera.project(inCamera)
-        return pixel.x >= 0 && pixel.y >= 0 && pixel.x < Double(camera.width)
-          && pixel.y < Double(camera.height)
+        return camera.contains(camera.project(inCamera))
       }
     }
-    let most = views.sorted()[views.count * 9 / 10]
-    core = zip(sample, views).filter { 10 * $1 >= 8 * most }.map(\.0)
+    let most = views.sorted()[views.count * Self.decile / 10]
+    core = zip(sample, views).filter { 10 * $1 >= Self.coreTenths * most }.map(\.0)
     center = Self.median(core)
     let distances = reconstruction.poses.compactMap { $0.map { ($0.center - center).length } }
-      .sorted()
-    if !distances.isEmpty { cameraDistance = distances[distances.count / 2] }
-    surroundings = sample.filter { ($0 - center).length < 1.5 * cameraDistance }
+    if let median = distances.upperMedian { cameraDistance = median }
+    surroundings = sample.filter { ($0 - center).length < Self.surroundingsRadius * cameraDistance }
   }
 
   private static func median(_ points: [SIMD3<Double>]) -> SIMD3<Double> {
-    guard !points.isEmpty else { return .zero }
-    func middle(_ axis: Int) -> Double { points.map { $0[axis] }.sorted()[points.count / 2] }
-    return [middle(0), middle(1), middle(2)]
+    func median(_ axis: Int) -> Double { points.map { $0[axis] }.upperMedian ?? 0 }
+    return [median(0), median(1), median(2)]
   }
 }

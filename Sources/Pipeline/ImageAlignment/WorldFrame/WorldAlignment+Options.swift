@@ -6,12 +6,24 @@ extension WorldAlignment {
     package var knownDistances: [KnownDistance] = []
     /// Gravity and depth by sample ID; they also take precedence over GPS.
     package var readings: [Int: SensorReading] = [:]
+    var gravity = GravityUp.Options()
+    var depthMaps = DepthMapScale.Options()
+    var cameraUp = CameraUp.Options()
     /// Expected error of a GPS position in meters.
     package var gpsNoise = 5.0
     /// Minimum spread of the positions, as a multiple of their error.
     package var gpsSpreadFactor = 3.0
     /// GPS determines the up direction if its expected error is below this number of degrees.
     package var gpsTiltDegrees = 3.0
+    /// Minimum vertical error that is assumed, as a share of `gpsNoise`: few positions may agree by
+    /// chance.
+    package var gpsMinimumVerticalShare = 0.2
+    /// Error limit of an inlier as a multiple of `gpsNoise`.
+    package var gpsInlierFactor = 3.0
+    /// Number of RANSAC hypotheses, positions per hypothesis, and fits to the inliers.
+    package var gpsIterations = 300
+    package var gpsSampleSize = 4
+    package var gpsRefinements = 3
     /// Maximum distance of a point from the support plane, relative to the cameras' distance from
     /// the object.
     package var planeThickness = 0.01
@@ -25,6 +37,12 @@ extension WorldAlignment {
     /// Whether to search for a support plane. If masks exclude the support, any plane would belong
     /// to the object.
     package var findsSupport = true
+    /// Minimum cosine of the angle between the support plane's normal and the final up direction at
+    /// which the plane is the ground.
+    package var groundCosine = 0.96
+    /// Without such a plane, one in this number of the object's points is below the ground.
+    package var groundDivisor = 50
+    /// Seed of the random samples for GPS and for the support plane.
     package var seed: UInt64 = 1
 
     package init() {}

@@ -21,8 +21,9 @@ package struct WorldAlignment: Sendable {
     }
     let object = ObjectRegion(reconstruction)
     var frame = WorldFrame()
-    let gravityUp = GravityUp().run(options.readings, reconstruction, context.notes)
-    let priorUp = gravityUp ?? CameraUp(reconstruction).direction
+    let gravityUp = GravityUp(options: options.gravity)
+      .run(options.readings, reconstruction, context.notes)
+    let priorUp = gravityUp ?? CameraUp(reconstruction, options.cameraUp).direction
     var up = priorUp
     frame.up = gravityUp == nil ? .cameras : .gravity
     let plane =
@@ -57,9 +58,9 @@ package struct WorldAlignment: Sendable {
       notes.record("knownDistanceDeviation", measured.deviations.map { abs($0) }.max() ?? 0)
       return (measured.metersPerUnit, .knownDistance)
     }
-    if let scale = DepthMapScale().run(options.readings, reconstruction, notes) {
-      return (scale, .depth)
-    }
+    let depthScale = DepthMapScale(options: options.depthMaps)
+      .run(options.readings, reconstruction, notes)
+    if let depthScale { return (depthScale, .depth) }
     if let gps { return (gps.scale, .gps) }
     notes.warn(
       "The photos don't determine the size of the object: its scale is arbitrary, with the "
@@ -86,11 +87,11 @@ package struct WorldAlignment: Sendable {
     _ object: ObjectRegion, _ plane: SupportPlane?, _ up: SIMD3<Double>
   ) -> SIMD3<Double> {
     let heights = object.core.map { ($0 - object.center).dot(up) }.sorted()
-    let lowest = object.center + up * (heights.isEmpty ? 0 : heights[heights.count / 50])
+    let height = heights.isEmpty ? 0 : heights[heights.count / options.groundDivisor]
+    let lowest = object.center + up * height
     // A plane that was found for a different up direction, or above the object, is not the ground.
-    guard let plane, plane.normal.dot(up) > 0.96 else { return lowest }
-    let onPlane = object.center - plane.normal * plane.height(of: object.center)
-    return onPlane
+    guard let plane, plane.normal.dot(up) > options.groundCosine else { return lowest }
+    return object.center - plane.normal * plane.height(of: object.center)
   }
 
   /// The smallest rotation that maps `up` to +y.

@@ -18,7 +18,8 @@ package struct ProgressEstimator: Sendable {
     var evidence: Double { [.imageAlignment, .meshGeneration].contains(unit.stage) ? 0.1 : 1 }
 
     var isDone: Bool { fraction >= 1 }
-    /// Whether the work was done in this run, not reused from an earlier one.
+    /// Whether the work was done in this run: a reused result takes less than a fiftieth of the
+    /// expected time.
     var isMeasured: Bool { fraction > 0 && seconds > 0.02 * prior * fraction }
   }
 

@@ -1,6 +1,7 @@
 /// Tracks the events of a run that passes through its stages once, for a command that shows the
 /// progress of a single result.
 package struct RunProgressTracker: Sendable {
+  /// The state of the run after an event.
   package struct Progress: Hashable, Sendable {
     package var stage: PipelineStage
     /// The completed fraction of all stages, from 0 to 1.
@@ -34,7 +35,7 @@ package struct RunProgressTracker: Sendable {
       return Progress(
         stage: stage, fraction: estimator.fraction(of: units),
         remainingSeconds: estimator.remainingSeconds(of: units))
-    case .refused, .downsampled, .stitchingIncomplete, .warning, .detail:
+    case .rejected, .downsampled, .stitchingIncomplete, .warning, .detail:
       return nil
     }
   }

@@ -4,6 +4,7 @@ package struct WorkUnit: Hashable, Sendable {
   /// The model that the unit is for; nil for stages that all models share.
   package var specification: DetailSpecification?
 
+  // The units that all models share.
   package static let preProcessing = WorkUnit(stage: .preProcessing)
   package static let alignment = WorkUnit(stage: .imageAlignment)
   package static let densification = WorkUnit(stage: .pointCloudGeneration)

@@ -19,7 +19,7 @@ import Testing
     return folder
   }
 
-  private func refusals(_ folder: URL, memory: Int) throws -> [RefusedPhoto.Fault] {
+  private func refusals(_ folder: URL, memory: Int) throws -> [RejectedPhoto.Fault] {
     let photos = folder.appendingPathComponent("photos")
     let model = folder.appendingPathComponent("model.usdz").path
     let output = try ModelOutput(model, formats: ModelFormat.files)
@@ -44,7 +44,7 @@ import Testing
     let error = #expect(throws: PipelineError.self) { try pipeline.ingest() }
     let expected: PipelineError =
       accepted == 0
-      ? .noPhotos(folder: folder.url.appendingPathComponent("photos").path, refused: 1)
+      ? .noPhotos(folder: folder.url.appendingPathComponent("photos").path, rejected: 1)
       : .tooFewPhotos(found: 1, needed: PipelineError.minimumPhotos)
     #expect(error == expected)
   }

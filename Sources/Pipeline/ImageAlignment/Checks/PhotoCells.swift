@@ -15,7 +15,7 @@ struct PhotoCells: Sendable {
   }
 
   /// The cell of a pixel, clamped to the grid.
-  func place(_ pixel: SIMD2<Double>) -> (column: Int, row: Int) {
+  func cell(of pixel: SIMD2<Double>) -> (column: Int, row: Int) {
     (
       min(columns - 1, max(0, Int(pixel.x / side))), min(rows - 1, max(0, Int(pixel.y / side)))
     )
@@ -33,16 +33,15 @@ struct DepthGrid: Sendable {
     cells = PhotoCells(width: camera.width, height: camera.height, cells: count)
     points = Array(repeating: [], count: cells.columns * cells.rows)
     for point in seen {
-      let (column, row) = cells.place(point.pixel)
+      let (column, row) = cells.cell(of: point.pixel)
       points[row * cells.columns + column].append(point)
     }
-    let depths = seen.map(\.depth).sorted()
-    medianDepth = depths.isEmpty ? nil : depths[depths.count / 2]
+    medianDepth = seen.map(\.depth).upperMedian
   }
 
   /// The smallest depth within one cell side of a pixel; nil if nothing is observed there.
   func nearestDepth(at pixel: SIMD2<Double>) -> Double? {
-    let (column, row) = cells.place(pixel)
+    let (column, row) = cells.cell(of: pixel)
     var nearestDepth: Double?
     for y in max(0, row - 1)...min(cells.rows - 1, row + 1) {
       for x in max(0, column - 1)...min(cells.columns - 1, column + 1) {
@@ -69,7 +68,7 @@ struct PresenceGrid: Sendable {
   }
 
   private func index(_ pixel: SIMD2<Double>) -> Int {
-    let (column, row) = cells.place(pixel)
+    let (column, row) = cells.cell(of: pixel)
     return row * cells.columns + column
   }
 

@@ -1,7 +1,6 @@
 import Kernels
 import SceneModel
 
-/// Selection of the initial pair.
 extension MapGrowth {
   /// A map of the best initial pair that can be triangulated.
   func initialMap(
@@ -22,7 +21,7 @@ extension MapGrowth {
 
   /// Pairs that satisfy a level, the most promising first.
   private func candidates(
-    _ level: IncrementalMapping.InitialPairLevel, _ members: Set<Int>, _ isTaken: [Bool]
+    _ level: IncrementalMapping.Options.InitialPairLevel, _ members: Set<Int>, _ isTaken: [Bool]
   ) -> [VerifiedPair] {
     let scored = graph.pairs.enumerated().compactMap {
       index, pair -> (score: Double, index: Int, pair: VerifiedPair)? in
@@ -32,8 +31,8 @@ extension MapGrowth {
         pair.secondFromFirst != nil, pair.matches.count >= level.matches,
         degrees >= level.angleDegrees, ids.allSatisfy({ members.contains($0) && !isTaken[$0] })
       else { return nil }
-      // A plane or a pure rotation leaves the relative pose ambiguous.
-      let certainty = pair.model == .homography ? 0.3 : 1
+      let certainty = pair.model == .homography ? options.planarPairWeight : 1
+      // Twice the required angle is as good as any larger one.
       let width = min(degrees, 2 * level.angleDegrees) / level.angleDegrees
       return (certainty * width * Double(pair.matches.count), index, pair)
     }
@@ -42,7 +41,7 @@ extension MapGrowth {
 
   /// Triangulates and adjusts one pair; nil if too few points remain.
   private func begin(
-    with pair: VerifiedPair, _ level: IncrementalMapping.InitialPairLevel
+    with pair: VerifiedPair, _ level: IncrementalMapping.Options.InitialPairLevel
   ) throws -> SparseMap? {
     guard let secondFromFirst = pair.secondFromFirst else { return nil }
     var map = empty
@@ -51,16 +50,15 @@ extension MapGrowth {
     let tracks = map.tracks(ofPhoto: pair.pair.first.index)
     var points = PointTriangulation(
       options: .init(
-        maximumError: 2 * options.growthError, minimumAngleDegrees: options.minimumAngleDegrees))
+        maximumError: options.initialErrorFactor * options.growthError,
+        minimumAngleDegrees: options.minimumAngleDegrees))
     try points.triangulate(tracks, in: &map, control(map))
-    let adjustment = MapAdjustment(
-      options: mapping.adjustment, initialCameras: empty.photos.cameras)
     for _ in 0..<2 where map.pointCount >= level.matches / 2 {
       try adjustment.adjustGlobally(&map, control(map))
       points.options.maximumError = options.growthError
       try points.filter(tracks, in: &map, control(map))
       try points.triangulate(tracks, in: &map, control(map))
     }
-    return map.pointCount >= max(8, level.matches / 2) ? map : nil
+    return map.pointCount >= max(options.minimumInitialPoints, level.matches / 2) ? map : nil
   }
 }

@@ -1,17 +1,13 @@
 import SceneModel
 
-/// A texture image encoded for a file.
+/// A texture map encoded as an image file.
 package struct EncodedTexture: Equatable, Sendable {
   package var map: TextureMap
-  /// `png` or `jpg`.
-  package var fileExtension: String
-  /// The content of the image file.
-  package var bytes: [UInt8]
+  package var image: EncodedImage
 
-  package init(map: TextureMap, fileExtension: String, bytes: [UInt8]) {
+  package init(map: TextureMap, image: EncodedImage) {
     self.map = map
-    self.fileExtension = fileExtension
-    self.bytes = bytes
+    self.image = image
   }
 
   /// The file name of the image for atlas `atlas`, without a folder.
@@ -24,12 +20,18 @@ package struct EncodedTexture: Equatable, Sendable {
       case .roughness: "roughness"
       case .displacement: "disp"
       }
-    return "baked_mesh_\(stem)\(atlas).\(fileExtension)"
+    return "\(ModelContent.name)_\(stem)\(atlas).\(image.fileExtension)"
   }
 }
 
 /// The content of an exported model: a mesh and the encoded images of its atlases.
 package struct ModelContent: Sendable {
+  /// The name of every model, of its root prim, and the stem of its file names, as in the files of
+  /// Object Capture.
+  package static let name = "baked_mesh"
+  /// The roughness of a material without a roughness map, 0…1.
+  static let defaultRoughness = 0.9
+
   package var mesh: TexturedMesh
   /// The images of every atlas of the mesh; those in `mesh.atlases` are ignored.
   package var textures: [[EncodedTexture]]
@@ -50,6 +52,9 @@ package struct ModelContent: Sendable {
     guard ranges.count > 1 else { return [MeshPart(whole: mesh)] }
     return mesh.atlases.map { MeshPart(mesh, of: $0) }
   }
+
+  /// The name of part `index` and of its material.
+  static func partName(_ index: Int) -> String { "g\(index)" }
 
   /// The images of part `index`; none if there are fewer sets than parts.
   package func textures(ofPart index: Int) -> [EncodedTexture] {

@@ -5,15 +5,9 @@ extension ViewGraph {
   ///
   /// If a scene has repeated structure, some pairs match the wrong parts and others the correct
   /// ones, and no reconstruction agrees with all of them.
-  ///
-  /// - Parameters:
-  ///   - tolerance: maximum distance of a projected point from its match, relative to the photo's
-  ///     longer side.
-  ///   - minimumMatches: minimum number of matches with a point for a pair to be evaluated.
-  ///   - maximumShare: fraction of agreeing matches below which a pair is returned.
   func contradicted(
-    by reconstruction: Reconstruction, features: [FeatureSet], tolerance: Double = 0.01,
-    minimumMatches: Int = 30, maximumShare: Double = 0.2
+    by reconstruction: Reconstruction, features: [FeatureSet],
+    _ options: SceneAmbiguityCheck.Options = SceneAmbiguityCheck.Options()
   ) -> [PhotoPair] {
     var pointOf = features.map { [Int32](repeating: -1, count: $0.count) }
     for (number, point) in reconstruction.points.enumerated() {
@@ -28,7 +22,7 @@ extension ViewGraph {
       guard seen.z > 0 else { return false }
       let camera = reconstruction.camera(of: photo)
       let position = SIMD2<Double>(features[photo.index].positions[Int(feature)])
-      let limit = tolerance * Double(max(camera.width, camera.height))
+      let limit = options.contradictionTolerance * camera.longerSide
       return (camera.project(seen) - position).length <= limit
     }
     return pairs.filter { pair in
@@ -40,8 +34,8 @@ extension ViewGraph {
           ?? agrees(pointOf[second.index][Int(match.second)], first, match.first)
       }
       let good = verdicts.count { $0 }
-      return verdicts.count >= minimumMatches
-        && Double(good) < maximumShare * Double(verdicts.count)
+      return verdicts.count >= options.minimumPairMatches
+        && Double(good) < options.maximumAgreement * Double(verdicts.count)
     }.map(\.pair)
   }
 }

@@ -3,19 +3,19 @@ import SceneModel
 
 /// The operations of incremental mapping on one view graph.
 struct MapGrowth: Sendable {
-  let mapping: IncrementalMapping
+  let options: IncrementalMapping.Options
   let graph: ViewGraph
   let photos: [Photo]
   /// The map without any registered photo.
   let empty: SparseMap
   let context: StageContext
 
-  var options: IncrementalMapping.Options { mapping.options }
-
+  /// Bundle adjustment with priors at the cameras before mapping.
   var adjustment: MapAdjustment {
-    MapAdjustment(options: mapping.adjustment, initialCameras: empty.photos.cameras)
+    MapAdjustment(options: options.adjustment, initialCameras: empty.photos.cameras)
   }
 
+  /// Triangulation with the error limit of a growing map.
   var growthPoints: PointTriangulation {
     PointTriangulation(
       options: .init(
@@ -42,6 +42,7 @@ struct MapGrowth: Sendable {
     for group in graph.connectedGroups {
       while true {
         let free = group.count { !isTaken[$0] }
+        // The first map of a group takes at least a pair, a further one three photos.
         guard free >= (free == group.count ? 2 : 3), let map = try bestMap(within: group, isTaken)
         else { break }
         take(map)
@@ -107,7 +108,7 @@ struct MapGrowth: Sendable {
   ) throws -> Bool {
     ranking.update(&map)
     let candidates = ranking.photos {
-      !map.isRegistered($0) && !isTaken[$0] && failures[$0] < 3
+      !map.isRegistered($0) && !isTaken[$0] && failures[$0] < options.registrationTrials
     }
     for photo in candidates {
       if try register(photo, &map, isRelaxed) { return true }
@@ -181,7 +182,8 @@ struct MapGrowth: Sendable {
       changes += try strict.complete(all, in: &map, control(map))
       changes += try strict.triangulate(all, in: &map, control(map))
       dropWeakPhotos(&map)
-      if round > 1, 1000 * changes < map.isActive.count(where: { $0 }) { break }
+      let activeCount = map.isActive.count { $0 }
+      if round > 1, options.finalChangeDivisor * changes < activeCount { break }
     }
     try adjustment.adjustGlobally(&map, control(map))
     try strict.filter(all, in: &map, control(map))

@@ -1,5 +1,5 @@
 extension MapGrowth {
-  /// Failure count that marks a photo whose only trial was used.
+  /// Failure count of a photo whose only trial without points was used.
   private static let maximumFailures = 100
 
   /// Registers one photo by its pairs with registered photos only, without scene points; false if
@@ -12,14 +12,14 @@ extension MapGrowth {
       let pairs = graph.pairs.filter {
         $0.pair.first.index == photo || $0.pair.second.index == photo
       }
-      guard let pose = StructurelessPose().run(photo, pairs: pairs, poses: map.photos.poses) else {
-        continue
-      }
+      let pose = StructurelessPose(options: options.structurelessPose)
+        .run(photo, pairs: pairs, poses: map.photos.poses)
+      guard let pose else { continue }
       failures[photo] = Self.maximumFailures
       map.register(photo, pose)
       // The pose is rough: its points may have large errors until it is adjusted.
       var roughPoints = growthPoints
-      roughPoints.options.maximumError = 4 * options.growthError
+      roughPoints.options.maximumError = options.structurelessErrorFactor * options.growthError
       let tracks = map.tracks(ofPhoto: photo)
       try roughPoints.complete(tracks, in: &map, control(map))
       try roughPoints.triangulate(tracks, in: &map, control(map))

@@ -1,0 +1,23 @@
+/// The elements of each group, ascending, in compressed-row storage (one array with offsets).
+struct Members: Sendable {
+  private var offsets: [Int32]
+  private var elements: [Int32]
+
+  /// `groups` holds each element's group, in 0..<`count`; −1 means none.
+  init(of groups: [Int32], count: Int) {
+    offsets = Array(repeating: 0, count: count + 1)
+    for group in groups where group >= 0 { offsets[Int(group) + 1] += 1 }
+    for group in 0..<count { offsets[group + 1] += offsets[group] }
+    var cursor = offsets
+    elements = Array(repeating: 0, count: Int(offsets[count]))
+    for (element, group) in groups.enumerated() where group >= 0 {
+      elements[Int(cursor[Int(group)])] = Int32(element)
+      cursor[Int(group)] += 1
+    }
+  }
+
+  /// The elements of a group.
+  subscript(group: Int) -> ArraySlice<Int32> {
+    elements[Int(offsets[group])..<Int(offsets[group + 1])]
+  }
+}
