@@ -24,6 +24,8 @@ import Testing
   }
 
   private func perform(_ work: (ReconstructionPipeline) throws -> Void) throws {
+    // A run ignores both signals and handles them itself; the process of the tests must not.
+    defer { for number in [SIGINT, SIGTERM] { signal(number, SIG_DFL) } }
     try run(report.path).perform(missing: "nothing was written", work)
   }
 
