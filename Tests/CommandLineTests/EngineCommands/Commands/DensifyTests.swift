@@ -24,10 +24,8 @@ import Testing
   private func expectFailure(
     _ arguments: [String], code: Int32, mentioning words: [String]
   ) throws {
-    let run = try CommandProcess.run(["densify"] + arguments, in: folder)
-    #expect(run.exitCode == code, "\(run.errors)")
-    #expect(run.output.isEmpty)
-    for word in words { #expect(run.errors.contains(word), "\(run.errors)") }
+    try CommandProcess.expectFailure(
+      ["densify"] + arguments, in: folder, code: code, mentioning: words)
   }
 
   /// Writes photos of a ball above a floor, and returns their exact poses as lines of images.txt.

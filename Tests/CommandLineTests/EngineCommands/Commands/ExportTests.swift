@@ -45,10 +45,8 @@ import Testing
   private func expectFailure(
     _ arguments: [String], code: Int32, mentioning words: [String]
   ) throws {
-    let run = try CommandProcess.run(["export"] + arguments, in: folder)
-    #expect(run.exitCode == code, "\(run.errors)")
-    #expect(run.output.isEmpty)
-    for word in words { #expect(run.errors.contains(word), "\(run.errors)") }
+    try CommandProcess.expectFailure(
+      ["export"] + arguments, in: folder, code: code, mentioning: words)
     #expect(!FileManager.default.fileExists(atPath: folder.path + "/m.usdz"))
   }
 
