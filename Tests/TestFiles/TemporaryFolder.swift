@@ -23,3 +23,19 @@ package final class TemporaryFolder {
     return file
   }
 }
+
+/// Runs a body with an empty folder that is removed afterward.
+package func withTemporaryFolder<T>(_ body: (URL) throws -> T) throws -> T {
+  let folder = try TemporaryFolder()
+  defer { withExtendedLifetime(folder) {} }
+  return try body(folder.url)
+}
+
+/// Runs a body with an empty folder that is removed afterward.
+package func withTemporaryFolder<T>(
+  isolation: isolated (any Actor)? = #isolation, _ body: (URL) async throws -> T
+) async throws -> T {
+  let folder = try TemporaryFolder()
+  defer { withExtendedLifetime(folder) {} }
+  return try await body(folder.url)
+}
