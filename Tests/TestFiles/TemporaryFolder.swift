@@ -22,6 +22,12 @@ package final class TemporaryFolder {
     try Data(bytes).write(to: file)
     return file
   }
+
+  /// Writes a text file and returns its URL.
+  @discardableResult
+  package func write(_ text: String, as name: String) throws -> URL {
+    try write(Array(text.utf8), as: name)
+  }
 }
 
 /// Runs a body with an empty folder that is removed afterward.

@@ -28,7 +28,7 @@ import Testing
 
   @Test func invalidArgumentsExitWithTwo() throws {
     try temporary.writeNoisePhotos(1, to: "photos")
-    try Data("x".utf8).write(to: folder.appendingPathComponent("file"))
+    try temporary.write("x", as: "file")
     try expectFailure([], code: 2, mentioning: ["input-folder"])
     try expectFailure(
       ["photos", "m.usdz", "-d", "huge"], code: 2, mentioning: ["huge", "preview"])
@@ -51,14 +51,9 @@ import Testing
   }
 
   @Test func runsWithoutResultExitWithOne() throws {
-    let files = FileManager.default
-    for name in ["empty", "texts"] {
-      try files.createDirectory(
-        at: folder.appendingPathComponent(name), withIntermediateDirectories: true)
-    }
-    for index in 0..<3 {
-      try Data("hello".utf8).write(to: folder.appendingPathComponent("texts/\(index).txt"))
-    }
+    try FileManager.default.createDirectory(
+      at: folder.appendingPathComponent("empty"), withIntermediateDirectories: true)
+    for index in 0..<3 { try temporary.write("hello", as: "texts/\(index).txt") }
     try temporary.writeNoisePhotos(2, to: "two")
     try expectFailure(
       ["empty", "m.usdz"], code: 1, mentioning: ["empty", "JPEG, HEIC or PNG"])
@@ -85,7 +80,7 @@ import Testing
 
   @Test func inspectListsEveryFile() throws {
     try temporary.writeNoisePhotos(3, to: "photos")
-    try Data("hello".utf8).write(to: folder.appendingPathComponent("photos/notes.txt"))
+    try temporary.write("hello", as: "photos/notes.txt")
     let run = try CommandProcess.run(["inspect", "photos"], in: folder)
     #expect(run.exitCode == 0)
     #expect(run.output.contains("p1.jpg  800 x 600"))
@@ -138,7 +133,7 @@ import Testing
 
   @Test func jsonIsTheOnlyOutput() throws {
     try temporary.writeNoisePhotos(2, to: "two")
-    try temporary.write(Array("hello".utf8), as: "two/notes.txt")
+    try temporary.write("hello", as: "two/notes.txt")
     let run = try CommandProcess.run(["two", "m.usdz", "--json", "--verbose"], in: folder)
     #expect(run.exitCode == 1)
     let events = run.output.split(separator: "\n").map { RunEvent(line: $0.utf8) }

@@ -39,15 +39,15 @@ import Testing
   @Test(.endToEnd) func readingsBelongToTheirPhotos() throws {
     let folder = try TemporaryFolder()
     try folder.write(heic(orientation: 6, seed: 1), as: "IMG_1.HEIC")
-    try folder.write(Array("0.0,-1.0,0.0".utf8), as: "IMG_1_gravity.TXT")
+    try folder.write("0.0,-1.0,0.0", as: "IMG_1_gravity.TXT")
     try folder.write(tiff(width: 3, height: 2, [1, 2, 3, 4, 5, 6]), as: "IMG_1_depth.TIF")
     try folder.write(heic(orientation: 1, seed: 2), as: "IMG_2.HEIC")
-    try folder.write(Array("up\n".utf8), as: "IMG_2_gravity.TXT")
-    try folder.write(Array("none".utf8), as: "IMG_2_depth.TIF")
+    try folder.write("up\n", as: "IMG_2_gravity.TXT")
+    try folder.write("none", as: "IMG_2_depth.TIF")
     try folder.write(heic(orientation: 1, seed: 3), as: "IMG_3.HEIC")
     try folder.write(
       ImageCodec.encodePNG(RasterImage(width: 3, height: 2, channels: 3)), as: "IMG_3_depth.TIF")
-    try folder.write(Array("0,0,-1".utf8), as: "other_gravity.txt")
+    try folder.write("0,0,-1", as: "other_gravity.txt")
 
     let notes = StageNotes()
     let result = try PhotoIngestion().run(folder: folder.url, StageContext(notes: notes))

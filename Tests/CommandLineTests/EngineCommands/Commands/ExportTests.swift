@@ -22,10 +22,7 @@ import Testing
     let scene = SphereScene(viewCount: 8, imageSize: 320) { p in
       SIMD3(140 + 90 * sin(19 * p.x), 120 + 60 * sin(31 * p.z), 100 + 50 * sin(25 * p.y))
     }
-    for (index, image) in scene.images.enumerated() {
-      try temporary.write(
-        try ImageCodec.encodeJPEG(image, quality: 0.95), as: "photos/p\(index).jpg")
-    }
+    try temporary.writePhotos(scene.images)
     let photos = folder.appendingPathComponent("photos", isDirectory: true)
     let ingested = try PhotoIngestion().run(folder: photos, StageContext())
     var reconstruction = scene.reconstruction

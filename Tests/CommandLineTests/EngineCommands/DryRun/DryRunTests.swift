@@ -34,7 +34,7 @@ import Testing
   }
 
   @Test func rejectedFilesComeBeforeThePlan() throws {
-    try temporary.write(Array("no photo".utf8), as: "photos/a.jpg")
+    try temporary.write("no photo", as: "photos/a.jpg")
     let photos = temporary.url.appendingPathComponent("photos", isDirectory: true)
     let plan = try plan(photos: photos)
     #expect(plan.events.map(\.event) == ["invalidSample", "plan"])
