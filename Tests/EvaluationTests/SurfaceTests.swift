@@ -23,6 +23,12 @@ import Testing
     return mesh
   }
 
+  static func append(_ other: Mesh, to mesh: inout Mesh) {
+    let first = UInt32(mesh.positions.count)
+    mesh.positions += other.positions
+    mesh.triangles += other.triangles.map { Triangle($0.a + first, $0.b + first, $0.c + first) }
+  }
+
   static var options: SurfaceComparison.Options {
     var options = SurfaceComparison.Options()
     options.resultSamples = 4000
@@ -125,11 +131,7 @@ import Testing
   @Test func invisiblePartsOfTheReferenceAreIgnored() throws {
     var reference = Self.square(side: 1)
     let below = Self.square(side: 1, z: -0.4)
-    let offset = UInt32(reference.positions.count)
-    reference.positions += below.positions
-    reference.triangles += below.triangles.map {
-      Triangle($0.a + offset, $0.b + offset, $0.c + offset)
-    }
+    Self.append(below, to: &reference)
     let down = RigidTransform(
       rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, 5])
     let camera = NamedCamera(
@@ -199,11 +201,7 @@ import Testing
     var options = Self.options
     var result = wall(0.5...1, y: 0)
     let wrong = wall(0...0.499, y: 0.4)
-    let first = UInt32(result.positions.count)
-    result.positions += wrong.positions
-    result.triangles += wrong.triangles.map {
-      Triangle($0.a + first, $0.b + first, $0.c + first)
-    }
+    Self.append(wrong, to: &result)
     let all = try Self.compare(result, with: wall(0...1, y: 0), options: options)
     #expect(all.thresholds[0].precision < 0.6)
     #expect(all.thresholds[0].recall < 0.7)
