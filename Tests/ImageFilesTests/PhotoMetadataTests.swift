@@ -71,9 +71,8 @@ import Testing
     fields.focalLengthIn35mmFilm = 28
     let png = try ImageCodec.encodePNG(RasterImage(width: 4, height: 4, channels: 3))
     let tiff = ExifWriter.tiff(fields)
-    let length = (0..<4).reversed().map { UInt8(truncatingIfNeeded: tiff.count >> (8 * $0)) }
     // After the signature and the header chunk; the reader doesn't verify checksums.
-    let chunk = length + Array("eXIf".utf8) + tiff + [0, 0, 0, 0]
+    let chunk = bigEndian(tiff.count) + Array("eXIf".utf8) + tiff + [0, 0, 0, 0]
     let read = PhotoMetadata(Array(png.prefix(33)) + chunk + Array(png.dropFirst(33)))
     #expect(read.focalLengthIn35mmFilm == 28)
   }
