@@ -146,7 +146,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       ],
       path: "Tests/GrowthBenchmark", swiftSettings: strict),
     .executableTarget(
-      name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation"],
+      name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation", "SceneModel"],
       path: "Tests/CancelBenchmark", swiftSettings: strict),
     .executableTarget(
       name: "library-benchmark",
