@@ -70,7 +70,7 @@ import Testing
     #expect(tree.distance(to: [50, 0, 0], limit: 2, &stack) == 2)
   }
 
-  @Test(arguments: [0, 1, 3, 4, 5, 17]) func smallTrees(_ count: Int) {
+  @Test(arguments: [0, 1, 3, 4, 5, 17]) func smallTreesFindTheNearestPoint(_ count: Int) {
     let points = (0..<count).map { SIMD3<Float>(Float($0), 0, 0) }
     let tree = BoundingTree(points)
     var stack = BoundingTree<SIMD3<Float>>.Stack()
@@ -78,7 +78,7 @@ import Testing
     #expect(tree.distance(to: [0, 1, 0], limit: 9, &stack) == expected)
   }
 
-  @Test func closestPointsOfATriangle() {
+  @Test func closestPointsLieInTheTriangle() {
     let t = FlatTriangle([0, 0, 0], [1, 0, 0], [0, 1, 0])
     #expect(t.closestPoint(to: [-1, -1, 5]) == [0, 0, 0])
     #expect(t.closestPoint(to: [3, -1, 0]) == [1, 0, 0])
@@ -103,13 +103,13 @@ import Testing
     #expect(SurfaceSampling().run(mesh, count: 0).isEmpty)
   }
 
-  @Test func parallelSquares() throws {
+  @Test func parallelSquaresAreTheirDistanceApart() throws {
     let scores = try Self.compare(Self.square(side: 1, z: 0.2), with: Self.square(side: 1))
     #expect(abs(scores.chamfer - 0.2) < 1e-5)
     #expect(scores.thresholds.map(\.fScore) == [0, 1])
   }
 
-  @Test func halfOfTheSurface() throws {
+  @Test func halfOfTheSurfaceIsPreciseButIncomplete() throws {
     let alignment = SimilarityTransform(scale: 0.5, rotation: .identity, translation: .zero)
     var half = Self.square(side: 2)
     half.positions = half.positions.map { [$0.x, $0.y / 2, $0.z] }

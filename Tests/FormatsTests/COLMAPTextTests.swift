@@ -78,7 +78,7 @@ import Testing
     ("OPENCV", "100 101 50 40 1 2 3 4", [100, 101, 50, 40, 1, 2, 3, 4]),
     ("FULL_OPENCV", "100 101 50 40 1 2 3 4 0 0 0 0", [100, 101, 50, 40, 1, 2, 3, 4]),
   ])
-  func cameraModels(_ model: String, _ parameters: String, _ expected: [Double]) throws {
+  func everyCameraModelIsRead(_ model: String, _ parameters: String, _ expected: [Double]) throws {
     try withTemporaryFolder { folder in
       try write(folder, cameras: "7 \(model) 100 80 \(parameters)\n", images: "", points: "")
       let camera = try #require(try COLMAPText.read(folder).cameras.first)

@@ -61,7 +61,7 @@ import Testing
     }
   }
 
-  @Test func asciiWithUnknownPropertiesAndQuads() throws {
+  @Test func unknownPropertiesAreSkippedAndQuadsAreSplit() throws {
     let text = """
       ply\r
       format ascii 1.0\r
@@ -95,7 +95,7 @@ import Testing
     #expect(mesh.triangles == [Triangle(0, 1, 2), Triangle(0, 2, 3)])
   }
 
-  @Test func bigEndian() throws {
+  @Test func bigEndianFilesAreRead() throws {
     var bytes = Array(
       """
       ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\

@@ -45,7 +45,7 @@ import Testing
     }
   }
 
-  @Test func sameModelSameBytes() throws {
+  @Test func theSameModelGivesTheSameBytes() throws {
     let model = Sample.model(rings: 10)
     #expect(try USDZPackage.encode(model) == USDZPackage.encode(model))
   }

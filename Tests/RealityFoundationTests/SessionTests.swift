@@ -113,7 +113,7 @@ import Testing
     }
   }
 
-  @Test func cancels() async throws {
+  @Test func canceledSessionsStopAndCanContinue() async throws {
     try await withPhotos { folder in
       let journal = ScriptedEngine.Journal()
       let session = Session(folder: folder, .init(repeatsUntilCanceled: true), journal: journal)

@@ -71,7 +71,7 @@ import Testing
     #expect(smooth != isRemoved)
   }
 
-  @Test func fullySupportedRodIsKept() {
+  @Test func straightBoundaryOfARodIsUnchanged() {
     var mesh = Mesh()
     for ring in 0...40 {
       for corner in [SIMD2<Float>(1, 0), [0, 1], [-1, 0], [0, -1]] {

@@ -24,7 +24,7 @@ import Testing
       worldFrame: WorldFrame(scale: scale))
   }
 
-  @Test func metricsOfABlock() throws {
+  @Test func metricsAreThoseOfTheBlock() throws {
     // On a point, within three footprints of one, and beyond.
     let sparse: [SIMD3<Double>] = [[0.5, 0.5, 0.2], [0.5, -0.29, 0.2], [0.5, -0.31, 0.2]]
     let notes = StageNotes()

@@ -160,7 +160,7 @@ import Testing
     #expect(results[0].cameras == results[1].cameras)
   }
 
-  @Test func cancellingStops() throws {
+  @Test func cancellationStops() throws {
     let folder = try TemporaryFolder()
     try folder.write(photos(1)[0], as: "a.jpg")
     let flag = CancellationFlag()

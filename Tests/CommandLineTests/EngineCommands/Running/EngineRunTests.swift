@@ -48,7 +48,7 @@ import Testing
     #expect(try stages() == ["preProcessing"])
   }
 
-  @Test func reportsThatCanNotBeWrittenFailFirst() throws {
+  @Test func reportsThatCannotBeWrittenFailFirst() throws {
     #expect(throws: CommandFailure.self) { try run(temporary.url.path + "/none/r.json") }
   }
 }
