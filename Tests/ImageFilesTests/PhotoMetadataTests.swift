@@ -55,12 +55,15 @@ import Testing
     fields.focalLength = (50, 1)
     fields.position = (10, 20, 30)
     let tiff = ExifWriter.tiff(fields)
-    for count in 0..<tiff.count { _ = PhotoMetadata(Array(tiff.prefix(count))) }
+    func expectValidOrientation(_ bytes: [UInt8]) {
+      #expect((1...8).contains(PhotoMetadata(bytes).orientation))
+    }
+    for count in 0..<tiff.count { expectValidOrientation(Array(tiff.prefix(count))) }
     for index in tiff.indices {
       for value: UInt8 in [0, 1, 0x7F, 0x80, 0xFF] {
         var hostile = tiff
         hostile[index] = value
-        _ = PhotoMetadata(hostile)
+        expectValidOrientation(hostile)
       }
     }
     #expect(PhotoMetadata([]) == PhotoMetadata())

@@ -7,7 +7,8 @@ struct CommandProcess {
   var output: String
   var errors: String
 
-  /// Runs to the end. Calls `interrupting` with the process once it has written to stderr.
+  /// Runs to the end, with empty standard input. Calls `interrupting` with the process once it has
+  /// written to standard error.
   static func run(
     _ arguments: [String], in folder: URL, interrupting: ((Process) -> Void)? = nil
   ) throws -> CommandProcess {

@@ -48,7 +48,10 @@ import Testing
     let values = CloudMetrics().run(flat, reconstruction([], .given), StageNotes())
     #expect(values.pointsPerCubicMeter == nil)
     #expect(values.sparseCoverage == 0)
-    CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
+    let empty = CloudMetrics().run(
+      PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
+    #expect(empty.points == 0 && empty.sparsePoints == 1 && empty.sparseCoverage == 0)
+    #expect(empty.pointsPerCubicMeter == nil && empty.pointsPerSparsePoint == 0)
   }
 
   @Test func nonFinitePointsAreSkipped() {
