@@ -2,6 +2,7 @@ import Foundation
 import ImageFiles
 import Kernels
 import SceneModel
+import TestFiles
 
 extension TemporaryFolder {
   /// Writes the JPEG files `photos/p0.jpg`, `photos/p1.jpg` and so on, without metadata.

@@ -1,4 +1,3 @@
-import Kernels
 import SceneModel
 
 extension PinholeView {

@@ -24,7 +24,7 @@ import Testing
   }
 
   private func perform(_ work: (ReconstructionPipeline) throws -> Void) throws {
-    // A run ignores both signals and handles them itself; the process of the tests must not.
+    // A run makes the process ignore both signals; afterward the tests can be interrupted again.
     defer { for number in [SIGINT, SIGTERM] { signal(number, SIG_DFL) } }
     try run(report.path).perform(missing: "nothing was written", work)
   }
