@@ -32,16 +32,12 @@ import Testing
     try expectFailure([], code: 2, mentioning: ["input-folder"])
     try expectFailure(
       ["photos", "m.usdz", "-d", "huge"], code: 2, mentioning: ["huge", "preview"])
-    try expectFailure(
-      ["nowhere", "m.usdz"], code: 2, mentioning: ["nowhere", "does not exist"])
-    try expectFailure(
-      ["file", "m.usdz"], code: 2, mentioning: ["file is a file"])
+    try expectFailure(["nowhere", "m.usdz"], code: 2, mentioning: ["nowhere", "does not exist"])
+    try expectFailure(["file", "m.usdz"], code: 2, mentioning: ["file is a file"])
     try expectFailure(
       ["photos", "m.obj"], code: 2, mentioning: [".obj", ".usdz", ".glb", "slash"])
-    try expectFailure(
-      ["photos", ".usdz"], code: 2, mentioning: ["no name"])
-    try expectFailure(
-      ["photos", "no/such/m.usdz"], code: 2, mentioning: ["m.usdz", "mkdir -p"])
+    try expectFailure(["photos", ".usdz"], code: 2, mentioning: ["no name"])
+    try expectFailure(["photos", "no/such/m.usdz"], code: 2, mentioning: ["m.usdz", "mkdir -p"])
     try expectFailure(
       ["photos", "m.usdz", "--poses", "no/p.json"], code: 2,
       mentioning: ["p.json", "mkdir -p"])
@@ -55,10 +51,8 @@ import Testing
       at: folder.appendingPathComponent("empty"), withIntermediateDirectories: true)
     for index in 0..<3 { try temporary.write("hello", as: "texts/\(index).txt") }
     try temporary.writeNoisePhotos(2, to: "two")
-    try expectFailure(
-      ["empty", "m.usdz"], code: 1, mentioning: ["empty", "JPEG, HEIC or PNG"])
-    try expectFailure(
-      ["texts", "m.usdz"], code: 1, mentioning: ["error: ", "JPEG, HEIC or PNG"])
+    try expectFailure(["empty", "m.usdz"], code: 1, mentioning: ["empty", "JPEG, HEIC or PNG"])
+    try expectFailure(["texts", "m.usdz"], code: 1, mentioning: ["error: ", "JPEG, HEIC or PNG"])
     try expectFailure(["two", "m.usdz"], code: 1, mentioning: ["error: ", "2"])
   }
 
