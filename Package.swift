@@ -38,9 +38,10 @@ var targets: [Target] = [
   .target(
     name: "DamagedInput", dependencies: ["SceneModel"], path: "Tests/DamagedInput",
     swiftSettings: strict),
+  .target(name: "TestFiles", path: "Tests/TestFiles", swiftSettings: strict),
   .testTarget(name: "SceneModelTests", dependencies: ["SceneModel"], swiftSettings: strict),
   .testTarget(
-    name: "FormatsTests", dependencies: ["Formats", "SceneModel", "DamagedInput"],
+    name: "FormatsTests", dependencies: ["Formats", "SceneModel", "DamagedInput", "TestFiles"],
     swiftSettings: strict),
   .testTarget(
     name: "EvaluationTests", dependencies: ["Evaluation", "SceneModel"], swiftSettings: strict),
@@ -126,7 +127,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       ],
       swiftSettings: strict),
     .target(
-      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles"],
+      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles", "TestFiles"],
       path: "Tests/TestSupport", swiftSettings: strict),
     .target(name: "TestLevels", path: "Tests/TestLevels", swiftSettings: strict),
     .executableTarget(
@@ -140,7 +141,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       ],
       path: "Tests/GrowthBenchmark", swiftSettings: strict),
     .executableTarget(
-      name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation"],
+      name: "cancel-benchmark", dependencies: [argumentParser, "RealityFoundation", "SceneModel"],
       path: "Tests/CancelBenchmark", swiftSettings: strict),
     .executableTarget(
       name: "library-benchmark",

@@ -1,6 +1,7 @@
 import ArgumentParser
 import Foundation
 import RealityFoundation
+import SceneModel
 
 /// Cancels sessions at random times and reports how quickly they end. Then completes each run and
 /// compares its model with that of an uninterrupted session. Fails if they differ or if a session
@@ -42,23 +43,11 @@ struct CancelBenchmark: AsyncParsableCommand {
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     var trial = CancelTrial(
       photos: URL(fileURLWithPath: photos, isDirectory: true), detail: detail.value, folder: folder,
-      generator: SplitMix64(state: seed))
+      generator: SplitMix64(seed: seed))
     try await trial.makeReference()
     while trial.count < cancels {
       try await trial.makeWithCancellations(atMost: cancels - trial.count)
     }
     trial.printSummary()
-  }
-}
-
-/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
-struct SplitMix64: RandomNumberGenerator {
-  var state: UInt64
-
-  mutating func next() -> UInt64 {
-    state &+= 0x9E37_79B9_7F4A_7C15
-    var value = (state ^ (state >> 30)) &* 0xBF58_476D_1CE4_E5B9
-    value = (value ^ (value >> 27)) &* 0x94D0_49BB_1331_11EB
-    return value ^ (value >> 31)
   }
 }

@@ -1,5 +1,6 @@
 import Foundation
 import RealityFoundation
+import SceneModel
 
 /// Sessions on one folder of photos that are canceled at random times, with their measurements.
 struct CancelTrial {

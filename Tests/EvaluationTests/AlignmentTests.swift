@@ -34,7 +34,7 @@ import Testing
     #expect((found.translation - Self.truth.translation).length < 1e-6)
   }
 
-  @Test func pointsThatDetermineNothing() {
+  @Test func degeneratePointsHaveNoAlignment() {
     let alignment = SimilarityAlignment()
     #expect(alignment.leastSquares(from: [], to: []) == nil)
     #expect(alignment.leastSquares(from: Self.points(2), to: Self.points(2)) == nil)
@@ -114,7 +114,7 @@ import Testing
     }
   }
 
-  @Test func areaUnderAStep() {
+  @Test func areaIsThatUnderTheSteps() {
     #expect(PoseErrors.area(under: [0, 0, 0, 0], to: 1) == 1)
     #expect(PoseErrors.area(under: [180, 180], to: 1) == 0)
     #expect(abs(PoseErrors.area(under: [0.5, 180], to: 1) - 0.375) < 1e-12)
@@ -139,7 +139,7 @@ import Testing
     }
   }
 
-  @Test func reprojectionOfAPerturbedObservation() {
+  @Test func reprojectionErrorsAreMeasured() {
     let camera = Camera(width: 100, height: 100, focalLength: [100, 100])
     let photo = Photo(
       id: ID(0), sampleID: 0, name: "a", url: URL(fileURLWithPath: "/a"), width: 100, height: 100,

@@ -23,6 +23,12 @@ import Testing
     return mesh
   }
 
+  static func append(_ other: Mesh, to mesh: inout Mesh) {
+    let first = UInt32(mesh.positions.count)
+    mesh.positions += other.positions
+    mesh.triangles += other.triangles.map { Triangle($0.a + first, $0.b + first, $0.c + first) }
+  }
+
   static var options: SurfaceComparison.Options {
     var options = SurfaceComparison.Options()
     options.resultSamples = 4000
@@ -64,7 +70,7 @@ import Testing
     #expect(tree.distance(to: [50, 0, 0], limit: 2, &stack) == 2)
   }
 
-  @Test(arguments: [0, 1, 3, 4, 5, 17]) func smallTrees(_ count: Int) {
+  @Test(arguments: [0, 1, 3, 4, 5, 17]) func smallTreesFindTheNearestPoint(_ count: Int) {
     let points = (0..<count).map { SIMD3<Float>(Float($0), 0, 0) }
     let tree = BoundingTree(points)
     var stack = BoundingTree<SIMD3<Float>>.Stack()
@@ -72,7 +78,7 @@ import Testing
     #expect(tree.distance(to: [0, 1, 0], limit: 9, &stack) == expected)
   }
 
-  @Test func closestPointsOfATriangle() {
+  @Test func closestPointsLieInTheTriangle() {
     let t = FlatTriangle([0, 0, 0], [1, 0, 0], [0, 1, 0])
     #expect(t.closestPoint(to: [-1, -1, 5]) == [0, 0, 0])
     #expect(t.closestPoint(to: [3, -1, 0]) == [1, 0, 0])
@@ -97,13 +103,13 @@ import Testing
     #expect(SurfaceSampling().run(mesh, count: 0).isEmpty)
   }
 
-  @Test func parallelSquares() throws {
+  @Test func parallelSquaresAreTheirDistanceApart() throws {
     let scores = try Self.compare(Self.square(side: 1, z: 0.2), with: Self.square(side: 1))
     #expect(abs(scores.chamfer - 0.2) < 1e-5)
     #expect(scores.thresholds.map(\.fScore) == [0, 1])
   }
 
-  @Test func halfOfTheSurface() throws {
+  @Test func halfOfTheSurfaceIsPreciseButIncomplete() throws {
     let alignment = SimilarityTransform(scale: 0.5, rotation: .identity, translation: .zero)
     var half = Self.square(side: 2)
     half.positions = half.positions.map { [$0.x, $0.y / 2, $0.z] }
@@ -125,11 +131,7 @@ import Testing
   @Test func invisiblePartsOfTheReferenceAreIgnored() throws {
     var reference = Self.square(side: 1)
     let below = Self.square(side: 1, z: -0.4)
-    let offset = UInt32(reference.positions.count)
-    reference.positions += below.positions
-    reference.triangles += below.triangles.map {
-      Triangle($0.a + offset, $0.b + offset, $0.c + offset)
-    }
+    Self.append(below, to: &reference)
     let down = RigidTransform(
       rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, 5])
     let camera = NamedCamera(
@@ -199,11 +201,7 @@ import Testing
     var options = Self.options
     var result = wall(0.5...1, y: 0)
     let wrong = wall(0...0.499, y: 0.4)
-    let first = UInt32(result.positions.count)
-    result.positions += wrong.positions
-    result.triangles += wrong.triangles.map {
-      Triangle($0.a + first, $0.b + first, $0.c + first)
-    }
+    Self.append(wrong, to: &result)
     let all = try Self.compare(result, with: wall(0...1, y: 0), options: options)
     #expect(all.thresholds[0].precision < 0.6)
     #expect(all.thresholds[0].recall < 0.7)

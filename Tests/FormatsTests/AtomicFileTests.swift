@@ -1,11 +1,12 @@
 import Foundation
+import TestFiles
 import Testing
 
 @testable import Formats
 
 @Suite struct AtomicFileTests {
   @Test func replacesAndLeavesNothingElse() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("a.bin")
       try AtomicFile.write([1, 2, 3], to: url)
       try AtomicFile.write([4], to: url)
@@ -15,7 +16,7 @@ import Testing
   }
 
   @Test func staleTemporaryFilesAreRemoved() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let model = AtomicFile.temporaryURL(for: folder.appendingPathComponent("a.usdz"))
       let other = AtomicFile.temporaryURL(for: folder.appendingPathComponent("b.usdz"))
       let young = AtomicFile.temporaryURL(for: folder.appendingPathComponent("a.usdz"))
@@ -38,7 +39,7 @@ import Testing
   /// The temporary name must not exceed the file system's limit if the name itself doesn't.
   @Test(arguments: ["n", "é", "模"])
   func longestFileNamesAreWritten(_ letter: String) throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let name = String(repeating: letter, count: 255 / letter.utf8.count)
       try AtomicFile.write([1], to: folder.appendingPathComponent(name))
       #expect(try FileManager.default.contentsOfDirectory(atPath: folder.path) == [name])
@@ -46,7 +47,7 @@ import Testing
   }
 
   @Test func missingParentFolderIsReportedWithRemedy() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let missing = folder.appendingPathComponent("no/such", isDirectory: true)
       let error = #expect(throws: OutputError.self) {
         try AtomicFile.write([1], to: missing.appendingPathComponent("x.usdz"))
@@ -58,7 +59,7 @@ import Testing
   }
 
   @Test func existingFolderIsAnError() throws {
-    try Sample.withFolder { (folder: URL) -> Void in
+    try withTemporaryFolder { (folder: URL) -> Void in
       #expect(throws: OutputError.isAFolder(path: folder.path)) {
         try AtomicFile.write([1], to: folder)
       }
@@ -66,7 +67,7 @@ import Testing
   }
 
   @Test func existingFileIsAnErrorForFolders() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let file = folder.appendingPathComponent("f")
       try AtomicFile.write([1], to: file)
       #expect(throws: OutputError.notAFolder(path: file.path)) {
@@ -89,7 +90,7 @@ import Testing
 
   @Test func folderWriteIsAtomic() throws {
     struct Stop: Error {}
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let output = folder.appendingPathComponent("model")
       #expect(throws: Stop.self) {
         try AtomicDirectory.write(to: output) {
@@ -103,7 +104,7 @@ import Testing
   }
 
   @Test func otherFilesOfAFolderAreKept() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let other = folder.appendingPathComponent("mine.txt")
       try AtomicFile.write([9], to: other)
       try AtomicFile.write([0], to: folder.appendingPathComponent("a"))

@@ -1,5 +1,6 @@
 import Foundation
 import SceneModel
+import TestFiles
 import Testing
 
 @testable import Formats
@@ -35,7 +36,7 @@ import Testing
   }()
 
   @Test func roundTripIsExact() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let sparse = folder.appendingPathComponent("sparse")
       try COLMAPText.write(Self.reconstruction, to: sparse)
       let read = try COLMAPText.read(sparse, images: URL(fileURLWithPath: "/photos"))
@@ -77,8 +78,8 @@ import Testing
     ("OPENCV", "100 101 50 40 1 2 3 4", [100, 101, 50, 40, 1, 2, 3, 4]),
     ("FULL_OPENCV", "100 101 50 40 1 2 3 4 0 0 0 0", [100, 101, 50, 40, 1, 2, 3, 4]),
   ])
-  func cameraModels(_ model: String, _ parameters: String, _ expected: [Double]) throws {
-    try Sample.withFolder { folder in
+  func everyCameraModelIsRead(_ model: String, _ parameters: String, _ expected: [Double]) throws {
+    try withTemporaryFolder { folder in
       try write(folder, cameras: "7 \(model) 100 80 \(parameters)\n", images: "", points: "")
       let camera = try #require(try COLMAPText.read(folder).cameras.first)
       let (f, c, d) = (camera.focalLength, camera.principalPoint, camera.distortion)
@@ -95,7 +96,7 @@ import Testing
     ("1 PINHOLE 10 10 0 5 5 5\n", "", ""), ("1 FOV 10 10 5 5\n", "", ""),
   ])
   func damagedFilesAreErrors(_ cameras: String, _ images: String, _ points: String) throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       try write(folder, cameras: cameras, images: images, points: points)
       #expect(throws: FormatError.self) { try COLMAPText.read(folder) }
     }
@@ -106,7 +107,7 @@ import Testing
     ("FOV", "100 101 50 40 0.9"),
   ])
   func unsupportedCameraModelsAreReported(_ model: String, _ parameters: String) throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       try write(folder, cameras: "7 \(model) 100 80 \(parameters)\n", images: "", points: "")
       let path = folder.appendingPathComponent("cameras.txt").path
       #expect(throws: UnsupportedCameraModel(path: path, model: model)) {
@@ -116,7 +117,7 @@ import Testing
   }
 
   @Test func emptyLinesAndPointsAreOptional() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       try write(
         folder, cameras: "1 PINHOLE 10 10 5 5 5 5\n",
         images: "1 1 0 0 0 0 0 0 1 a 1.jpg\n2 1 0 0 0 1 0 0 1 b.jpg\n\n3 1 0 0 0 2 0 0 1 c.jpg\n",
@@ -130,7 +131,7 @@ import Testing
   }
 
   @Test func danglingReferencesAreDropped() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       try write(
         folder, cameras: "1 SIMPLE_PINHOLE 10 10 5 5 5\n",
         images: "1 1 0 0 0 0 0 0 9 lost.jpg\n\n2 1 0 0 0 0 0 0 1 kept.jpg\n1 2 1\n",

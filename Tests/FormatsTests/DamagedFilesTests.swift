@@ -1,6 +1,7 @@
 import DamagedInput
 import Foundation
 import SceneModel
+import TestFiles
 import Testing
 
 @testable import Formats
@@ -41,7 +42,7 @@ import Testing
     of copies: some Sequence<[UInt8]>, named name: String = "file",
     _ read: (URL) throws -> Value, check: (Value) -> Bool
   ) throws -> (values: Int, errors: Int) {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent(name)
       var (values, errors) = (0, 0)
       for copy in copies {
@@ -130,7 +131,7 @@ import Testing
   @Test(
     arguments: [("cameras.txt", 5), ("images.txt", 6), ("points3D.txt", 7)] as [(String, UInt64)])
   func damagedCOLMAPTextGivesAValueOrAnError(name: String, seed: UInt64) throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       try COLMAPText.write(COLMAPTextTests.reconstruction, to: folder)
       let url = folder.appendingPathComponent(name)
       let whole = DamagedInput([UInt8](try Data(contentsOf: url)))

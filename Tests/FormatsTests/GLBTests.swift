@@ -142,7 +142,7 @@ import Testing
     #expect(file.binary.isEmpty)
   }
 
-  @Test func sameModelSameBytes() throws {
+  @Test func theSameModelGivesTheSameBytes() throws {
     let sphere = Sample.sphere(rings: 10, atlasCount: 2)
     let materials = [GLTFMaterial(baseColor: image("color"), normal: image("normals"))]
     let bytes = try (0..<2).map { _ in

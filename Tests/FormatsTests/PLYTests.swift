@@ -1,5 +1,6 @@
 import Foundation
 import SceneModel
+import TestFiles
 import Testing
 
 @testable import Formats
@@ -13,7 +14,7 @@ import Testing
     photoOffsets: [0, 2, 2, 5], photoIndices: [0, 999, 1, 2, 65535])
 
   @Test func cloudRoundTrips() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("points.ply")
       try PLY.write(Self.cloud, to: url)
       let read = try PLY.readPointCloud(url)
@@ -28,7 +29,7 @@ import Testing
   }
 
   @Test func meshRoundTrips() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("surface.ply")
       var mesh = Sample.sphere(rings: 5).mesh
       mesh.colors = mesh.positions.indices.map { [UInt8($0 % 256), 7, 255] }
@@ -51,7 +52,7 @@ import Testing
   }
 
   @Test func emptyValuesRoundTrip() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("empty.ply")
       try PLY.write(PointCloud(), to: url)
       #expect(try PLY.readPointCloud(url).count == 0)
@@ -60,7 +61,7 @@ import Testing
     }
   }
 
-  @Test func asciiWithUnknownPropertiesAndQuads() throws {
+  @Test func unknownPropertiesAreSkippedAndQuadsAreSplit() throws {
     let text = """
       ply\r
       format ascii 1.0\r
@@ -94,7 +95,7 @@ import Testing
     #expect(mesh.triangles == [Triangle(0, 1, 2), Triangle(0, 2, 3)])
   }
 
-  @Test func bigEndian() throws {
+  @Test func bigEndianFilesAreRead() throws {
     var bytes = Array(
       """
       ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
@@ -167,7 +168,7 @@ import Testing
   }
 
   private func read<Value>(_ bytes: [UInt8], _ body: (URL) throws -> Value) throws -> Value {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("x.ply")
       try Data(bytes).write(to: url)
       return try body(url)

@@ -3,7 +3,7 @@ import SceneModel
 
 @testable import Formats
 
-/// Creates models and folders for the tests of this module.
+/// Creates models for the tests of this module.
 enum Sample {
   /// A sphere of radius 1 around (0, 1, 0) with `rings` × 2 `rings` cells, in `atlasCount` atlases.
   static func sphere(rings: Int, atlasCount: Int = 1) -> TexturedMesh {
@@ -50,14 +50,5 @@ enum Sample {
     }
     return ModelContent(
       mesh: sphere(rings: rings, atlasCount: atlasCount), textures: textures, creator: "tests")
-  }
-
-  /// Calls `body` with a new folder that is removed afterwards.
-  static func withFolder<Result>(_ body: (URL) throws -> Result) throws -> Result {
-    let folder = FileManager.default.temporaryDirectory
-      .appendingPathComponent("formats-\(UUID().uuidString)", isDirectory: true)
-    try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
-    defer { try? FileManager.default.removeItem(at: folder) }
-    return try body(folder)
   }
 }

@@ -1,5 +1,6 @@
 import Foundation
 import SceneModel
+import TestFiles
 import Testing
 
 @testable import Formats
@@ -44,7 +45,7 @@ import Testing
     }
   }
 
-  @Test func sameModelSameBytes() throws {
+  @Test func theSameModelGivesTheSameBytes() throws {
     let model = Sample.model(rings: 10)
     #expect(try USDZPackage.encode(model) == USDZPackage.encode(model))
   }
@@ -57,7 +58,7 @@ import Testing
   }
 
   @Test func folderHoldsAllFormats() throws {
-    try Sample.withFolder { folder in
+    try withTemporaryFolder { folder in
       let output = folder.appendingPathComponent("model")
       try OBJFolder.write(Sample.model(rings: 3), to: output)
       #expect(

@@ -139,9 +139,10 @@ import Testing
       low = (low + Int(byte)) % 65521
       high = (high + low) % 65521
     }
-    let deflated = stored + profile + big(high << 16 | low)
+    let deflated = stored + profile + bigEndian(high << 16 | low)
     let content = Array("iCCP".utf8) + Array("a\0".utf8) + [0] + deflated
-    return Array(png.prefix(33)) + big(content.count - 4) + content + big(0) + png.dropFirst(33)
+    return Array(png.prefix(33)) + bigEndian(content.count - 4) + content + bigEndian(0)
+      + png.dropFirst(33)
   }
 
   private func jpeg(_ jpeg: [UInt8], with profile: [UInt8], parts: Int) -> [UInt8] {
@@ -150,7 +151,7 @@ import Testing
       let content =
         Array("ICC_PROFILE\0".utf8) + [UInt8(part + 1), UInt8(parts)]
         + profile[min(part * size, profile.count)..<min((part + 1) * size, profile.count)]
-      return [0xFF, 0xE2] + big(content.count + 2).suffix(2) + content
+      return [0xFF, 0xE2] + bigEndian(content.count + 2, 2) + content
     }
     return Array(jpeg.prefix(2)) + segments + jpeg.dropFirst(2)
   }
@@ -160,19 +161,19 @@ import Testing
     _ jpeg: [UInt8], withKind kind: String, colorSpace: Int = 65535
   ) -> [UInt8] {
     func field(_ tag: Int, _ type: Int, _ count: Int, _ value: [UInt8]) -> [UInt8] {
-      big(tag).suffix(2) + big(type).suffix(2) + big(count) + value
+      bigEndian(tag, 2) + bigEndian(type, 2) + bigEndian(count) + value
     }
-    let space = field(40961, 3, 1, big(colorSpace).suffix(2) + [0, 0])
+    func directory(_ fields: [UInt8]...) -> [UInt8] {
+      bigEndian(fields.count, 2) + fields.flatMap { $0 } + bigEndian(0)
+    }
+    let space = field(40961, 3, 1, bigEndian(colorSpace, 2) + [0, 0])
     let tiff =
-      Array("MM".utf8) + [0, 42] + big(8) + [0, 1] + field(34665, 4, 1, big(26)) + big(0)
-      + [0, 2] + space + field(40965, 4, 1, big(56)) + big(0)
-      + [0, 1] + field(1, 2, 4, Array(kind.utf8) + [0]) + big(0)
+      Array("MM".utf8) + [0, 42] + bigEndian(8)
+      + directory(field(34665, 4, 1, bigEndian(26)))
+      + directory(space, field(40965, 4, 1, bigEndian(56)))
+      + directory(field(1, 2, 4, Array(kind.utf8) + [0]))
     let content = Array("Exif\0\0".utf8) + tiff
-    return Array(jpeg.prefix(2)) + [0xFF, 0xE1] + big(content.count + 2).suffix(2) + content
+    return Array(jpeg.prefix(2)) + [0xFF, 0xE1] + bigEndian(content.count + 2, 2) + content
       + jpeg.dropFirst(2)
-  }
-
-  private func big(_ value: Int) -> [UInt8] {
-    [24, 16, 8, 0].map { UInt8(truncatingIfNeeded: value >> $0) }
   }
 }

@@ -41,24 +41,20 @@ import Testing
     /// An extended WebP file that announces 24 × 16 pixels, with a profile and EXIF data.
     private static func webP(_ exif: [UInt8]) -> [UInt8] {
       func chunk(_ name: String, _ data: [UInt8]) -> [UInt8] {
-        Array(name.utf8) + little(data.count) + data + (data.count % 2 == 1 ? [0] : [])
+        Array(name.utf8) + littleEndian(data.count) + data + (data.count % 2 == 1 ? [0] : [])
       }
       let content =
         Array("WEBP".utf8) + chunk("VP8X", [0x28, 0, 0, 0, 23, 0, 0, 15, 0, 0])
         + chunk("ICCP", ICCWriter.profile(.sRGB)) + chunk("EXIF", exif)
-      return Array("RIFF".utf8) + little(content.count) + content
+      return Array("RIFF".utf8) + littleEndian(content.count) + content
     }
 
     /// 24 × 16 gray pixels of 24 bits.
     private static var bitmap: [UInt8] {
       let pixels = [UInt8](repeating: 99, count: 24 * 16 * 3)
-      return Array("BM".utf8) + little(54 + pixels.count) + little(0) + little(54) + little(40)
-        + little(24) + little(16) + [1, 0, 24, 0] + little(0) + little(pixels.count)
-        + little(2835) + little(2835) + little(0) + little(0) + pixels
-    }
-
-    private static func little(_ value: Int) -> [UInt8] {
-      (0..<4).map { UInt8(truncatingIfNeeded: value >> (8 * $0)) }
+      let layout = [54 + pixels.count, 0, 54, 40, 24, 16].flatMap { littleEndian($0) }
+      let coding = [0, pixels.count, 2835, 2835, 0, 0].flatMap { littleEndian($0) }
+      return Array("BM".utf8) + layout + [1, 0, 24, 0] + coding + pixels
     }
   }
 

@@ -53,12 +53,15 @@ import Testing
     fields.focalLength = (50, 1)
     fields.position = (10, 20, 30)
     let tiff = ExifWriter.tiff(fields)
-    for count in 0..<tiff.count { _ = PhotoMetadata(Array(tiff.prefix(count))) }
+    func expectValidOrientation(_ bytes: [UInt8]) {
+      #expect((1...8).contains(PhotoMetadata(bytes).orientation))
+    }
+    for count in 0..<tiff.count { expectValidOrientation(Array(tiff.prefix(count))) }
     for index in tiff.indices {
       for value: UInt8 in [0, 1, 0x7F, 0x80, 0xFF] {
         var hostile = tiff
         hostile[index] = value
-        _ = PhotoMetadata(hostile)
+        expectValidOrientation(hostile)
       }
     }
     #expect(PhotoMetadata([]) == PhotoMetadata())
@@ -69,9 +72,8 @@ import Testing
     fields.focalLengthIn35mmFilm = 28
     let png = try ImageCodec.encodePNG(RasterImage(width: 4, height: 4, channels: 3))
     let tiff = ExifWriter.tiff(fields)
-    let length = (0..<4).reversed().map { UInt8(truncatingIfNeeded: tiff.count >> (8 * $0)) }
     // After the signature and the header chunk; the reader doesn't verify checksums.
-    let chunk = length + Array("eXIf".utf8) + tiff + [0, 0, 0, 0]
+    let chunk = bigEndian(tiff.count) + Array("eXIf".utf8) + tiff + [0, 0, 0, 0]
     let read = PhotoMetadata(Array(png.prefix(33)) + chunk + Array(png.dropFirst(33)))
     #expect(read.focalLengthIn35mmFilm == 28)
   }

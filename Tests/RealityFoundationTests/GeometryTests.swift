@@ -4,7 +4,7 @@ import Testing
 @Suite struct BoundingBoxTests {
   let box = BoundingBox(min: [-1, -2, -3], max: [1, 2, 5])
 
-  @Test func measures() {
+  @Test func boxesHaveCenterExtentsAndRadius() {
     #expect(box.center == [0, 0, 1] && box.extents == [2, 4, 8])
     #expect(abs(box.boundingRadius - Float(84).squareRoot() / 2) < 1e-6)
     #expect(!box.isEmpty)
@@ -22,7 +22,7 @@ import Testing
     #expect(empty.distanceSquared(toPoint: .zero) == .infinity)
   }
 
-  @Test func containsAndIntersects() {
+  @Test func boxesContainAndIntersect() {
     #expect(box.contains([1, 2, 5]) && !box.contains([1, 2, 5.01]))
     let other = BoundingBox(min: [0.5, 0, 0], max: [3, 1, 1])
     #expect(box.intersects(other) && !box.contains(other))

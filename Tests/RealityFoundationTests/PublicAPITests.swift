@@ -169,7 +169,7 @@ private func summary(of result: PhotogrammetrySession.Result) -> String {
     #expect(!CVPixelBufferIsPlanar(image) && CVPixelBufferGetPlaneCount(image) == 0)
   }
 
-  @Test func lensAndEntityTypesExist() {
+  @Test func lensEntityAndLimitTypesExist() {
     let lens = LensDistortionData(center: [1, 2], radialLookupTable: [0, 0.1])
     #expect(lens.center == [1, 2] && lens.radialLookupTable.count == 2)
     let component: any Component = Transform.identity

@@ -11,24 +11,10 @@ import Testing
   typealias Session = PhotogrammetrySession
   typealias Output = Session.Output
 
-  private func run(_ session: Session, _ requests: [Session.Request]) async throws -> [Output] {
-    try session.process(requests: requests)
-    var outputs: [Output] = []
-    for try await output in session.outputs {
-      outputs.append(output)
-      if ["processingComplete", "processingCancelled"].contains(name(of: output)) { break }
-    }
-    return outputs
-  }
-
   private func results(in outputs: [Output]) -> [Session.Request: Session.Result] {
     outputs.reduce(into: [:]) { results, output in
       if case .requestComplete(let request, let result) = output { results[request] = result }
     }
-  }
-
-  private func errors(in outputs: [Output]) -> [any Error] {
-    outputs.compactMap { if case .requestError(_, let error) = $0 { error } else { nil } }
   }
 
   @Test func allResultsShareOneFrame() async throws {

@@ -3,6 +3,7 @@ import ImageFiles
 import Kernels
 import Pipeline
 import SceneModel
+import TestSupport
 import Testing
 
 @testable import RealityFoundation

@@ -161,19 +161,3 @@ import Testing
     #expect(state.stitchingIncomplete().isEmpty)
   }
 }
-
-/// The name of an output's case.
-func name(of output: PhotogrammetrySession.Output) -> String {
-  let text = String(describing: output)
-  return String(text.prefix { $0.isLetter })
-}
-
-/// The request that an output is about.
-func request(of output: PhotogrammetrySession.Output) -> PhotogrammetrySession.Request? {
-  switch output {
-  case .requestProgress(let request, _), .requestProgressInfo(let request, _),
-    .requestError(let request, _), .requestComplete(let request, _):
-    request
-  default: nil
-  }
-}

@@ -1,5 +1,6 @@
 import Foundation
 import SceneModel
+import TestSupport
 import Testing
 
 @testable import Pipeline
@@ -8,22 +9,6 @@ import Testing
 /// The behavior of a session with a scripted engine.
 @Suite(.timeLimit(.minutes(10))) struct SessionTests {
   typealias Session = PhotogrammetrySession
-  typealias Output = Session.Output
-
-  /// Reads outputs up to and including the end of processing.
-  private func run(_ session: Session, _ requests: [Session.Request]) async throws -> [Output] {
-    try session.process(requests: requests)
-    return try await outputsUntilEnd(session.outputs)
-  }
-
-  private func outputsUntilEnd(_ sequence: Session.Outputs) async throws -> [Output] {
-    var outputs: [Output] = []
-    for try await output in sequence {
-      outputs.append(output)
-      if ["processingComplete", "processingCancelled"].contains(name(of: output)) { break }
-    }
-    return outputs
-  }
 
   private func withPhotos(_ body: (URL) async throws -> Void) async throws {
     try await withTemporaryFolder { folder in
@@ -77,7 +62,7 @@ import Testing
       let names = outputs.map(name(of:))
       #expect(names.contains("requestError") && names.contains("requestComplete"))
       #expect(names.last == "processingComplete")
-      let error = try #require(firstError(in: outputs) as? ProcessingError)
+      let error = try #require(errors(in: outputs).first as? ProcessingError)
       #expect(error.code == .emptyCrop && !error.remedy.isEmpty)
     }
   }
@@ -99,7 +84,7 @@ import Testing
       let outputs = try await run(session, [.modelEntity(detail: .medium), .poses])
       let names = outputs.map(name(of:))
       #expect(names.contains("requestComplete") && names.last == "processingComplete")
-      let error = try #require(firstError(in: outputs) as? ProcessingError)
+      let error = try #require(errors(in: outputs).first as? ProcessingError)
       #expect(error.code == .outOfMemory && error.remedy.contains("lower detail"))
     }
   }
@@ -111,7 +96,7 @@ import Testing
       let outputs = try await run(session, [.bounds, .poses])
       let names = outputs.map(name(of:))
       #expect(names == ["requestError", "requestError", "processingComplete"])
-      let error = try #require(firstError(in: outputs))
+      let error = try #require(errors(in: outputs).first)
       #expect((error as NSError).code == ProcessingError.Code.tooFewPhotos.rawValue)
       #expect(sentence(of: error).contains("2 usable photos"))
     }
@@ -121,13 +106,14 @@ import Testing
     try await withPhotos { folder in
       let session = Session(
         folder: folder, .init(alignmentError: .alignmentFailed(reason: "no overlap.")))
-      let error = try #require(firstError(in: try await run(session, [.poses])))
+      let outputs = try await run(session, [.poses])
+      let error = try #require(errors(in: outputs).first)
       #expect((error as NSError).code == 6)
       #expect(error.localizedDescription.contains("no overlap."))
     }
   }
 
-  @Test func cancels() async throws {
+  @Test func canceledSessionsStopAndCanContinue() async throws {
     try await withPhotos { folder in
       let journal = ScriptedEngine.Journal()
       let session = Session(folder: folder, .init(repeatsUntilCanceled: true), journal: journal)
@@ -193,12 +179,6 @@ import Testing
       for _ in 0..<1000 where reference != nil { try await Task.sleep(for: .milliseconds(1)) }
       #expect(reference == nil)
     }
-  }
-
-  private func firstError(in outputs: [Output]) -> (any Error)? {
-    outputs.lazy.compactMap { output -> (any Error)? in
-      if case .requestError(_, let error) = output { error } else { nil }
-    }.first
   }
 }
 

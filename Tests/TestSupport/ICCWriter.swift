@@ -19,8 +19,8 @@ package enum ICCWriter {
   /// A profile with the given primaries.
   package static func profile(_ primaries: Primaries) -> [UInt8] {
     let name =
-      Array("mluc".utf8) + zeros(4) + big(1) + big(12) + Array("enUS".utf8) + big(2)
-      + big(28) + [0, 0x41, 0, 0]
+      Array("mluc".utf8) + zeros(4) + bigEndian(1) + bigEndian(12) + Array("enUS".utf8)
+      + bigEndian(2) + bigEndian(28) + [0, 0x41, 0, 0]
     // Exponent, slope, offset, slope of the linear part and its end.
     let curve =
       Array("para".utf8) + zeros(4) + [0, 3, 0, 0]
@@ -30,15 +30,15 @@ package enum ICCWriter {
       ("rXYZ", xyz(primaries.red)), ("gXYZ", xyz(primaries.green)),
       ("bXYZ", xyz(primaries.blue)), ("rTRC", curve), ("gTRC", curve), ("bTRC", curve),
     ]
-    var table = big(tags.count)
+    var table = bigEndian(tags.count)
     var content: [UInt8] = []
     for tag in tags {
-      table += Array(tag.name.utf8) + big(132 + 12 * tags.count + content.count)
-      table += big(tag.content.count)
+      table += Array(tag.name.utf8) + bigEndian(132 + 12 * tags.count + content.count)
+      table += bigEndian(tag.content.count)
       content += tag.content
     }
     let header =
-      big(128 + table.count + content.count) + zeros(4) + big(0x0400_0000)
+      bigEndian(128 + table.count + content.count) + zeros(4) + bigEndian(0x0400_0000)
       + Array("mntrRGB XYZ ".utf8) + zeros(12) + Array("acsp".utf8) + zeros(28)
       + [0.9642, 1, 0.8249].flatMap { fixed($0) } + zeros(48)
     return header + table + content
@@ -49,10 +49,8 @@ package enum ICCWriter {
   }
 
   /// s15Fixed16 number.
-  private static func fixed(_ value: Double) -> [UInt8] { big(Int((value * 65536).rounded())) }
-
-  private static func big(_ value: Int) -> [UInt8] {
-    [24, 16, 8, 0].map { UInt8(truncatingIfNeeded: value >> $0) }
+  private static func fixed(_ value: Double) -> [UInt8] {
+    bigEndian(Int((value * 65536).rounded()))
   }
 
   private static func zeros(_ count: Int) -> [UInt8] { [UInt8](repeating: 0, count: count) }

@@ -2,8 +2,16 @@ import Foundation
 import ImageFiles
 import Kernels
 import SceneModel
+import TestFiles
 
 extension TemporaryFolder {
+  /// Writes the JPEG files `photos/p0.jpg`, `photos/p1.jpg` and so on, without metadata.
+  package func writePhotos(_ photos: [RasterImage]) throws {
+    for (index, photo) in photos.enumerated() {
+      try write(ImageCodec.encodeJPEG(photo, quality: 0.95), as: "photos/p\(index).jpg")
+    }
+  }
+
   /// Writes photos as JPEG files named like rendered photos, starting at number `first`. A focal
   /// length in pixels is stored in their EXIF data.
   package func write(

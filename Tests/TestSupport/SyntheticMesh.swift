@@ -25,8 +25,8 @@ package enum SyntheticMesh {
     ]
     for (u, v) in axes {
       let normal = u.cross(v)
-      append(grid(cells: cells, origin: normal - u - v, u: 2 * u, v: 2 * v), to: &mesh)
-      append(grid(cells: cells, origin: -normal - u - v, u: 2 * v, v: 2 * u), to: &mesh)
+      mesh.append(grid(cells: cells, origin: normal - u - v, u: 2 * u, v: 2 * v))
+      mesh.append(grid(cells: cells, origin: -normal - u - v, u: 2 * v, v: 2 * u))
     }
     return welded(mesh)
   }
@@ -52,14 +52,6 @@ package enum SyntheticMesh {
     }
     mesh.normals = mesh.positions.map { _ in u.cross(v).normalized }
     return mesh
-  }
-
-  /// Appends the triangles of `other`.
-  package static func append(_ other: Mesh, to mesh: inout Mesh) {
-    let first = UInt32(mesh.positions.count)
-    mesh.positions += other.positions
-    mesh.normals += other.normals
-    mesh.triangles += other.triangles.map { .init($0.a + first, $0.b + first, $0.c + first) }
   }
 
   /// The mesh with coincident vertices merged, without normals.

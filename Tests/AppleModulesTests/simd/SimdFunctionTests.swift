@@ -10,7 +10,7 @@ import simd
     #expect(sign(SIMD3<Float>(-3, 0, 2)) == [-1, 0, 1])
   }
 
-  @Test func rootsAndReciprocals() {
+  @Test func rootsAndReciprocalsWorkByComponent() {
     let x = SIMD2<Float>(4, 16)
     #expect(sqrt(x) == [2, 4] && rsqrt(x) == [0.5, 0.25] && recip(x) == [0.25, 0.0625])
     #expect(simd_recip(x) == recip(x) && simd_rsqrt(x) == rsqrt(x))
@@ -29,7 +29,7 @@ import simd
     #expect(smoothstep(SIMD2<Float>(3, 4), edge0: [2, 2], edge1: [4, 4]) == [0.5, 1])
   }
 
-  @Test func normsAndDistances() {
+  @Test func normsAndDistancesFollowTheirDefinitions() {
     let (x, y) = (SIMD3<Double>(1, -2, 2), SIMD3<Double>(1, 1, 6))
     #expect(norm_one(x) == 5 && norm_inf(x) == 2 && length(x) == 3 && length_squared(x) == 9)
     #expect(distance(x, y) == 5 && distance_squared(x, y) == 25)

@@ -1,5 +1,5 @@
 import Foundation
-import TestSupport
+import Testing
 
 /// A finished process of the built program.
 struct CommandProcess {
@@ -7,7 +7,8 @@ struct CommandProcess {
   var output: String
   var errors: String
 
-  /// Runs to the end. Calls `interrupting` with the process once it has written to stderr.
+  /// Runs to the end, with empty standard input. Calls `interrupting` with the process once it has
+  /// written to standard error.
   static func run(
     _ arguments: [String], in folder: URL, interrupting: ((Process) -> Void)? = nil
   ) throws -> CommandProcess {
@@ -34,6 +35,20 @@ struct CommandProcess {
     return CommandProcess(
       exitCode: process.terminationStatus, output: try text(of: names[0]),
       errors: try text(of: names[1]))
+  }
+
+  /// Runs the program, which must exit with `code` and print nothing but an error that contains
+  /// `words`.
+  static func expectFailure(
+    _ arguments: [String], in folder: URL, code: Int32, mentioning words: [String],
+    sourceLocation: SourceLocation = #_sourceLocation
+  ) throws {
+    let run = try run(arguments, in: folder)
+    #expect(run.exitCode == code, "\(run.errors)", sourceLocation: sourceLocation)
+    #expect(run.output.isEmpty, sourceLocation: sourceLocation)
+    for word in words {
+      #expect(run.errors.contains(word), "\(run.errors)", sourceLocation: sourceLocation)
+    }
   }
 
   private static func text(of file: URL) throws -> String {

@@ -52,11 +52,9 @@ import Testing
 
   @Test func helpGoesToStdout() throws {
     let temporary = try TemporaryFolder()
-    let folder = temporary.url
-    let run = try CommandProcess.run(["--help"], in: folder)
+    let run = try CommandProcess.run(["--help"], in: temporary.url)
     #expect(run.exitCode == 0)
     #expect(run.output.contains("photogrammetry-cli photos/ model.usdz"))
     #expect(run.errors.isEmpty)
-    _ = temporary
   }
 }

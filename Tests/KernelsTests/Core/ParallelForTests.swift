@@ -28,7 +28,7 @@ import Testing
     }
   }
 
-  @Test func cancellingEndsTheLoop() throws {
+  @Test func cancelingEndsTheLoop() throws {
     let flag = CancellationFlag()
     flag.cancel()
     var visits = [Int32](repeating: 0, count: 100)

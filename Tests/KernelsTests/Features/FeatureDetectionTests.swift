@@ -22,7 +22,7 @@ import Testing
     return image
   }
 
-  /// Random checkerboards of several sizes: rich texture.
+  /// Overlapping squares of random size and brightness: rich texture.
   static func texture(width: Int, height: Int, seed: UInt64 = 7) -> RasterImage {
     var random = SeededGenerator(seed: seed)
     let spots = (0..<(width * height / 400)).map { _ in

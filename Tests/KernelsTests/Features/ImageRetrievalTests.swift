@@ -14,19 +14,12 @@ import Testing
     }
   }
 
-  static func features(_ descriptors: [UInt8]) -> FeatureSet {
-    let count = descriptors.count / FeatureSet.descriptorLength
-    return FeatureSet(
-      positions: Array(repeating: .zero, count: count), scales: Array(repeating: 1, count: count),
-      orientations: Array(repeating: 0, count: count), descriptors: descriptors,
-      colors: Array(repeating: .zero, count: count))
-  }
-
   @Test func vectorsHaveUnitLength() throws {
     let descriptors = Self.descriptors(300, kinds: 9)
     let vocabulary = try VisualVocabulary(count: 8, descriptors: descriptors, KernelControl())
     #expect(vocabulary.count == 8)
-    let vector = try vocabulary.vector(of: Self.features(descriptors), KernelControl())
+    let vector = try vocabulary.vector(
+      of: DescriptorMatchingTests.set(descriptors), KernelControl())
     #expect(vector.count == 8 * 128)
     #expect(abs(vector.reduce(0) { $0 + $1 * $1 } - 1) < 1e-4)
     let empty = try vocabulary.vector(of: FeatureSet(), KernelControl())
@@ -47,7 +40,7 @@ import Testing
     let vectors = try [1, 2].map { threads in
       let control = KernelControl(threadCount: threads)
       return try VisualVocabulary(count: 16, descriptors: descriptors, seed: 5, control)
-        .vector(of: Self.features(descriptors), control)
+        .vector(of: DescriptorMatchingTests.set(descriptors), control)
     }
     #expect(vectors[0] == vectors[1])
   }

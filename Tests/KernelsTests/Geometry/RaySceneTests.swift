@@ -3,16 +3,10 @@ import SceneModel
 import TestSupport
 import Testing
 
-@Suite struct TextureRaysTests {
-  /// A camera at (0, 0, `distance`) looking along −z, and a gray photo.
-  private func view(distance: Double, side: Int = 200, value: UInt8 = 100) -> PinholeView {
-    let camera = Camera(width: side, height: side, focalLength: SIMD2(repeating: Double(side)))
-    let rotation = Quaternion(x: 1, y: 0, z: 0, w: 0)
-    return PinholeView(
-      photo: ID(0), image: RasterImage(width: side, height: side, channels: 3, filledWith: value),
-      camera: camera,
-      cameraFromWorld: RigidTransform(
-        rotation: rotation, translation: -(rotation * SIMD3<Double>(0, 0, distance))))
+@Suite struct RaySceneTests {
+  private func view(distance: Double) -> PinholeView {
+    .fromAbove(
+      RasterImage(width: 200, height: 200, channels: 3, filledWith: 100), distance: distance)
   }
 
   @Test func aCameraSeesTheFacingSideOfACube() throws {
@@ -33,9 +27,8 @@ import Testing
   @Test func occludersHideAndTheirEdgesAreUncertain() throws {
     let wall = SyntheticMesh.grid(cells: 20, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
     var mesh = wall
-    SyntheticMesh.append(
-      SyntheticMesh.grid(cells: 2, origin: [-0.3, -0.3, 1], u: [0.6, 0, 0], v: [0, 0.6, 0]),
-      to: &mesh)
+    mesh.append(
+      SyntheticMesh.grid(cells: 2, origin: [-0.3, -0.3, 1], u: [0.6, 0, 0], v: [0, 0.6, 0]))
     let scene = try RayScene(mesh, KernelControl())
     let seen = try scene.observations(in: view(distance: 4), KernelControl())
     func middle(_ face: Int32) -> SIMD3<Float> {

@@ -27,7 +27,7 @@ import Testing
   @Test(arguments: [1999, 500, 60]) func aSphereKeepsItsVolume(budget: Int) throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 5)
     let simple = try mesh.simplified(maximumTriangles: budget, KernelControl())
-    #expect(abs(volume(of: simple) / volume(of: mesh) - 1) < 1.25 / Double(budget))
+    #expect(abs(simple.volume / mesh.volume - 1) < 1.25 / Double(budget))
   }
 
   @Test(arguments: [600, 200]) func aTubeKeepsItsBoundary(budget: Int) throws {
@@ -74,8 +74,7 @@ import Testing
   @Test func surfacesSharingAnEdgeStayConnected() throws {
     var mesh = Mesh()
     for u in [SIMD3<Float>(1, 0, 0), [-1, 0, 0.5], [0, 0, -1]] {
-      SyntheticMesh.append(
-        SyntheticMesh.grid(cells: 12, origin: .zero, u: u, v: [0, 1, 0]), to: &mesh)
+      mesh.append(SyntheticMesh.grid(cells: 12, origin: .zero, u: u, v: [0, 1, 0]))
     }
     let simple = try SyntheticMesh.welded(mesh)
       .simplified(maximumTriangles: 150, KernelControl())
@@ -159,12 +158,6 @@ import Testing
   private func normal(of triangle: Triangle, in mesh: Mesh) -> SIMD3<Float> {
     let a = mesh.positions[Int(triangle.a)]
     return (mesh.positions[Int(triangle.b)] - a).cross(mesh.positions[Int(triangle.c)] - a)
-  }
-
-  private func volume(of mesh: Mesh) -> Double {
-    mesh.triangles.reduce(0) {
-      $0 + Double(mesh.positions[Int($1.a)].dot(normal(of: $1, in: mesh))) / 6
-    }
   }
 
   /// The number of triangles at each edge; the smaller index first.

@@ -60,7 +60,7 @@ import Testing
     for index in 0..<20 {
       var small = SyntheticMesh.sphere(radius: 0.05, subdivisions: 0)
       small.positions = small.positions.map { $0 + [3 + Float(index), 0, 0] }
-      SyntheticMesh.append(small, to: &mesh)
+      mesh.append(small)
     }
     let simple = try mesh.simplified(maximumTriangles: 50, KernelControl())
     #expect(simple.triangles.count <= 50)

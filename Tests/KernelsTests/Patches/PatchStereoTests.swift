@@ -233,7 +233,7 @@ import Testing
     #expect(distances[cloud.count * 95 / 100] < 0.04)
     var angles: [Double] = []
     for index in 0..<cloud.count {
-      // Two others confirm a patch, and the cloud lists all three.
+      // A point has at least two photos, in order.
       #expect(cloud.visiblePhotos(of: index).count >= 2)
       #expect(cloud.visiblePhotos(of: index).elementsEqual(cloud.visiblePhotos(of: index).sorted()))
       let (p, n) = (SIMD3<Double>(cloud.positions[index]), SIMD3<Double>(cloud.normals[index]))

@@ -75,8 +75,7 @@ import Testing
 
   @Test func aLongWallOccludesItsFormFactor() throws {
     var dense = plane
-    SyntheticMesh.append(
-      SyntheticMesh.grid(cells: 4, origin: [1, -40, 0], u: [0, 0, 1], v: [0, 80, 0]), to: &dense)
+    dense.append(SyntheticMesh.grid(cells: 4, origin: [1, -40, 0], u: [0, 0, 1], v: [0, 80, 0]))
     let open = try canvas().occlusion(
       source(dense: dense), raysPerTexel: 8, maximumDistance: 100, KernelControl())
     for x in stride(from: 12, to: 54, by: 3) {
@@ -92,11 +91,7 @@ import Testing
     let canvas = try canvas()
     #expect(abs(canvas.usage - 48 * 48 / Double(64 * 64)) < 0.02)
     let image = RasterImage(width: 100, height: 100, channels: 3, filledWith: 80)
-    let rotation = Quaternion(x: 1, y: 0, z: 0, w: 0)
-    let view = PinholeView(
-      photo: ID(0), image: image, camera: Camera(width: 100, height: 100, focalLength: [100, 100]),
-      cameraFromWorld: RigidTransform(
-        rotation: rotation, translation: -(rotation * SIMD3<Double>(0, 0, 4))))
+    let view = PinholeView.fromAbove(image, distance: 4)
     func paints(_ weight: Float, _ offset: Float) -> [FacePaint] {
       let value = SIMD3<Float>(repeating: offset)
       return plane.triangles.indices.map {
@@ -120,11 +115,7 @@ import Testing
       image.pixels[3 * index] = UInt8(2 * (index % 120))
       image.pixels[3 * index + 1] = UInt8(2 * (index / 120))
     }
-    let rotation = Quaternion(x: 1, y: 0, z: 0, w: 0)
-    let view = PinholeView(
-      photo: ID(0), image: image, camera: Camera(width: 120, height: 120, focalLength: [120, 120]),
-      cameraFromWorld: RigidTransform(
-        rotation: rotation, translation: -(rotation * SIMD3<Double>(0, 0, 4))))
+    let view = PinholeView.fromAbove(image, distance: 4)
     let zero = SIMD3<Float>.zero
     let canvas = try canvas()
     try canvas.paint(

@@ -60,7 +60,7 @@ import Testing
     #expect(labels == [3, -1, 9])
   }
 
-  @Test func leastSquaresOfAChainOfDifferences() throws {
+  @Test func chainsOfDifferencesAreSolved() throws {
     var system = SparseLeastSquares(unknownCount: 50)
     system.add(0, value: [1, 2, 3], weight: 2)
     for index in 1..<50 { system.add(index, minus: index - 1, value: [1, 0, -1], weight: 0.5) }

@@ -27,10 +27,7 @@ private struct FinishedRun {
       let stripes = sin(17 * p.x) + sin(23 * p.y + 5 * p.z)
       return SIMD3(130 + 40 * stripes, 120 + 60 * sin(31 * p.z), 140)
     }
-    for (index, image) in scene.images.enumerated() {
-      try temporary.write(
-        try ImageCodec.encodeJPEG(image, quality: 0.95), as: "photos/p\(index).jpg")
-    }
+    try temporary.writePhotos(scene.images)
     if let mask { try temporary.write(ImageCodec.encodePNG(mask), as: "photos/masks/p0.png") }
     ingested = try PhotoIngestion().run(
       folder: temporary.url.appendingPathComponent("photos"), StageContext())
@@ -214,7 +211,7 @@ private struct FinishedRun {
     let other = try ImageCodec.encodeJPEG(
       TexturePattern.image(width: 320, height: 320, seed: 3), quality: 0.9)
     try run.temporary.write(other, as: "photos/p2.jpg")
-    try run.temporary.write(Array("no photo".utf8), as: "photos/p7.jpg")
+    try run.temporary.write("no photo", as: "photos/p7.jpg")
     let pipeline = ReconstructionPipeline(
       .savedRun(try run.saved()), configuration: PipelineConfiguration())
     let output = run.folder.appendingPathComponent("m.usdz")

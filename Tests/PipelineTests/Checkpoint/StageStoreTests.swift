@@ -160,7 +160,7 @@ import Testing
 
   init() throws { folder = try TemporaryFolder() }
 
-  @Test func oneRunAtATime() throws {
+  @Test func onlyOneRunHasTheLock() throws {
     let lock = try DirectoryLock(folder.url, isShared: false)
     #expect(throws: CheckpointError.inUse(directory: folder.url.path)) {
       _ = try DirectoryLock(folder.url, isShared: false)
@@ -187,7 +187,7 @@ import Testing
     (try? DirectoryLock(folder.url, isShared: false)) != nil
   }
 
-  @Test func sharesGoTogether() throws {
+  @Test func sharedLocksCoexist() throws {
     let first = try DirectoryLock(folder.url, isShared: true)
     let second = try DirectoryLock(folder.url, isShared: true)
     #expect(throws: CheckpointError.self) {

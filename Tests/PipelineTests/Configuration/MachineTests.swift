@@ -33,6 +33,8 @@ import Testing
   @Test func unparsableFilesAreNoShortfall() {
     let machine = Machine(memory: "", processor: "", containerLimit: nil, containerUse: nil)
     #expect(machine.processorFeatures == nil && machine.totalMemoryBytes > 0)
+    #expect(machine.availableMemoryBytes == machine.totalMemoryBytes)
+    #expect(!machine.shortfalls.contains { $0.contains("processor lacks") })
   }
 
   @Test func limitsFollowTheMemory() {

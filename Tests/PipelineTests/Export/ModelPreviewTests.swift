@@ -205,7 +205,7 @@ import Testing
     var mesh = SyntheticMesh.grid(cells: 1, origin: [-1, -1, 0], u: [2, 0, 0], v: [0, 2, 0])
     let near = SyntheticMesh.grid(
       cells: 1, origin: [-0.5, -0.5, 0.5], u: [1, 0, 0], v: [0, 1, 0])
-    SyntheticMesh.append(near, to: &mesh)
+    mesh.append(near)
     let uv: [SIMD2<Float>] = [[0.5, 0.5]]
     let model = TexturedMesh(
       mesh: mesh, textureCoordinates: uv,

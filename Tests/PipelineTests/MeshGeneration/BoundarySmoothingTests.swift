@@ -71,7 +71,7 @@ import Testing
     #expect(smooth != isRemoved)
   }
 
-  @Test func fullySupportedRodIsKept() {
+  @Test func straightBoundaryOfARodIsUnchanged() {
     var mesh = Mesh()
     for ring in 0...40 {
       for corner in [SIMD2<Float>(1, 0), [0, 1], [-1, 0], [0, -1]] {
@@ -84,7 +84,7 @@ import Testing
         mesh.triangles += [Triangle(a, a + 4, b), Triangle(b, a + 4, b + 4)]
       }
     }
-    // Its lower quarter is unsupported.
+    // Its lower quarter is removed.
     let isRemoved = mesh.triangles.map { mesh.center(of: $0).y < 10 }
     let smooth = BoundarySmoothing().run(mesh, isRemoved: isRemoved) { _ in true }
     for (triangle, isRemoved) in zip(mesh.triangles, smooth) {

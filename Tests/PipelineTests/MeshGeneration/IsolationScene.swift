@@ -30,18 +30,11 @@ struct IsolationScene {
       let elevation = index % 2 == 0 ? 0.35 : 0.9
       let direction = SIMD3(
         cos(angle) * cos(elevation), sin(elevation), sin(angle) * cos(elevation))
-      return Self.pose(at: target + cameraDistance * direction, towards: target)
+      return SyntheticScene.lookingAt(target, from: target + cameraDistance * direction)
     }
     return Reconstruction(
       cameras: [camera], photos: photos, poses: poses, points: [],
       worldFrame: WorldFrame(scale: .arbitrary, up: .supportPlane))
-  }
-
-  static func pose(at center: SIMD3<Double>, towards target: SIMD3<Double>) -> RigidTransform {
-    let z = (target - center).normalized
-    let x = z.cross([0, 1, 0]).normalized
-    let rotation = Quaternion(Matrix3(rows: x, z.cross(x), z))
-    return RigidTransform(rotation: rotation, translation: -(rotation * center))
   }
 
   /// Adds a point that every photo on its side of the surface sees.

@@ -56,13 +56,6 @@ import Testing
     return edges.count
   }
 
-  func volume(_ mesh: Mesh) -> Double {
-    mesh.triangles.reduce(0) { sum, t in
-      let (a, b, c) = mesh.corners(of: t)
-      return sum + SIMD3<Double>(a).dot(SIMD3<Double>(b).cross(SIMD3<Double>(c))) / 6
-    }
-  }
-
   /// The volume of the ball below a height above its center.
   func volumeOfBall(under height: Double) -> Double {
     let h = 0.5 + height
@@ -75,7 +68,7 @@ import Testing
     let errors = mesh.positions.map { abs($0.length - 0.5) }
     #expect((errors.max() ?? 1) < 0.005)
     #expect(openEdges(mesh) == 0)
-    #expect(abs(volume(mesh) / (4 / 3 * .pi * 0.125) - 1) < 0.01)
+    #expect(abs(mesh.volume / (4 / 3 * .pi * 0.125) - 1) < 0.01)
   }
 
   @Test func meshHasNormalsAndColorsOfItsPatches() throws {
@@ -128,8 +121,8 @@ import Testing
     #expect(openEdges(closed) == 0)
     #expect(faces(closed, where: isBulge) == 0)
     // Surface within 2.5 spacings of a sample is supported.
-    #expect(volume(closed) > 0.99 * volumeOfBall(under: 0.17))
-    #expect(volume(closed) < 1.01 * volumeOfBall(under: 0.17 + 2.5 * 0.02))
+    #expect(closed.volume > 0.99 * volumeOfBall(under: 0.17))
+    #expect(closed.volume < 1.01 * volumeOfBall(under: 0.17 + 2.5 * 0.02))
     #expect(openEdges(try trimmed(balloon, cloud, reconstruction, fillsLarge: false)) > 10)
   }
 

@@ -24,7 +24,7 @@ import Testing
       worldFrame: WorldFrame(scale: scale))
   }
 
-  @Test func metricsOfABlock() throws {
+  @Test func metricsAreThoseOfTheBlock() throws {
     // On a point, within three footprints of one, and beyond.
     let sparse: [SIMD3<Double>] = [[0.5, 0.5, 0.2], [0.5, -0.29, 0.2], [0.5, -0.31, 0.2]]
     let notes = StageNotes()
@@ -48,7 +48,10 @@ import Testing
     let values = CloudMetrics().run(flat, reconstruction([], .given), StageNotes())
     #expect(values.pointsPerCubicMeter == nil)
     #expect(values.sparseCoverage == 0)
-    CloudMetrics().run(PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
+    let empty = CloudMetrics().run(
+      PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
+    #expect(empty.points == 0 && empty.sparsePoints == 1 && empty.sparseCoverage == 0)
+    #expect(empty.pointsPerCubicMeter == nil && empty.pointsPerSparsePoint == 0)
   }
 
   @Test func nonFinitePointsAreSkipped() {

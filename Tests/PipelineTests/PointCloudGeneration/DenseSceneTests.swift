@@ -35,7 +35,7 @@ import Testing
         scene.object, cameras: NamedCamera.cameras(of: reconstruction)))
   }
 
-  @Test func richTexture() throws {
+  @Test func richTextureIsCoveredAccurately() throws {
     let scores = try Self.rich.get().thresholds
     #expect(scores[0].precision > 0.96)
     #expect(scores[1].precision > 0.99)
@@ -45,7 +45,7 @@ import Testing
 
   /// A tenth of the contrast, and less in some regions: completeness is lower, accuracy nearly
   /// equal.
-  @Test func lowTexture() throws {
+  @Test func lowTextureCostsLittleAccuracy() throws {
     let (rich, low) = (try Self.rich.get(), try Self.scores(.lowTexture))
     #expect(low.thresholds[0].precision > 0.9)
     #expect(low.thresholds[1].precision > 0.98)
@@ -55,7 +55,7 @@ import Testing
   }
 
   /// Rods, a wire and leaves 1.5 to 5 pixels thick.
-  @Test func thinParts() throws {
+  @Test func thinPartsAreCoveredAccurately() throws {
     let scores = try Self.scores(.thin).thresholds
     #expect(scores[0].precision > 0.95)
     #expect(scores[1].precision > 0.985)

@@ -1,4 +1,5 @@
 import Foundation
+import TestSupport
 import Testing
 
 @testable import Pipeline
@@ -54,13 +55,11 @@ import Testing
   }
 
   @Test func photoFolderIsNotAMaskFolder() throws {
-    let folder = FileManager.default.temporaryDirectory
-      .appendingPathComponent("masks-\(UUID().uuidString)", isDirectory: true)
-    try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
-    defer { try? FileManager.default.removeItem(at: folder) }
-    try Data([1]).write(to: folder.appendingPathComponent("a.png"))
-    let files = try MaskFiles(folder: folder, maskFolder: folder)
-    #expect(files.photos.count == 1)
-    #expect(pairs(files).isEmpty)
+    try withTemporaryFolder { folder in
+      try Data([1]).write(to: folder.appendingPathComponent("a.png"))
+      let files = try MaskFiles(folder: folder, maskFolder: folder)
+      #expect(files.photos.count == 1)
+      #expect(pairs(files).isEmpty)
+    }
   }
 }

@@ -58,7 +58,7 @@ import Testing
     try folder.write(ImageCodec.encodePNG(mask(width: 100, height: 80, value: 1)), as: "1_mask.png")
     try folder.write(ImageCodec.encodePNG(mask(width: 320, height: 320)), as: "2_mask.png")
     try folder.write(ImageCodec.encodePNG(mask(value: 0)), as: "3_mask.png")
-    try folder.write(Array("no image".utf8), as: "4_mask.png")
+    try folder.write("no image", as: "4_mask.png")
     try folder.write(
       ImageCodec.encodeJPEG(mask(width: 800, height: 640), quality: 0.5), as: "5_mask.jpg")
     try folder.write(ImageCodec.encodePNG(mask()), as: "9_mask.png")
@@ -95,7 +95,7 @@ import Testing
     let folder = try TemporaryFolder()
     try folder.write(ImageCodec.encodePNG(photo()), as: "a.png")
     try folder.write(ImageCodec.encodePNG(mask()), as: "a_mask.png")
-    try folder.write(Array("no image".utf8), as: "masks/a.png")
+    try folder.write("no image", as: "masks/a.png")
     let result = try ingest(folder, usesMasks: false)
     #expect(result.photos.map(\.name) == ["a.png"])
     #expect(result.photos[0].mask == nil)

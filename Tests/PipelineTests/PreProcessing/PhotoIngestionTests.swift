@@ -30,7 +30,7 @@ import Testing
     let good = try photos(6)
     for (index, bytes) in good.enumerated() { try folder.write(bytes, as: "IMG_\(index + 7).jpg") }
     try folder.write(Array(good[1].prefix(good[1].count / 2)), as: "cut.jpg")
-    try folder.write(Array("hello\n".utf8), as: "notes.txt")
+    try folder.write("hello\n", as: "notes.txt")
     try folder.write([], as: "empty.jpg")
     try folder.write(
       ImageCodec.encodePNG(TexturePattern.image(width: 100, height: 80, seed: 1)), as: "tiny.png")
@@ -72,7 +72,7 @@ import Testing
     let image = TexturePattern.image(width: 400, height: 300, seed: 3)
     try folder.write(ImageCodec.encodePNG(image), as: "a.jpg")
     try folder.write(photos(1)[0], as: "b.png")
-    try folder.write(Array("not a picture".utf8), as: "c.jpg")
+    try folder.write("not a picture", as: "c.jpg")
     let result = try PhotoIngestion().run(folder: folder.url, StageContext())
     #expect(result.photos.map(\.name) == ["a.jpg", "b.png"])
     #expect(result.rejected.map(\.fault) == [.unsupportedFormat])
@@ -160,7 +160,7 @@ import Testing
     #expect(results[0].cameras == results[1].cameras)
   }
 
-  @Test func cancellingStops() throws {
+  @Test func cancellationStops() throws {
     let folder = try TemporaryFolder()
     try folder.write(photos(1)[0], as: "a.jpg")
     let flag = CancellationFlag()

@@ -9,22 +9,6 @@ import Testing
 @testable import Pipeline
 
 @Suite struct SensorFilesTests {
-  /// An uncompressed TIFF file with one strip of 32-bit floating-point numbers.
-  private func tiff(width: Int, height: Int, _ values: [Float]) -> [UInt8] {
-    func little(_ value: Int, _ count: Int = 4) -> [UInt8] {
-      (0..<count).map { UInt8(truncatingIfNeeded: value >> (8 * $0)) }
-    }
-    // Tag, type (3: short, 4: long), value.
-    let fields = [
-      (256, 3, width), (257, 3, height), (258, 3, 32), (259, 3, 1), (262, 3, 1), (273, 4, 8),
-      (277, 3, 1), (278, 3, height), (279, 4, 4 * values.count), (339, 3, 3),
-    ]
-    let pixels = values.flatMap { little(Int($0.bitPattern)) }
-    return Array("II".utf8) + little(42, 2) + little(8 + pixels.count) + pixels
-      + little(fields.count, 2)
-      + fields.flatMap { little($0.0, 2) + little($0.1, 2) + little(1) + little($0.2) } + little(0)
-  }
-
   /// A photo as a phone writes it: HEIC, with the orientation in its `irot` box and in EXIF.
   private func heic(orientation: Int, seed: UInt32) throws -> [UInt8] {
     var fields = ExifFields()
@@ -39,15 +23,16 @@ import Testing
   @Test(.endToEnd) func readingsBelongToTheirPhotos() throws {
     let folder = try TemporaryFolder()
     try folder.write(heic(orientation: 6, seed: 1), as: "IMG_1.HEIC")
-    try folder.write(Array("0.0,-1.0,0.0".utf8), as: "IMG_1_gravity.TXT")
-    try folder.write(tiff(width: 3, height: 2, [1, 2, 3, 4, 5, 6]), as: "IMG_1_depth.TIF")
+    try folder.write("0.0,-1.0,0.0", as: "IMG_1_gravity.TXT")
+    let depths = TIFFWriter.numbers(width: 3, height: 2, [1, 2, 3, 4, 5, 6])
+    try folder.write(depths, as: "IMG_1_depth.TIF")
     try folder.write(heic(orientation: 1, seed: 2), as: "IMG_2.HEIC")
-    try folder.write(Array("up\n".utf8), as: "IMG_2_gravity.TXT")
-    try folder.write(Array("none".utf8), as: "IMG_2_depth.TIF")
+    try folder.write("up\n", as: "IMG_2_gravity.TXT")
+    try folder.write("none", as: "IMG_2_depth.TIF")
     try folder.write(heic(orientation: 1, seed: 3), as: "IMG_3.HEIC")
     try folder.write(
       ImageCodec.encodePNG(RasterImage(width: 3, height: 2, channels: 3)), as: "IMG_3_depth.TIF")
-    try folder.write(Array("0,0,-1".utf8), as: "other_gravity.txt")
+    try folder.write("0,0,-1", as: "other_gravity.txt")
 
     let notes = StageNotes()
     let result = try PhotoIngestion().run(folder: folder.url, StageContext(notes: notes))

@@ -50,7 +50,7 @@ import Testing
     #expect(try #require(samples.last?.estimate) < 1e-9)
   }
 
-  @Test func noEstimateBeforeThereIsEvidence() {
+  @Test func thereIsNoEstimateBeforeEvidence() {
     var estimator = ProgressEstimator(units: Self.units, at: 0) { Self.usual[$0.stage] ?? 0 }
     #expect(estimator.remainingSeconds(of: Self.units) == nil)
     estimator.advance(WorkUnit(stage: .preProcessing), to: 0.1, at: 0.4)

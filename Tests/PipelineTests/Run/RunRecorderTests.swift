@@ -60,7 +60,7 @@ import Testing
     #expect(recorder.report.stages.count == 2)
   }
 
-  @Test func aCancelledRunStartsNoStage() {
+  @Test func aCanceledRunStartsNoStage() {
     let flag = CancellationFlag()
     flag.cancel()
     let recorder = recorder(flag: flag)

@@ -125,7 +125,7 @@ import Testing
     #expect(try #require(worst) < 30)
   }
 
-  @Test func normalAndOcclusionMapsOfASphere() throws {
+  @Test func mapsOfASphereAreFlatAndUnoccluded() throws {
     let model = try texture(
       SphereScene(viewCount: 8, color: Self.color), mesh: SyntheticMesh.sphere(subdivisions: 3),
       maps: [.normal, .ambientOcclusion, .roughness, .displacement])

@@ -5,7 +5,7 @@ import Testing
 @Suite struct GeometryTests {
   let rotation = Quaternion(angle: 0.7, axis: [1, -2, 0.5])
 
-  @Test func quaternionMatrixRoundTrip() {
+  @Test func quaternionsSurviveTheirMatrix() {
     for angle in stride(from: -3.1, through: 3.1, by: 0.37) {
       for axis in [SIMD3<Double>(1, 0, 0), [0, 1, 0], [0, 0, 1], [1, -2, 0.5]] {
         let q = Quaternion(angle: angle, axis: axis)

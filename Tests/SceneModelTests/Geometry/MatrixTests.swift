@@ -38,7 +38,7 @@ import Testing
     #expect(eigen.vectors == [[0, 1, 0], [0, 0, 1], [1, 0, 0]])
   }
 
-  @Test func knownEigenvalues() {
+  @Test func knownEigenvaluesAreFound() {
     let eigen = Matrix3(rows: [2, 1, 0], [1, 2, 0], [0, 0, 5]).symmetricEigen
     for (value, expected) in zip(eigen.values, [1.0, 3, 5]) {
       #expect(abs(value - expected) < 1e-14)

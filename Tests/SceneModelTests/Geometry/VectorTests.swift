@@ -2,7 +2,7 @@ import SceneModel
 import Testing
 
 @Suite struct VectorTests {
-  @Test func productsOfTheAxes() {
+  @Test func axesMultiplyByTheRightHandRule() {
     let (x, y, z) = (SIMD3<Double>(1, 0, 0), SIMD3<Double>(0, 1, 0), SIMD3<Double>(0, 0, 1))
     #expect(x.cross(y) == z && y.cross(z) == x && z.cross(x) == y && y.cross(x) == -z)
     #expect(x.dot(x) == 1 && x.dot(y) == 0)

@@ -10,17 +10,13 @@ import Testing
 
   init() throws { temporary = try TemporaryFolder() }
 
-  private func write(_ text: String, as name: String) throws {
-    try temporary.write(Array(text.utf8), as: name)
-  }
-
   private func cameras(_ folder: String, isMetric: Bool = false) throws -> KnownCamerasArgument {
     try KnownCamerasArgument(temporary.url.path + "/" + folder, isMetric: isMetric)
   }
 
   private func writeSparse(_ folder: String) throws {
-    try write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: folder + "/cameras.txt")
-    try write("1 1 0 0 0 0 0 0 1 a.jpg\n\n", as: folder + "/images.txt")
+    try temporary.write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: folder + "/cameras.txt")
+    try temporary.write("1 1 0 0 0 0 0 0 1 a.jpg\n\n", as: folder + "/images.txt")
   }
 
   @Test(arguments: ["rig", "rig/sparse", "rig/sparse/0"])
@@ -40,7 +36,7 @@ import Testing
   @Test func camerasWithoutSizeAreMarked() throws {
     let entry =
       #""K": [[9, 0, 5], [0, 9, 4], [0, 0, 1]], "R": [[1,0,0],[0,1,0],[0,0,1]], "t": [0,0,0]"#
-    try write(
+    try temporary.write(
       #"[{"name": "a.jpg", \#(entry)}, {"name": "b.jpg", \#(entry), "width": 10, "height": 8}]"#,
       as: "rig/cameras.json")
     let known = try cameras("rig").cameras
@@ -49,8 +45,8 @@ import Testing
   }
 
   @Test func foldersWithoutCamerasAreInvalid() throws {
-    try write("", as: "empty/x")
-    try write("", as: "binary/sparse/images.bin")
+    try temporary.write("", as: "empty/x")
+    try temporary.write("", as: "binary/sparse/images.bin")
     for (folder, words) in [
       ("none", "does not exist"), ("empty/x", "is a file"), ("empty", "holds no cameras"),
       ("binary", "colmap model_converter"),

@@ -6,18 +6,19 @@ import Testing
 @testable import EngineCommands
 
 @Suite struct ScaleArgumentsTests {
+  private let temporary: TemporaryFolder
+
+  init() throws { temporary = try TemporaryFolder() }
+
   @Test func distancesComeFromOptionsAndFile() throws {
-    let temporary = try TemporaryFolder()
     let folder = temporary.url
-    for name in ["a=1.jpg", "b.jpg"] { try Data().write(to: folder.appendingPathComponent(name)) }
-    let file = folder.appendingPathComponent("points.json")
-    try Data(
+    for name in ["a=1.jpg", "b.jpg"] { try temporary.write("", as: name) }
+    let file = try temporary.write(
       """
       [{"meters": 0.2, "from": [{"photo": "a=1.jpg", "x": 1, "y": 2}, \
       {"photo": "b.jpg", "x": 3, "y": 4}],
         "to": [{"photo": "a=1.jpg", "x": 5, "y": 6}, {"photo": "b.jpg", "x": 7, "y": 8}]}]
-      """.utf8
-    ).write(to: file)
+      """, as: "points.json")
     let command = try ScaleArguments.parse([
       "--camera-distance", "a=1.jpg, b.jpg=0.42", "--measurements", file.path,
     ])
@@ -29,7 +30,6 @@ import Testing
       try far.knownDistances(photos: folder)
     }
     #expect(failure?.exitCode == 2 && failure?.sentence.contains("c.jpg") == true)
-    _ = temporary
   }
 
   @Test(arguments: ["a.jpg=1", "a.jpg,b.jpg", "a.jpg,b.jpg=0", "a.jpg,a.jpg=1", "a.jpg,b.jpg=x"])
@@ -44,11 +44,8 @@ import Testing
     #"[{"meters": 1, "from": [{"photo": "a", "x": 1, "y": 1}], "to": []}]"#,
   ])
   func invalidMeasurementsAreRejected(_ text: String) throws {
-    let temporary = try TemporaryFolder()
-    let file = temporary.url.appendingPathComponent("m.json")
-    try Data(text.utf8).write(to: file)
+    let file = try temporary.write(text, as: "m.json")
     let failure = #expect(throws: CommandFailure.self) { try MeasurementFile(file.path) }
     #expect(failure?.exitCode == 2 && failure?.sentence.contains("m.json") == true)
-    _ = temporary
   }
 }

@@ -31,7 +31,7 @@ import Testing
     }
     #expect(BatchResult(.ended(code: 1, last: memory), log: log).isTransient)
     let temporary = try TemporaryFolder()
-    let file = try temporary.write(Array("first\nlast words\n".utf8), as: "log")
+    let file = try temporary.write("first\nlast words\n", as: "log")
     let silent = BatchResult(.ended(code: 66, last: nil), log: file)
     #expect(silent.error == "The run ended with code 66; see \(file.path): last words")
     #expect(silent.isTransient)

@@ -29,7 +29,7 @@ import Testing
     try addDataset("empty", from: "orbit", photos: 0)
     try addDataset("few", from: "orbit", photos: 2)
     for number in 0..<4 {
-      try temporary.write(Array("no photo".utf8), as: "sets/corrupt/\(number).jpg")
+      try temporary.write("no photo", as: "sets/corrupt/\(number).jpg")
     }
   }
 

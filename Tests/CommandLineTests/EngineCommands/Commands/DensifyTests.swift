@@ -1,5 +1,4 @@
 import Foundation
-import ImageFiles
 import Kernels
 import Pipeline
 import SceneModel
@@ -17,40 +16,35 @@ import Testing
 
   private var folder: URL { temporary.url }
 
-  private func write(_ text: String, as name: String) throws {
-    try temporary.write(Array(text.utf8), as: name)
-  }
-
   private func expectFailure(
     _ arguments: [String], code: Int32, mentioning words: [String]
   ) throws {
-    let run = try CommandProcess.run(["densify"] + arguments, in: folder)
-    #expect(run.exitCode == code, "\(run.errors)")
-    #expect(run.output.isEmpty)
-    for word in words { #expect(run.errors.contains(word), "\(run.errors)") }
+    try CommandProcess.expectFailure(
+      ["densify"] + arguments, in: folder, code: code, mentioning: words)
   }
 
-  /// Writes photos of a ball above a floor, and returns their exact poses as lines of images.txt.
-  private func makePhotos(_ scene: RaycastScene) throws -> [String] {
-    try scene.views.enumerated().map { index, view in
-      try temporary.write(
-        try ImageCodec.encodeJPEG(view.image, quality: 0.95), as: "photos/p\(index).jpg")
-      let (q, t) = (view.cameraFromWorld.rotation, view.cameraFromWorld.translation)
-      return "\(index + 1) \(q.w) \(q.x) \(q.y) \(q.z) \(t.x) \(t.y) \(t.z) 1 p\(index).jpg\n\n"
-    }
-  }
-
-  private func scene() -> RaycastScene {
+  /// A ball above a floor.
+  private static let scene: RaycastScene = {
     var options = RaycastScene.Options()
     (options.width, options.height) = (420, 316)
     return RaycastScene(options)
+  }()
+
+  /// Writes photos of the scene, and its exact cameras as COLMAP's text files.
+  private func writePhotosAndCameras(to cameras: String) throws {
+    try temporary.writePhotos(Self.scene.views.map(\.image))
+    let poses = Self.scene.views.enumerated().map { index, view in
+      let (q, t) = (view.cameraFromWorld.rotation, view.cameraFromWorld.translation)
+      return "\(index + 1) \(q.w) \(q.x) \(q.y) \(q.z) \(t.x) \(t.y) \(t.z) 1 p\(index).jpg\n\n"
+    }
+    try temporary.write(
+      "1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: "\(cameras)/cameras.txt")
+    try temporary.write(poses.joined(), as: "\(cameras)/images.txt")
   }
 
   @Test(arguments: [SIGINT, SIGTERM])
   func interruptLeavesNoCloudAndTheSameCommandResumes(_ signal: Int32) throws {
-    let poses = try makePhotos(scene())
-    try write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: "rig/sparse/0/cameras.txt")
-    try write(poses.joined(), as: "rig/sparse/0/images.txt")
+    try writePhotosAndCameras(to: "rig/sparse/0")
     let command = ["densify", "photos", "rig", "work", "--view-pixels", "30000"]
     let run = try CommandProcess.run(command, in: folder) { kill($0.processIdentifier, signal) }
     #expect(run.exitCode == 130 && run.output.isEmpty, "\(run.errors)")
@@ -61,10 +55,7 @@ import Testing
   }
 
   @Test func camerasFromCOLMAPGiveACloud() throws {
-    let scene = scene()
-    let poses = try makePhotos(scene)
-    try write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: "rig/sparse/0/cameras.txt")
-    try write(poses.joined(), as: "rig/sparse/0/images.txt")
+    try writePhotosAndCameras(to: "rig/sparse/0")
     let run = try CommandProcess.run(
       [
         "densify", "photos", "rig", "work", "--view-pixels", "30000", "--metric", "--report",
@@ -86,10 +77,7 @@ import Testing
   }
 
   @Test func jobsProcessTheirShareOfTheViews() throws {
-    let scene = scene()
-    let poses = try makePhotos(scene)
-    try write("1 SIMPLE_PINHOLE 420 316 462 210 158\n", as: "rig/cameras.txt")
-    try write(poses.joined(), as: "rig/images.txt")
+    try writePhotosAndCameras(to: "rig")
     let arguments = ["densify", "photos", "rig", "work", "--view-pixels", "10000"]
     let run = try CommandProcess.run(arguments + ["--job", "2/3"], in: folder)
     #expect(run.exitCode == 0, "\(run.errors)")
@@ -107,13 +95,12 @@ import Testing
   }
 
   @Test func camerasOfOtherPhotosExitWithOne() throws {
-    let scene = scene()
-    _ = try makePhotos(scene)
+    try temporary.writePhotos(Self.scene.views.map(\.image))
     let entries = (0..<4).map {
       #"{"name": "q\#($0).jpg", "K": [[462, 0, 210], [0, 462, 158], [0, 0, 1]], "#
         + #""R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "t": [0, 0, 0]}"#
     }
-    try write("[\(entries.joined(separator: ","))]", as: "rig/cameras.json")
+    try temporary.write("[\(entries.joined(separator: ","))]", as: "rig/cameras.json")
     try expectFailure(
       ["photos", "rig", "work"], code: 1,
       mentioning: ["p0.jpg is not used", "Only 0 of the 5 photos", "by file name"])
@@ -123,8 +110,8 @@ import Testing
   }
 
   @Test func invalidArgumentsExitWithTwo() throws {
-    try write("x", as: "photos/p.jpg")
-    try write("x", as: "file")
+    try temporary.write("x", as: "photos/p.jpg")
+    try temporary.write("x", as: "file")
     try expectFailure(["photos"], code: 2, mentioning: ["cameras-folder"])
     try expectFailure(
       ["nowhere", "photos", "work"], code: 2, mentioning: ["nowhere does not exist"])
@@ -138,23 +125,23 @@ import Testing
   }
 
   @Test func unusableCamerasAreExplained() throws {
-    try write("x", as: "photos/p.jpg")
-    try write("", as: "binary/sparse/0/images.bin")
+    try temporary.write("x", as: "photos/p.jpg")
+    try temporary.write("", as: "binary/sparse/0/images.bin")
     try expectFailure(
       ["photos", "binary", "work"], code: 2,
       mentioning: ["colmap model_converter", "--output_type TXT", "binary/sparse/0"])
-    try write("", as: "fisheye/images.txt")
-    try write("1 OPENCV_FISHEYE 9 9 5 5 4 4 0 0 0 0\n", as: "fisheye/cameras.txt")
+    try temporary.write("", as: "fisheye/images.txt")
+    try temporary.write("1 OPENCV_FISHEYE 9 9 5 5 4 4 0 0 0 0\n", as: "fisheye/cameras.txt")
     try expectFailure(
       ["photos", "fisheye", "work"], code: 2,
       mentioning: ["OPENCV_FISHEYE", "colmap image_undistorter"])
-    try write("[{}]", as: "json/cameras.json")
+    try temporary.write("[{}]", as: "json/cameras.json")
     try expectFailure(
       ["photos", "json", "work"], code: 2, mentioning: ["json/cameras.json", "name, K, R and t"])
     let mirrored =
       #"[{"name": "p.jpg", "K": [[9, 0, 5], [0, 9, 4], [0, 0, 1]], "#
       + #""R": [[1, 0, 0], [0, 1, 0], [0, 0, -1]], "t": [0, 0, 0]}]"#
-    try write(mirrored, as: "mirror/cameras.json")
+    try temporary.write(mirrored, as: "mirror/cameras.json")
     try expectFailure(
       ["photos", "mirror", "work"], code: 2, mentioning: ["R of p.jpg is not a rotation"])
   }

@@ -22,10 +22,7 @@ import Testing
     let scene = SphereScene(viewCount: 8, imageSize: 320) { p in
       SIMD3(140 + 90 * sin(19 * p.x), 120 + 60 * sin(31 * p.z), 100 + 50 * sin(25 * p.y))
     }
-    for (index, image) in scene.images.enumerated() {
-      try temporary.write(
-        try ImageCodec.encodeJPEG(image, quality: 0.95), as: "photos/p\(index).jpg")
-    }
+    try temporary.writePhotos(scene.images)
     let photos = folder.appendingPathComponent("photos", isDirectory: true)
     let ingested = try PhotoIngestion().run(folder: photos, StageContext())
     var reconstruction = scene.reconstruction
@@ -45,10 +42,8 @@ import Testing
   private func expectFailure(
     _ arguments: [String], code: Int32, mentioning words: [String]
   ) throws {
-    let run = try CommandProcess.run(["export"] + arguments, in: folder)
-    #expect(run.exitCode == code, "\(run.errors)")
-    #expect(run.output.isEmpty)
-    for word in words { #expect(run.errors.contains(word), "\(run.errors)") }
+    try CommandProcess.expectFailure(
+      ["export"] + arguments, in: folder, code: code, mentioning: words)
     #expect(!FileManager.default.fileExists(atPath: folder.path + "/m.usdz"))
   }
 

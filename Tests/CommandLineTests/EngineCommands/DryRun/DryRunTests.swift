@@ -34,7 +34,7 @@ import Testing
   }
 
   @Test func rejectedFilesComeBeforeThePlan() throws {
-    try temporary.write(Array("no photo".utf8), as: "photos/a.jpg")
+    try temporary.write("no photo", as: "photos/a.jpg")
     let photos = temporary.url.appendingPathComponent("photos", isDirectory: true)
     let plan = try plan(photos: photos)
     #expect(plan.events.map(\.event) == ["invalidSample", "plan"])
@@ -57,10 +57,9 @@ import Testing
 
   @Test func sizeDependsOnTheFormat() {
     let limits = DetailSpecification(.reduced)
-    let mesh = limits.maximumTriangles * 60
-    #expect(limits.modelBytes(in: .ply) == mesh)
-    let map = limits.maximumAtlases * 2048 * 2048 * 3
-    #expect(limits.modelBytes(in: .usdz) == mesh + map * limits.maps.count)
+    // 49,999 triangles of 60 bytes; three maps of 2048 × 2048 texels, 3 bytes each.
+    #expect(limits.modelBytes(in: .ply) == 2_999_940)
+    #expect(limits.modelBytes(in: .usdz) == 2_999_940 + 37_748_736)
     let full = DetailSpecification(.full)
     #expect(full.modelBytes(in: .glb) < full.modelBytes(in: .usdz))
   }

@@ -24,6 +24,8 @@ import Testing
   }
 
   private func perform(_ work: (ReconstructionPipeline) throws -> Void) throws {
+    // A run makes the process ignore both signals; afterward the tests can be interrupted again.
+    defer { for number in [SIGINT, SIGTERM] { signal(number, SIG_DFL) } }
     try run(report.path).perform(missing: "nothing was written", work)
   }
 
@@ -46,7 +48,7 @@ import Testing
     #expect(try stages() == ["preProcessing"])
   }
 
-  @Test func reportsThatCanNotBeWrittenFailFirst() throws {
+  @Test func reportsThatCannotBeWrittenFailFirst() throws {
     #expect(throws: CommandFailure.self) { try run(temporary.url.path + "/none/r.json") }
   }
 }

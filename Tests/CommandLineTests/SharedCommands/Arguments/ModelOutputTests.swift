@@ -6,10 +6,12 @@ import Testing
 @testable import SharedCommands
 
 @Suite struct ModelOutputTests {
+  private let temporary: TemporaryFolder
+
+  init() throws { temporary = try TemporaryFolder() }
+
   @Test func extensionSelectsTheFormat() throws {
-    let temporary = try TemporaryFolder()
-    let folder = temporary.url
-    let path = folder.path
+    let path = temporary.url.path
     for format in ModelFormat.files {
       let file = try ModelOutput(path + "/m.\(format.rawValue)", formats: ModelFormat.files)
       #expect(file.format == format)
@@ -31,10 +33,9 @@ import Testing
       #expect(failure?.exitCode == 2)
     }
     #expect(throws: CommandFailure.self) { try ModelOutput("", formats: ModelFormat.files) }
-    try Data().write(to: folder.appendingPathComponent("plain"))
+    try temporary.write("", as: "plain")
     #expect(throws: CommandFailure.self) {
       try ModelOutput(path + "/plain", formats: ModelFormat.files)
     }
-    _ = temporary
   }
 }

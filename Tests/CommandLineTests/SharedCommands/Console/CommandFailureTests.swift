@@ -25,7 +25,7 @@ import Testing
     #expect(CommandFailure(failure, isTransient: true) == failure)
   }
 
-  @Test func exitCodes() {
+  @Test func everyKindOfFailureHasItsExitCode() {
     #expect(CommandFailure.run("").exitCode == 1)
     #expect(CommandFailure.usage("").exitCode == 2)
     #expect(CommandFailure.interrupted("").exitCode == 130)

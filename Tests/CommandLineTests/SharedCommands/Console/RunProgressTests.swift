@@ -7,11 +7,11 @@ import Testing
     (0.0, "0:00"), (6.2, "0:07"), (59.5, "1:00"), (754, "12:34"), (3723, "1:02:03"),
     (-5, "0:00"), (Double.infinity, "99:59:59"),
   ])
-  func durations(_ seconds: Double, _ text: String) {
+  func durationsAreClockTimes(_ seconds: Double, _ text: String) {
     #expect(RunProgress.duration(seconds) == text)
   }
 
-  @Test func bar() {
+  @Test func theBarFitsIntoTheWidth() {
     let progress = RunProgress(fraction: 0.25, stage: .imageAlignment, remaining: 65)
     #expect(
       progress.bar(width: 80) == "[######..................]  25 %  aligning photos  1:05 left")

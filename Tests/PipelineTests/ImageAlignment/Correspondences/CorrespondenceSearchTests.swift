@@ -139,7 +139,7 @@ import Testing
     }
   }
 
-  @Test func cancelledSearchThrows() throws {
+  @Test func canceledSearchThrows() throws {
     let scene = Self.scene(photos: 4)
     let flag = CancellationFlag()
     flag.cancel()

@@ -42,7 +42,7 @@ import Testing
     #expect((fit.pose(pose).center - pose.center).length < 1e-12)
   }
 
-  /// Pixels rotate like photos.
+  /// The pixel of the only bright spot is the same in the upright photo.
   @Test(arguments: [6, 8]) func pixelsRotateLikePhotos(_ orientation: Int) throws {
     var image = RasterImage(width: 400, height: 300, channels: 1)
     image.pixels[70 * 400 + 310] = 255

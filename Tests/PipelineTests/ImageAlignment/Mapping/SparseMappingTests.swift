@@ -83,7 +83,7 @@ import Testing
     #expect(result.poses == expected.poses)
   }
 
-  @Test func photoWithOnePairIsAddedAfterwards() throws {
+  @Test func photoWithOnePairIsAddedAfterward() throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.3
     let scene = SyntheticScene(options)
@@ -150,7 +150,7 @@ import Testing
   }
 
   @Test(arguments: [(MappingMethod.incremental, 0.3), (.automatic, 0.15), (.automatic, 0.3)])
-  func cancelStops(method: MappingMethod, fraction: Double) {
+  func cancellationStops(method: MappingMethod, fraction: Double) {
     let flag = CancellationFlag()
     let control = KernelControl(flag: flag) { if $0 > fraction { flag.cancel() } }
     #expect(throws: CancellationError.self) {

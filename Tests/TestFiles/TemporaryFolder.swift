@@ -22,4 +22,26 @@ package final class TemporaryFolder {
     try Data(bytes).write(to: file)
     return file
   }
+
+  /// Writes a text file and returns its URL.
+  @discardableResult
+  package func write(_ text: String, as name: String) throws -> URL {
+    try write(Array(text.utf8), as: name)
+  }
+}
+
+/// Runs a body with an empty folder that is removed afterward.
+package func withTemporaryFolder<T>(_ body: (URL) throws -> T) throws -> T {
+  let folder = try TemporaryFolder()
+  defer { withExtendedLifetime(folder) {} }
+  return try body(folder.url)
+}
+
+/// Runs a body with an empty folder that is removed afterward.
+package func withTemporaryFolder<T>(
+  isolation: isolated (any Actor)? = #isolation, _ body: (URL) async throws -> T
+) async throws -> T {
+  let folder = try TemporaryFolder()
+  defer { withExtendedLifetime(folder) {} }
+  return try await body(folder.url)
 }
