@@ -31,8 +31,17 @@ import Testing
 
   @Test func sharedStagesAreDoneOnce() {
     let plan = RunPlan([model("a", .reduced), model("b", .preview)], configuration: .init())
-    #expect(plan.units.count == 3 + 2 * 3)
-    #expect(plan.units.prefix(3) == [.preProcessing, .alignment, .densification])
+    #expect(plan.units.count == 4 + 2 * 3)
+    #expect(
+      plan.units.prefix(4)
+        == [.preProcessing, .alignment, WorkUnit(stage: .objectMasking), .densification])
+  }
+
+  @Test func withoutObjectMaskingNoMasksAreEstimated() {
+    var configuration = Session.Configuration()
+    configuration.isObjectMaskingEnabled = false
+    let plan = RunPlan([model("a", .reduced)], configuration: configuration)
+    #expect(!plan.units.contains(WorkUnit(stage: .objectMasking)))
   }
 
   @Test func customDetailFollowsTheConfiguration() {

@@ -107,7 +107,7 @@ final class ScriptedEngine: SessionEngine {
     if min(specification.viewPixels, maximumViewPixels) >= script.pixelsInMemory {
       throw KernelError.outOfMemory
     }
-    for stage in PipelineStage.allCases[2..<5] { try work(stage) }
+    for stage in PipelineStage.allCases[2..<6] { try work(stage) }
     return ModelEntity()
   }
 

@@ -18,6 +18,7 @@
 #include "ck_features.h"
 #include "ck_global.h"
 #include "ck_image.h"
+#include "ck_masks.h"
 #include "ck_matching.h"
 #include "ck_mesh.h"
 #include "ck_patches.h"

@@ -80,7 +80,7 @@ typedef struct {
   /// Unique identifier of the view, 0…65535.
   int32_t photo;
   ck_patch_view view;
-  /// RGB of the view.
+  /// RGB of the view; null for views without color, whose fused points are then black.
   const uint8_t* rgb;
   const ck_patch* patches;
   /// Filter result of each patch (`ck_patches_filter`): 0 if rejected; may be null for functions

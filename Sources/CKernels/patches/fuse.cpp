@@ -47,7 +47,7 @@ struct Group {
     sum.w += weight * estimate.w;
     for (int i = 0; i < 3; ++i) sum.normal[i] += weight * estimate.normal[i];
     sum.weight += weight;
-    for (int i = 0; i < 3; ++i) color[i] += map.rgb[3 * cell + i];
+    for (int i = 0; map.rgb && i < 3; ++i) color[i] += map.rgb[3 * cell + i];
     cost += c;
     ++count;
   }

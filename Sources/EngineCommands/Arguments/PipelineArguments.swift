@@ -14,6 +14,8 @@ package struct PipelineArguments: EngineArguments {
 
   @OptionGroup var masking: MaskArguments
 
+  @OptionGroup var maskOutput: MaskOutputArguments
+
   @OptionGroup var runArguments: RunArguments
 
   @OptionGroup var scale: ScaleArguments
@@ -34,6 +36,7 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.knownDistances = try scale.knownDistances(photos: folder)
     session.engineOptions.additionalFileFormats = Set(ModelFormat.files)
     session.engineOptions.maskFolder = try masking.folder
+    session.engineOptions.maskOutput = try maskOutput.folder
     session.engineOptions.previewFile = try preview.file()
     session.engineOptions.closesObject = !surface.keepGaps
     session.engineOptions.refinesSurface = surface.refine

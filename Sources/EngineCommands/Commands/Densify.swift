@@ -97,6 +97,8 @@ extension Densify {
     var configuration = PipelineConfiguration()
     configuration.checkpointDirectory = target
     try masking.apply(to: &configuration, areIgnored: noObjectMasking)
+    // The cloud of the whole scene: masks restrict it only if they are given.
+    configuration.meshGeneration.isolatesObject = false
     runArguments.threading.apply(to: &configuration)
     without.forEach { $0.apply(to: &configuration.pointCloudGeneration) }
     return configuration

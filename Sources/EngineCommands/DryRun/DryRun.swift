@@ -36,7 +36,8 @@ struct DryRun {
     limits = arguments.detail.limits
     expectedSeconds =
       StageDurationModel(
-        photos: PhotoTotals(ingested.photos), finest: limits, threadCount: threadCount
+        photos: PhotoTotals(ingested.photos), finest: limits, threadCount: threadCount,
+        masksObject: configuration.isObjectMaskingEnabled
       ).total
     memory = (arguments.detail.detail.expectedMemoryBytes, Machine.current.availableMemoryBytes)
     let system = try? FileManager.default.attributesOfFileSystem(

@@ -85,7 +85,8 @@ extension PipelineEngine {
         model/      folder with OBJ, MTL, USDA and textures
 
       """
-    help.input = MaskArguments.help + "\n" + ScaleArguments.help
+    help.input = [MaskOutputArguments.help, MaskArguments.help, ScaleArguments.help]
+      .joined(separator: "\n")
     help.events = """
         plan                 with --dry-run: path, photos, expectedSeconds,
                              memoryBytes, diskBytes

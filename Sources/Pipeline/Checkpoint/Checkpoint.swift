@@ -7,6 +7,7 @@ import SceneModel
 ///
 /// ```
 /// sparse/{cameras,images,points3D}.txt    COLMAP text
+/// masks/                                  estimated masks of the object
 /// dense/points.ply                        oriented, colored patches
 /// dense/views/                            patches of each view, to resume the dense stage
 /// mesh/surface.ply                        before simplification
@@ -34,6 +35,8 @@ struct Checkpoint {
 
   /// The folder of COLMAP's text files.
   var sparse: URL { directory.appendingPathComponent("sparse", isDirectory: true) }
+  /// The folder of estimated masks.
+  var masks: URL { directory.appendingPathComponent("masks", isDirectory: true) }
   var surface: URL { directory.appendingPathComponent("mesh/surface.ply") }
   var record: URL { directory.appendingPathComponent("mesh/surface.json") }
 
@@ -70,7 +73,7 @@ struct Checkpoint {
 
   /// Removes the unfinished files of runs that were killed.
   func removeRemains() {
-    for name in ["", "sparse", "dense", "mesh", "stages"] {
+    for name in ["", "sparse", "masks", "dense", "mesh", "stages"] {
       UnfinishedFiles.remove(from: directory.appendingPathComponent(name, isDirectory: true))
     }
   }

@@ -6,6 +6,8 @@ import SceneModel
 struct RunInputs: Sendable {
   /// The fingerprint of everything that alignment depends on.
   let alignment: UInt64
+  /// The fingerprint of everything that estimated masks depend on.
+  let masks: UInt64
   /// The fingerprint of everything that the surface depends on.
   let surface: UInt64
 
@@ -25,13 +27,14 @@ struct RunInputs: Sendable {
       fingerprint.add(photos.readings[photo.sampleID] ?? SensorReading())
     }
     fingerprint.add(photos.ingested.processingPixels)
-    var surfaceFingerprint = fingerprint
-    fingerprint.add(
-      try ConfigurationFingerprint.content(of: configuration, through: .imageAlignment))
-    surfaceFingerprint.add(
-      try ConfigurationFingerprint.content(of: configuration, through: .meshGeneration))
-    alignment = fingerprint.value
-    surface = surfaceFingerprint.value
+    func value(through stage: PipelineStage) throws -> UInt64 {
+      var result = fingerprint
+      result.add(try ConfigurationFingerprint.content(of: configuration, through: stage))
+      return result.value
+    }
+    alignment = try value(through: .imageAlignment)
+    masks = try value(through: .objectMasking)
+    surface = try value(through: .meshGeneration)
   }
 }
 

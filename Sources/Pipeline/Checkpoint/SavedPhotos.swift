@@ -50,10 +50,14 @@ struct SavedPhotos: Sendable {
 }
 
 extension SavedRun {
-  /// The current location of a file of the run; files inside the folder of photos move with it.
+  /// The current location of a mask of the run: masks inside the folder of photos move with it,
+  /// estimated masks with the checkpoint.
   fileprivate func moved(_ file: URL) -> URL {
     let (path, folder) = (file.standardizedFileURL.path, record.photoFolder + "/")
-    guard path.hasPrefix(folder) else { return file }
+    guard path.hasPrefix(folder) else {
+      let isPresent = FileManager.default.fileExists(atPath: path)
+      return isPresent ? file : maskFolder.appendingPathComponent(file.lastPathComponent)
+    }
     return photoFolder.appendingPathComponent(String(path.dropFirst(folder.count)))
   }
 

@@ -10,6 +10,8 @@ package struct SavedRun: Sendable {
   package let reconstruction: Reconstruction
   package let surface: Mesh
   package let record: SurfaceRecord
+  /// The folder of the estimated masks, if there are any.
+  let maskFolder: URL
   /// The current folder of the photos.
   package let photoFolder: URL
 
@@ -17,6 +19,7 @@ package struct SavedRun: Sendable {
   /// `SavedRunError`.
   package init(checkpoint directory: URL, photos: URL? = nil) throws {
     let checkpoint = Checkpoint(directory: directory)
+    maskFolder = checkpoint.masks
     try Self.checkPresence(checkpoint)
     record = try Self.record(checkpoint)
     photoFolder = photos ?? URL(fileURLWithPath: record.photoFolder, isDirectory: true)

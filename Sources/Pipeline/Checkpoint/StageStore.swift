@@ -5,9 +5,9 @@ import SceneModel
 
 /// The results of finished stages, which a later run with the same photos and options reuses.
 ///
-/// Stored as `stages/alignment` and `stages/surface` in the checkpoint directory, each sealed with
-/// the fingerprint of everything that it depends on. For the results of the dense stage, see
-/// `PatchWorkspace`.
+/// Stored as `stages/{alignment,masks,surroundings,surface}` in the checkpoint directory, each
+/// sealed with the fingerprint of everything that it depends on. For the results of the dense
+/// stage, see `PatchWorkspace`.
 struct StageStore {
   let checkpoint: Checkpoint
   let inputs: RunInputs
@@ -17,10 +17,13 @@ struct StageStore {
   }
 
   private func write(_ value: some Encodable, _ name: String, madeFrom inputs: UInt64) throws {
-    let url = url(name)
+    try createFolder()
+    try SealedFile.write(try JSONEncoder().encode(value), madeFrom: inputs, to: url(name))
+  }
+
+  private func createFolder() throws {
     try FileManager.default.createDirectory(
-      at: url.deletingLastPathComponent(), withIntermediateDirectories: true)
-    try SealedFile.write(try JSONEncoder().encode(value), madeFrom: inputs, to: url)
+      at: url("masks").deletingLastPathComponent(), withIntermediateDirectories: true)
   }
 
   private func read<Value: Decodable>(_ name: String, madeFrom inputs: UInt64) -> Value? {
@@ -65,6 +68,37 @@ extension StageStore {
     return Reconstruction(
       cameras: record.cameras, photos: photos, poses: record.poses, points: record.points,
       worldFrame: record.worldFrame, unregistered: record.unregistered)
+  }
+}
+
+// MARK: - Masks
+
+/// Estimated masks with the notes of the stage that made them.
+private struct MaskRecord: Codable {
+  var masks: EstimatedMasks
+  var notes: SavedNotes
+}
+
+extension StageStore {
+  /// Saves estimated masks with the notes of their stage.
+  func save(_ masks: EstimatedMasks, _ notes: StageNotes) throws {
+    let cloud = Data(masks.surroundings.encoded())
+    try createFolder()
+    try SealedFile.write(cloud, madeFrom: inputs.masks, to: url("surroundings"))
+    try write(
+      MaskRecord(masks: masks, notes: SavedNotes(notes)), "masks", madeFrom: inputs.masks)
+  }
+
+  /// The masks that an earlier run estimated for the same photos; nil if there are none that can be
+  /// reused. The notes of their stage are added to `notes`.
+  func masks(_ notes: StageNotes) -> EstimatedMasks? {
+    guard let record: MaskRecord = read("masks", madeFrom: inputs.masks), record.masks.areIntact,
+      let cloud = SealedFile.read(url("surroundings"), madeFrom: inputs.masks)
+    else { return nil }
+    var masks = record.masks
+    guard masks.surroundings.append(encoded: [UInt8](cloud)[...]) else { return nil }
+    record.notes.replay(to: notes)
+    return masks
   }
 }
 

@@ -20,6 +20,7 @@ enum ConfigurationFingerprint {
   static let exclusions = [
     Exclusion("threadCount", "results do not depend on it"),
     Exclusion("checkpointDirectory", "results do not depend on where they are written"),
+    Exclusion("maskOutput", "it receives masks that are used anyway"),
     Exclusion("previewFile", "it shows a finished model"),
     Exclusion("ingestion.maskFolder", "the masks in use are hashed by content"),
     Exclusion("ingestion.inspection.usesMasks", "the masks in use are hashed by content"),
@@ -33,7 +34,8 @@ enum ConfigurationFingerprint {
   /// The stage that reads the options of a member. A member that is missing here counts for all
   /// stages.
   static let stages: [String: PipelineStage] = [
-    "pointCloudGeneration": .pointCloudGeneration, "meshGeneration": .meshGeneration,
+    "objectMasking": .objectMasking, "pointCloudGeneration": .pointCloudGeneration,
+    "meshGeneration": .meshGeneration,
     "photoRefinement": .meshGeneration, "simplification": .textureMapping,
     "textureMapping": .textureMapping, "export": .optimization, "preview": .optimization,
     "meshPrimitive": .optimization,

@@ -8,6 +8,7 @@ import SceneModel
 package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var ingestion = PhotoIngestion.Options()
   package var alignment = ImageAlignment.Options()
+  var objectMasking = ObjectMasking.Options()
   package var pointCloudGeneration = PointCloudGeneration.Options()
   package var meshGeneration = MeshGeneration.Options()
   /// Fits the surface to the photos at a higher resolution than the dense stage's; nil keeps the
@@ -22,6 +23,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var meshPrimitive = MeshPrimitive.triangle
   /// Folder for intermediate results; nil writes none.
   package var checkpointDirectory: URL?
+  /// Folder for the masks of the object as PNG files; nil writes none.
+  package var maskOutput: URL?
   /// The PNG file of a preview that shows each model from several sides; nil renders none.
   package var previewFile: URL?
   /// The number of threads of all stages; does not affect the results.

@@ -5,6 +5,8 @@ package struct PhotoTotals: Hashable, Sendable {
   package var count: Int
   /// Sum over all photos.
   package var megapixels: Double
+  /// Number of photos with masks.
+  package var masked = 0
 
   package init(count: Int, megapixels: Double) {
     (self.count, self.megapixels) = (count, megapixels)
@@ -17,5 +19,6 @@ package struct PhotoTotals: Hashable, Sendable {
     self.init(
       count: photos.count,
       megapixels: photos.reduce(0) { $0 + Double($1.width * $1.height) } / 1e6)
+    masked = photos.count { $0.mask != nil }
   }
 }

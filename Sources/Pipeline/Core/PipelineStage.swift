@@ -1,5 +1,6 @@
-/// The stages of a run in their order; the cases of `Output.ProcessingStage`.
+/// The stages of a run in their order: the cases of `Output.ProcessingStage`, and object masking,
+/// which is reported as a part of point cloud generation.
 package enum PipelineStage: String, CaseIterable, Codable, Sendable {
-  case preProcessing, imageAlignment, pointCloudGeneration, meshGeneration, textureMapping
-  case optimization
+  case preProcessing, imageAlignment, objectMasking, pointCloudGeneration, meshGeneration
+  case textureMapping, optimization
 }

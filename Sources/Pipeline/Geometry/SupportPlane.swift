@@ -1,7 +1,7 @@
 import SceneModel
 
 /// The plane that supports an object: `normal · x = offset`; the normal points up.
-struct SupportPlane: Hashable, Sendable {
+package struct SupportPlane: Hashable, Codable, Sendable {
   var normal: SIMD3<Double>
   var offset: Double
   /// Half the thickness of the slab of points that belong to the support, in world units.

@@ -19,6 +19,8 @@ struct HoleFilling {
     var smallFreeShare = 0.05
     /// The same for a membrane.
     var membraneFreeShare = 0.2
+    /// Openings of a membrane that photos see through stay open from this share of its area on.
+    var minimumOpeningShare = 0.01
     /// How far below the hole free space is evaluated, in world units: rays that graze the surface
     /// don't reach this depth.
     var depth: Float = 0
@@ -51,32 +53,60 @@ struct HoleFilling {
     let contact = support.map { Contact($0, under: mesh, isRemoved, share: options.contactShare) }
     var (result, isDropped) = (mesh, isRemoved)
     for hole in 0..<holes.count where holes.isEnclosed[hole] {
-      if fill(hole, holes, size, contact, &result, isFree) {
-        for face in holes.faces(of: hole) { isDropped[face] = false }
-      }
+      let faces = holes.faces(of: hole)
+      guard let isOpen = fill(faces, hole, holes, size, contact, &result, isFree) else { continue }
+      for (face, isOpen) in zip(faces, isOpen) { isDropped[face] = isOpen }
     }
     result.triangles = mesh.triangles.indices.filter { !isDropped[$0] }.map { mesh.triangles[$0] }
     return result
   }
 
-  /// Gives the faces of a hole their final shape; false if the hole stays open.
+  /// Gives the faces of a hole their final shape, and returns which of them stay open; nil if all
+  /// of them do.
   private func fill(
-    _ hole: Int, _ holes: SurfaceHoles, _ size: Float, _ contact: Contact?, _ mesh: inout Mesh,
-    _ isFree: (SIMD3<Float>) -> Bool
-  ) -> Bool {
-    let triangles = holes.faces(of: hole).map { mesh.triangles[$0] }
+    _ faces: [Int], _ hole: Int, _ holes: SurfaceHoles, _ size: Float, _ contact: Contact?,
+    _ mesh: inout Mesh, _ isFree: (SIMD3<Float>) -> Bool
+  ) -> [Bool]? {
+    let triangles = faces.map { mesh.triangles[$0] }
+    let closed = triangles.map { _ in false }
     let share = mesh.extent(of: triangles).map { Double($0 / size) } ?? 1
     let isSmall = share < options.smallShare
-    guard isSmall || options.fillsLarge else { return false }
+    guard isSmall || options.fillsLarge else { return nil }
     // A bulge with more area than the surface around it isn't a hole: stray samples caused it.
-    if isSmall, holes.areas[hole] > holes.adjacentAreas[hole] { return false }
+    if isSmall, holes.areas[hole] > holes.adjacentAreas[hole] { return nil }
     func freeShare(_ contact: Contact? = nil) -> Double {
       mesh.freeShare(of: triangles, contact, depth: options.depth, isFree)
     }
-    if isSmall, freeShare() < options.smallFreeShare { return true }
+    if isSmall, freeShare() < options.smallFreeShare { return closed }
     relax(triangles, of: &mesh, holes.isBoundary, contact)
-    let isTiny = share < options.tinyShare && options.fillsLarge
-    return isTiny || freeShare(contact) < options.membraneFreeShare
+    if share < options.tinyShare && options.fillsLarge { return closed }
+    guard freeShare(contact) < options.membraneFreeShare else { return nil }
+    return openings(of: triangles, in: mesh, contact, isFree)
+  }
+
+  /// Which faces of a membrane photos see through, in regions of sufficient size with smooth
+  /// boundaries.
+  private func openings(
+    of faces: [Triangle], in mesh: Mesh, _ contact: Contact?, _ isFree: (SIMD3<Float>) -> Bool
+  ) -> [Bool] {
+    let isContradicted = faces.map {
+      mesh.freeShare(of: [$0], contact, depth: options.depth, isFree) > 0
+    }
+    let membrane = Mesh(positions: mesh.positions, triangles: faces)
+    var isOpen = BoundarySmoothing().run(membrane, isRemoved: isContradicted) { _ in true }
+    let open = faces.indices.filter { isOpen[$0] }
+    let areas = membrane.triangleAreas()
+    let regions = MeshComponents(
+      open.map { faces[$0] }, vertexCount: mesh.positions.count)
+    var regionAreas = [Float](repeating: 0, count: regions.count)
+    for (face, region) in zip(open, regions.components) {
+      regionAreas[Int(region)] += areas[face]
+    }
+    let minimum = Float(options.minimumOpeningShare) * areas.reduce(0, +)
+    for (face, region) in zip(open, regions.components) where regionAreas[Int(region)] < minimum {
+      isOpen[face] = false
+    }
+    return isOpen
   }
 
   /// Spans a membrane across a hole, and projects its contact area onto the support. Not up to the

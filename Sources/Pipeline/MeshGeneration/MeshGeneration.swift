@@ -49,16 +49,18 @@ package struct MeshGeneration {
   package init(_ options: Options = Options()) { self.options = options }
 
   /// The surface with normals and colors, in the frame of the cloud. If most photos have masks, the
-  /// object is what `silhouettes` retain.
+  /// object is what `silhouettes` retain; `support` is what it stands on, and `surroundings` are
+  /// observed points around it, which prove that the space in front of them is free.
   ///
   /// Throws `PipelineError.noSurface` if the cloud does not determine one.
   package func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes? = nil,
+    support: SupportPlane? = nil, surroundings: PointCloud = PointCloud(),
     _ context: StageContext
   ) throws -> Mesh {
     try check(cloud)
     let selection = try select(
-      cloud, reconstruction, silhouettes, context.part(from: 0, to: 0.05))
+      cloud, reconstruction, silhouettes, support, context.part(from: 0, to: 0.05))
     let downsampling = VoxelDownsampling(options: options.downsampling)
     var downsampled = try downsampling.run(
       cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
@@ -69,11 +71,13 @@ package struct MeshGeneration {
     poisson.options.maximumDepth = options.maximumDepth
     let (closed, cell) = try poisson.run(
       downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
+    var scene = cloud
+    scene.append(surroundings)
     var trimming = SurfaceTrimming(options: options.trimming)
     trimming.options.holeFilling.fillsLarge = selection.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
-      closed, samples: downsampled.cloud, scene: cloud,
+      closed, samples: downsampled.cloud, scene: scene,
       spacing: max(downsampled.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.85, to: 0.96))
@@ -113,7 +117,7 @@ package struct MeshGeneration {
   /// Selects the object's points by masks or by isolation, else all points of the scene.
   private func select(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ silhouettes: Silhouettes?,
-    _ context: StageContext
+    _ support: SupportPlane?, _ context: StageContext
   ) throws -> Selection {
     if let silhouettes, silhouettes.share >= options.sufficientMaskShare {
       let isKept = try SceneTrimming(options: options.sceneTrimming)
@@ -121,8 +125,8 @@ package struct MeshGeneration {
       context.notes.record("objectPoints", Double(isKept.count { $0 }))
       return Selection(
         isKept: isKept, isObject: true,
-        support: SupportPlane(
-          under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
+        support: support
+          ?? SupportPlane(under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
     }
     if options.isolatesObject {
       let result = try ObjectIsolation(options: options.isolation)

@@ -157,6 +157,28 @@ struct DenseSteps {
     }
   }
 
+  /// The cloud of the completed patches at half resolution, in view order.
+  func coarseCloud(_ context: StageContext) throws -> PointCloud {
+    let maps = makeMaps()
+    let coarse = { @Sendable [self] (index: Int) in try map(index, .coarseCompleted, in: maps) }
+    let accepted = try context.control.part(from: 0, to: 0.5).parallelMap(views.views.count) {
+      [self] index in
+      try PatchStereo.filter(
+        try coarse(index), neighbors: try views.views[index].sources.map(coarse),
+        options: options.coarseFilter, control: KernelControl())
+    }
+    let filtered = { @Sendable (index: Int) in try coarse(index).filtered(accepted[index]) }
+    let clouds = try context.control.part(from: 0.5, to: 1).parallelMap(views.views.count) {
+      [self] index in
+      try PatchStereo.fuse(
+        try filtered(index), neighbors: try views.views[index].sources.map(filtered),
+        options: options.coarseFilter, control: KernelControl())
+    }
+    return clouds.reduce(into: PointCloud()) { cloud, part in
+      for index in part.positions.indices { cloud.append(part, index) }
+    }
+  }
+
   /// Concatenates the views' points in view order.
   func cloud(_ context: StageContext) throws -> PointCloud {
     var (cloud, accepted) = (PointCloud(), 0)

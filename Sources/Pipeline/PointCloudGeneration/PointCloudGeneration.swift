@@ -75,6 +75,28 @@ package struct PointCloudGeneration {
     ).run(reconstruction, images, context)
   }
 
+  /// Computes a cloud from the patches at half the resolution of the views, in the reconstruction's
+  /// frame, at a fifth of the cost. Throws like `run`.
+  func coarseCloud(
+    _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
+  ) throws -> PointCloud {
+    let views = try DenseViews(reconstruction, images: images, options: options)
+    let workspace = try PatchWorkspace(folder: nil, temporaryParent: temporaryParent)
+    defer { workspace.close() }
+    let plan = try DensePlan(
+      .coarseCompleted, views, workspace, context.part(from: 0, to: 0).control)
+    try workspace.checkSpace(plan.byteCount(views))
+    let steps = DenseSteps(
+      views, workspace, plan, masks(of: views, reconstruction, images), options)
+    try steps.run(reconstruction, images, context.part(from: 0, to: 0.9))
+    let cloud = try steps.coarseCloud(context.part(from: 0.9, to: 1))
+    guard cloud.count > 0 else {
+      throw PipelineError.noSurface(
+        reason: "no surface patch is consistent in three or more photos.")
+    }
+    return cloud
+  }
+
   private func masks(
     of views: DenseViews, _ reconstruction: Reconstruction, _ images: ImageStore
   ) -> PatchMasks {

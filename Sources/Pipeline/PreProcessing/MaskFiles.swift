@@ -79,6 +79,17 @@ struct MaskFiles {
 }
 
 extension MaskFiles {
+  /// File names for the masks of photos: `IMG_1.png` for `IMG_1.jpg`, or `IMG_1.jpg.png` if another
+  /// photo is named `IMG_1`, too.
+  static func names(forMasksOf photos: [String]) -> [String] {
+    let stems = photos.map { ($0 as NSString).deletingPathExtension }
+    var counts: [String: Int] = [:]
+    for stem in stems { counts[stem.lowercased(), default: 0] += 1 }
+    return zip(photos, stems).map { name, stem in
+      (counts[stem.lowercased()] == 1 ? stem : name) + ".png"
+    }
+  }
+
   /// Classifies the files of `folder`. Masks come from `maskFolder`, or from a mask folder inside
   /// `folder` if it is nil.
   init(folder: URL, maskFolder: URL?) throws {

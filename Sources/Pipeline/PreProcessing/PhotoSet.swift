@@ -19,6 +19,13 @@ struct PhotoSet: Sendable {
       processingPixels: ingested.processingPixels, contentHashes: ingested.contentHashes)
   }
 
+  /// The same photos with masks, by photo ID.
+  func masked(by masks: [PhotoMask?]) -> PhotoSet {
+    var masked = ingested
+    for index in masked.photos.indices { masked.photos[index].mask = masks[index] }
+    return PhotoSet(masked, readings: readings, byteBudget: byteBudget)
+  }
+
   /// The same photos, none of them decoded.
   var emptied: PhotoSet { PhotoSet(ingested, readings: readings, byteBudget: byteBudget) }
 }

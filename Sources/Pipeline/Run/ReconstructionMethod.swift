@@ -21,8 +21,9 @@ struct ReconstructionMethod {
   func writeModel(in geometry: ModelGeometry, to url: URL) throws {
     let photos = try ingest()
     let reconstruction = try align(photos)
-    let surface = try surface(photos, reconstruction)
-    let model = try texture(surface, photos, reconstruction, inside: geometry.crop)
+    let scene = try maskObject(photos, reconstruction)
+    let surface = try surface(scene)
+    let model = try texture(surface, scene, inside: geometry.crop)
     try export(model, reconstruction, movedBy: geometry.transform, to: url)
   }
 
@@ -49,9 +50,42 @@ struct ReconstructionMethod {
     }
   }
 
+  /// Estimates the masks of the object, if it is to be isolated and the photos have none, and
+  /// writes the masks in use if configured.
+  func maskObject(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> ObjectScene {
+    let areMasksNeeded =
+      configuration.isObjectMaskingEnabled && source.isPhotosOnly && !photos.images.hasMasks
+    guard areMasksNeeded || configuration.maskOutput != nil else {
+      return ObjectScene(photos, reconstruction)
+    }
+    return try cache.scene {
+      try recorder.run(.objectMasking, images: photos.images) { context in
+        let scene =
+          areMasksNeeded
+          ? try estimatedScene(photos, reconstruction, context)
+          : ObjectScene(photos, reconstruction)
+        try configuration.maskOutput.map { try MaskOutput(folder: $0).write(scene.photos, context) }
+        return scene
+      }
+    }
+  }
+
+  /// The photos with estimated masks, or without masks if there is no separate object.
+  private func estimatedScene(
+    _ photos: PhotoSet, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> ObjectScene {
+    let masks = try cache.sealedMasks(of: photos, configuration, context.notes) {
+      try ObjectMasking(options: configuration.objectMasking)
+        .run(reconstruction, images: photos.images, context)
+    }
+    return masks.isEmpty
+      ? ObjectScene(photos, reconstruction) : ObjectScene(photos, reconstruction, masks)
+  }
+
   /// Makes the oriented, colored point cloud.
-  func densify(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> PointCloud {
-    try cache.cloud(viewPixels: viewPixels) {
+  func densify(_ scene: ObjectScene) throws -> PointCloud {
+    let (photos, reconstruction) = (scene.photos, scene.reconstruction)
+    return try cache.cloud(viewPixels: viewPixels) {
       let cloud = try recorder.run(.pointCloudGeneration, images: photos.images) { context in
         let cloud = try PointCloudGeneration(options: configuration.pointCloudGeneration)
           .run(reconstruction, images: photos.images, folder: cache.checkpoint?.views, context)
@@ -64,28 +98,28 @@ struct ReconstructionMethod {
   }
 
   /// Makes the unsimplified surface of the object, or of the whole scene if masking is off.
-  func surface(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> Mesh {
+  func surface(_ scene: ObjectScene) throws -> Mesh {
     try cache.surface(viewPixels: viewPixels) {
       if case .savedRun(let saved) = source { return saved.surface(viewPixels, recorder) }
-      let surface = try cache.sealedSurface(of: photos, configuration) {
-        let cloud = try densify(photos, reconstruction)
-        return try mesh(cloud, photos, reconstruction)
+      let surface = try cache.sealedSurface(of: scene.photos, configuration) {
+        try mesh(try densify(scene), scene)
       }
       try cache.writeSurfaceRecord(
-        of: photos, reconstruction, in: source.photoFolder, viewPixels: viewPixels)
+        of: scene.photos, scene.reconstruction, in: source.photoFolder, viewPixels: viewPixels)
       return surface
     }
   }
 
   /// Meshes the cloud, and refines the mesh if configured, which takes three fifths of the stage.
-  private func mesh(
-    _ cloud: PointCloud, _ photos: PhotoSet, _ reconstruction: Reconstruction
-  ) throws -> Mesh {
-    try recorder.run(.meshGeneration, images: photos.images) { context in
+  private func mesh(_ cloud: PointCloud, _ scene: ObjectScene) throws -> Mesh {
+    let (photos, reconstruction) = (scene.photos, scene.reconstruction)
+    return try recorder.run(.meshGeneration, images: photos.images) { context in
       let silhouettes = try Silhouettes(reconstruction, images: photos.images)
       let share = configuration.photoRefinement == nil ? 1 : 0.4
       let mesh = try MeshGeneration(configuration.meshGeneration)
-        .run(cloud, reconstruction, silhouettes: silhouettes, context.part(from: 0, to: share))
+        .run(
+          cloud, reconstruction, silhouettes: silhouettes, support: scene.support,
+          surroundings: scene.surroundings, context.part(from: 0, to: share))
       guard let refinement = configuration.photoRefinement else { return mesh }
       return try PhotoRefinement(options: refinement).run(
         mesh, source: ViewSource(reconstruction, images: photos.images),
@@ -95,10 +129,10 @@ struct ReconstructionMethod {
 
   /// Simplifies the surface inside a box to the triangle budget, and textures it.
   func texture(
-    _ surface: Mesh, _ photos: PhotoSet, _ reconstruction: Reconstruction,
-    inside box: OrientedBox?
+    _ surface: Mesh, _ scene: ObjectScene, inside box: OrientedBox?
   ) throws -> TexturedMesh {
-    try recorder.run(.textureMapping, images: photos.images) { context in
+    let (photos, reconstruction) = (scene.photos, scene.reconstruction)
+    return try recorder.run(.textureMapping, images: photos.images) { context in
       let parts = box.map { MeshCropping(box: $0).run(surface) }
       let dense = parts?.inside ?? surface
       guard !dense.triangles.isEmpty else { throw PipelineError.emptyCrop }

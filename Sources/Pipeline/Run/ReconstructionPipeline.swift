@@ -64,7 +64,7 @@ package final class ReconstructionPipeline {
   package func densify(for specification: DetailSpecification) throws -> PointCloud {
     let method = method(for: specification)
     let photos = try method.ingest()
-    return try method.densify(photos, try method.align(photos))
+    return try method.densify(try method.maskObject(photos, try method.align(photos)))
   }
 
   /// Makes the patches of a share of the views and stores them in the checkpoint directory, which
@@ -88,7 +88,7 @@ package final class ReconstructionPipeline {
   package func surface(for specification: DetailSpecification) throws -> Mesh {
     let method = method(for: specification)
     let photos = try method.ingest()
-    return try method.surface(photos, try method.align(photos))
+    return try method.surface(try method.maskObject(photos, try method.align(photos)))
   }
 
   /// Makes a textured model of the part of the surface that `geometry` selects.
@@ -97,9 +97,8 @@ package final class ReconstructionPipeline {
   ) throws -> TexturedMesh {
     let method = method(for: specification)
     let photos = try method.ingest()
-    let reconstruction = try method.align(photos)
-    let surface = try method.surface(photos, reconstruction)
-    return try method.texture(surface, photos, reconstruction, inside: geometry.crop)
+    let scene = try method.maskObject(photos, try method.align(photos))
+    return try method.texture(try method.surface(scene), scene, inside: geometry.crop)
       .transformed(by: geometry.transform)
   }
 

@@ -24,6 +24,9 @@ final class StageCache {
 
   private var photos: PhotoSet?
   private var reconstruction: Reconstruction?
+  private var scene: ObjectScene?
+  /// Folder of estimated masks of a run without a checkpoint directory.
+  private var temporaryMasks: URL?
   private var cloud: AtResolution<PointCloud>?
   private var surface: AtResolution<Mesh>?
 
@@ -34,6 +37,10 @@ final class StageCache {
     self.access = access
     self.sealsStages = sealsStages
     self.recorder = recorder
+  }
+
+  deinit {
+    if let temporaryMasks { try? FileManager.default.removeItem(at: temporaryMasks) }
   }
 
   // MARK: - Lock
@@ -60,6 +67,7 @@ final class StageCache {
   func dropReproducible() {
     cloud = nil
     photos = photos?.emptied
+    if let emptied = scene?.photos.emptied { scene?.photos = emptied }
   }
 
   func photos(_ make: () throws -> PhotoSet) throws -> PhotoSet {
@@ -73,6 +81,13 @@ final class StageCache {
     if let reconstruction { return reconstruction }
     let result = try make()
     reconstruction = result
+    return result
+  }
+
+  func scene(_ make: () throws -> ObjectScene) throws -> ObjectScene {
+    if let scene { return scene }
+    let result = try make()
+    scene = result
     return result
   }
 
@@ -106,6 +121,27 @@ extension StageCache {
     let result = try make()
     try store.save(result, notes)
     return result
+  }
+
+  /// The masks that an earlier run sealed, or else the result of `make`, which is then sealed.
+  func sealedMasks(
+    of photos: PhotoSet, _ configuration: PipelineConfiguration, _ notes: StageNotes,
+    _ make: () throws -> ObjectMasking.Result?
+  ) throws -> EstimatedMasks {
+    let store = try store(photos, configuration)
+    if let found = store?.masks(notes) { return found }
+    let result = try EstimatedMasks(try make(), of: photos.ingested.photos, in: maskFolder())
+    try store?.save(result, notes)
+    return result
+  }
+
+  /// The folder of estimated masks.
+  private func maskFolder() -> URL {
+    if let checkpoint { return checkpoint.masks }
+    let folder = PatchWorkspace.temporaryParent
+      .appendingPathComponent("photogrammetry-masks-\(UUID().uuidString)")
+    temporaryMasks = folder
+    return folder
   }
 
   /// The surface that an earlier run sealed, or else the result of `make`, which is then sealed.

@@ -106,6 +106,7 @@ extension PipelineConfiguration {
     meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle
     checkpointDirectory = configuration.checkpointDirectory
     previewFile = options.previewFile
+    maskOutput = options.maskOutput
     threadCount = options.threadCount
   }
 }

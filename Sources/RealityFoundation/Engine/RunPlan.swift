@@ -33,7 +33,9 @@ struct RunPlan: Sendable {
       models.last ?? DetailSpecification(self.requests.contains(.pointCloud) ? .reduced : .preview)
     entries = self.requests
       .map {
-        Entry($0, specification: $0.specification(configuration), coarsest: coarsest)
+        Entry(
+          $0, specification: $0.specification(configuration), coarsest: coarsest,
+          masksObject: configuration.isObjectMaskingEnabled)
       }
       .enumerated()
       .sorted { ($0.element.rank, $0.offset) < ($1.element.rank, $1.offset) }
@@ -55,7 +57,7 @@ struct RunPlan: Sendable {
 extension RunPlan.Entry {
   fileprivate init(
     _ request: PhotogrammetrySession.Request, specification: DetailSpecification?,
-    coarsest: DetailSpecification
+    coarsest: DetailSpecification, masksObject: Bool
   ) {
     self.request = request
     self.specification = specification
@@ -68,7 +70,7 @@ extension RunPlan.Entry {
       case .modelFile: .optimization
       }
     if request == .bounds { self.specification = coarsest }
-    let stages = PipelineStage.allCases
+    let stages = PipelineStage.allCases.filter { $0 != .objectMasking || masksObject }
     units = stages.prefix(through: stages.firstIndex(of: last) ?? 0)
       .map { [specification = self.specification] in
         WorkUnit(stage: $0, specification: specification)

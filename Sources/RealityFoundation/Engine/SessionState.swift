@@ -178,7 +178,7 @@ extension PhotogrammetrySession.Output.ProcessingStage {
     switch stage {
     case .preProcessing: self = .preProcessing
     case .imageAlignment: self = .imageAlignment
-    case .pointCloudGeneration: self = .pointCloudGeneration
+    case .objectMasking, .pointCloudGeneration: self = .pointCloudGeneration
     case .meshGeneration: self = .meshGeneration
     case .textureMapping: self = .textureMapping
     case .optimization: self = .optimization

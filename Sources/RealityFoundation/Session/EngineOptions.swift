@@ -18,6 +18,8 @@ package struct EngineOptions: Equatable, Sendable {
   package var additionalFileFormats: Set<ModelFormat> = []
   /// A folder with the photos' masks; nil searches the folder of photos.
   package var maskFolder: URL?
+  /// Folder that receives the masks in use as PNG files; nil writes none.
+  package var maskOutput: URL?
 
   package init() {}
 }

@@ -9,8 +9,7 @@ package final class InterruptHandler: Sendable {
   }
 
   private let requests: Requests
-  // Retained so that the sources stay active; nothing is read from them.
-  private nonisolated(unsafe) let sources: [any DispatchSourceSignal]
+  private let listener: UUID
 
   /// Whether a stop was requested.
   package var wasInterrupted: Bool {
@@ -18,7 +17,7 @@ package final class InterruptHandler: Sendable {
       || requests.hasInputEnded.load(ordering: .relaxed)
   }
 
-  /// Calls `onFirst` at the first signal, on a background queue; it may be called more than once.
+  /// Calls `onFirst` at the first signal, on another thread; it may be called more than once.
   ///
   /// With `untilInputEnds` the end of standard input requests a stop, too, and ends the process two
   /// seconds later: the process at the other end is gone. Both may arrive: a signal to the process
@@ -26,15 +25,7 @@ package final class InterruptHandler: Sendable {
   package init(untilInputEnds: Bool = false, _ onFirst: @escaping @Sendable () -> Void) {
     let requests = Requests()
     self.requests = requests
-    // A serial queue has a thread even while the work occupies the global queues.
-    let queue = DispatchQueue(label: "photogrammetry.interrupts", qos: .userInteractive)
-    sources = [SIGINT, SIGTERM].map { number in
-      signal(number, SIG_IGN)
-      let source = DispatchSource.makeSignalSource(signal: number, queue: queue)
-      source.setEventHandler { Self.received(requests, onFirst) }
-      source.resume()
-      return source
-    }
+    listener = SignalPipe.shared.add([SIGINT, SIGTERM]) { Self.received(requests, onFirst) }
     guard untilInputEnds else { return }
     Thread.detachNewThread {
       while !FileHandle.standardInput.availableData.isEmpty {}
@@ -45,6 +36,8 @@ package final class InterruptHandler: Sendable {
       _exit(CommandFailure.interruptedCode)
     }
   }
+
+  deinit { SignalPipe.shared.remove(listener) }
 
   private static func received(_ requests: Requests, _ onFirst: @Sendable () -> Void) {
     if requests.signals.add(1, ordering: .relaxed).oldValue == 0 {

@@ -12,6 +12,7 @@ import Testing
     let (file, folder) = (URL(filePath: "/tmp/a.png"), URL(filePath: "/tmp/a/"))
     configuration.photoRefinement = PhotoRefinement.Options()
     configuration.checkpointDirectory = folder
+    configuration.maskOutput = folder
     configuration.previewFile = file
     configuration.ingestion.maskFolder = folder
     configuration.alignment.worldAlignment.knownDistances = [
@@ -31,7 +32,9 @@ import Testing
     let encoded = try JSONValue(encoding: Self.complete)
     let changes = encoded.changes()
     #expect(changes.count > 200)
-    let stages: [PipelineStage] = [.imageAlignment, .meshGeneration, .optimization]
+    let stages: [PipelineStage] = [
+      .imageAlignment, .objectMasking, .meshGeneration, .optimization,
+    ]
     for stage in stages {
       let before = try Self.fingerprint(encoded, through: stage)
       for (path, changed) in changes {

@@ -23,13 +23,16 @@ package struct StageDurationModel: Sendable {
   package var alignment: AlignmentWork
   /// The fraction of the views that the dense stage processes: less than 1 for one of several jobs.
   package var denseShare: Double
+  /// Whether masks of the object are estimated if none are given.
+  package var masksObject: Bool
 
   package init(
     photos: PhotoTotals, finest: DetailSpecification, threadCount: Int,
-    alignment: AlignmentWork = .search, denseShare: Double = 1
+    alignment: AlignmentWork = .search, denseShare: Double = 1, masksObject: Bool = true
   ) {
     (self.photos, self.finest, self.threadCount) = (photos, finest, threadCount)
     (self.alignment, self.denseShare) = (alignment, denseShare)
+    self.masksObject = masksObject
   }
 
   /// Expected seconds of a model, from the photos to the file.
@@ -52,6 +55,7 @@ package struct StageDurationModel: Sendable {
     return switch unit.stage {
     case .preProcessing: (0.01 * count + 0.015 * megapixels) / threads
     case .imageAlignment: alignmentSeconds(count, megapixels) / threads
+    case .objectMasking: masksObject && photos.masked == 0 ? 0.3 + 0.2 * count / threads : 0
     case .pointCloudGeneration: 0.4 + 1.84 * denseShare * count * view / threads
     // The octree usually has the same depth for 0.2 MP and 0.5 MP, and is shallower below 0.12 MP.
     case .meshGeneration: view < 0.12 ? 4.2 : 14.5 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)

@@ -12,7 +12,8 @@ package struct WorkUnit: Hashable, Sendable {
   package init(stage: PipelineStage, specification: DetailSpecification? = nil) {
     self.stage = stage
     switch stage {
-    case .preProcessing, .imageAlignment, .pointCloudGeneration: self.specification = nil
+    case .preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration:
+      self.specification = nil
     case .meshGeneration, .textureMapping, .optimization: self.specification = specification
     }
   }

@@ -1,0 +1,110 @@
+import Kernels
+import SceneModel
+
+/// Finds the backdrop of a photo: black velvet, a white sweep, colored paper or a plain wall.
+///
+/// A backdrop is the smooth region of one color that most of the photo's border has, as far as it
+/// is connected to the border. A textured support is none: it is reconstructed and separated as a
+/// surface.
+struct BackdropDetection: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Width of the border, as a share of the photo's shorter side.
+    var borderWidth = 0.02
+    /// Colors whose channels differ by at most this from the backdrop's belong to it, 0…255.
+    var tolerance = 24
+    /// Maximum range of the luma in a window of three by three pixels, 0…255.
+    var maximumRange: UInt8 = 6
+    /// The share of the border that must be smooth and have the color of the backdrop. With these
+    /// limits it is 0.9 for black velvet (dinoRing, templeSparse) and a white board (axe), and 0.7
+    /// for a pale, faintly textured table (boot).
+    var minimumBorderShare = 0.8
+    /// The share of the photos that must show a backdrop.
+    var minimumPhotoShare = 0.8
+
+    init() {}
+  }
+
+  var options = Options()
+
+  /// The backdrop of each photo: 255 where it is visible, 0 elsewhere. Nil if too few photos show
+  /// one; single photos without a backdrop have an empty one.
+  func run(_ photos: [RasterImage], _ control: KernelControl) throws -> [RasterImage]? {
+    let found = try control.parallelMap(photos.count) { backdrop(of: photos[$0]) }
+    let count = found.count { $0 != nil }
+    guard count > 0, Double(count) >= options.minimumPhotoShare * Double(photos.count) else {
+      return nil
+    }
+    return zip(photos, found).map {
+      $1 ?? RasterImage(width: $0.width, height: $0.height, channels: 1)
+    }
+  }
+
+  /// The backdrop of a photo; nil if it shows none.
+  private func backdrop(of photo: RasterImage) -> RasterImage? {
+    let border = border(of: photo)
+    var histogram = ColorHistogram()
+    histogram.add(photo) { border[$0] }
+    let smoothed = histogram.probabilities(unseenShare: 0)
+    guard let peak = smoothed.indices.max(by: { smoothed[$0] < smoothed[$1] }) else { return nil }
+    let color = ColorHistogram.color(ofBin: peak)
+    let isSmooth = smoothPixels(of: photo.gray)
+    let isSimilar = (0..<photo.width * photo.height).map { pixel in
+      isSmooth[pixel]
+        && (0..<3).allSatisfy {
+          abs(Int(photo.pixels[3 * pixel + $0]) - color[$0]) <= options.tolerance
+        }
+    }
+    let marked = border.indices.filter { border[$0] && isSimilar[$0] }
+    let borderCount = border.count { $0 }
+    guard Double(marked.count) >= options.minimumBorderShare * Double(borderCount) else {
+      return nil
+    }
+    return connected(marked, where: isSimilar, width: photo.width, height: photo.height)
+  }
+
+  /// Whether each pixel is surrounded by similar ones.
+  private func smoothPixels(of gray: RasterImage) -> [Bool] {
+    (0..<gray.width * gray.height).map { pixel in
+      let (x, y) = (pixel % gray.width, pixel / gray.width)
+      var (low, high) = (UInt8.max, UInt8.min)
+      for v in max(0, y - 1)...min(gray.height - 1, y + 1) {
+        for u in max(0, x - 1)...min(gray.width - 1, x + 1) {
+          let value = gray.pixels[v * gray.width + u]
+          (low, high) = (min(low, value), max(high, value))
+        }
+      }
+      return high - low <= options.maximumRange
+    }
+  }
+
+  /// Whether each pixel belongs to the border.
+  private func border(of photo: RasterImage) -> [Bool] {
+    let width = max(1, Int(options.borderWidth * Double(min(photo.width, photo.height))))
+    return (0..<photo.width * photo.height).map { pixel in
+      let (x, y) = (pixel % photo.width, pixel / photo.width)
+      return min(x, y, photo.width - 1 - x, photo.height - 1 - y) < width
+    }
+  }
+
+  /// The pixels with the property that are connected to the seeds, which have it (4-neighborhood).
+  private func connected(
+    _ seeds: [Int], where hasProperty: [Bool], width: Int, height: Int
+  ) -> RasterImage {
+    var result = RasterImage(width: width, height: height, channels: 1)
+    var open = seeds
+    for seed in seeds { result.pixels[seed] = 255 }
+    while let pixel = open.popLast() {
+      let (x, y) = (pixel % width, pixel / width)
+      for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
+        let (u, v) = (x + dx, y + dy)
+        guard u >= 0, v >= 0, u < width, v < height else { continue }
+        let next = v * width + u
+        if hasProperty[next], result.pixels[next] == 0 {
+          result.pixels[next] = 255
+          open.append(next)
+        }
+      }
+    }
+    return result
+  }
+}

@@ -1,0 +1,1 @@
+#include <opencv4/opencv2/imgproc/detail/gcgraph.hpp>
