@@ -13,6 +13,10 @@ struct CameraUp: Sendable {
     var minimumSpread = 0.1
     /// Minimum cosine of the angle between their normal and the mean image top.
     var minimumCosine = 0.6
+    /// Cameras in several orientations are assumed if that reduces the cost of `LevelCameras` by
+    /// this: some photos were taken with the camera on its side.
+    var minimumLevelGain = 0.05
+    var level = LevelCameras.Options()
   }
 
   /// Unit vector in the frame of the reconstruction.
@@ -20,16 +24,29 @@ struct CameraUp: Sendable {
 
   init(_ reconstruction: Reconstruction, _ options: Options = Options()) {
     let rotations = reconstruction.poses.compactMap { $0?.rotation.conjugate }
+    let direction = Self.meanDirection(rotations, options)
+    let level = LevelCameras(rotations, options: options.level)
+    if let other = level.direction(),
+      level.cost(of: other) + options.minimumLevelGain < level.cost(of: direction)
+    {
+      self.direction = other
+    } else {
+      self.direction = direction
+    }
+  }
+
+  /// The up direction if all cameras are held upright.
+  private static func meanDirection(
+    _ rotations: [Quaternion], _ options: Options
+  ) -> SIMD3<Double> {
     let mean =
       rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, -1, 0] } / Double(rotations.count)
     let back =
       rotations.reduce(SIMD3<Double>.zero) { $0 + $1 * [0, 0, -1] } / Double(rotations.count)
     // The image tops of downward-looking cameras cancel out; then the backward axes point up.
     guard mean.length > options.minimumTop || mean.length > back.length else {
-      direction = back.length > options.minimumBack ? back.normalized : [0, 1, 0]
-      return
+      return back.length > options.minimumBack ? back.normalized : [0, 1, 0]
     }
-    direction = mean.normalized
     // The x axis of a camera held level is horizontal whatever the viewing direction. If the x axes
     // are spread enough, their common normal is more accurate than the mean of the tilted image
     // tops.
@@ -37,9 +54,10 @@ struct CameraUp: Sendable {
     let (values, vectors) = Matrix3(scatterOf: axes, about: .zero).symmetricEigen
     let normal = vectors[0].dot(mean) < 0 ? -vectors[0] : vectors[0]
     if values[0] < options.maximumNormalVariance, values[1] > options.minimumSpread,
-      normal.dot(direction) > options.minimumCosine
+      normal.dot(mean.normalized) > options.minimumCosine
     {
-      direction = normal
+      return normal
     }
+    return mean.normalized
   }
 }

@@ -1,0 +1,58 @@
+import Foundation
+import SceneModel
+import Testing
+
+@testable import Pipeline
+
+@Suite struct CameraUpTests {
+  /// Cameras in a ring around the y axis that look at the origin from a height, each rolled about
+  /// its optical axis by quarter turns.
+  private func ring(
+    count: Int = 24, pitchDegrees: Double, arcDegrees: Double = 360,
+    quarterTurns: (Int) -> Int
+  ) -> Reconstruction {
+    let poses = (0..<count).map { index -> RigidTransform? in
+      let angle = arcDegrees * .pi / 180 * Double(index) / Double(count)
+      let pitch = pitchDegrees * .pi / 180
+      let yaw = Quaternion(angle: angle, axis: [0, 1, 0])
+      let tilt = Quaternion(angle: -pitch, axis: [1, 0, 0])
+      // Camera axes are x right, y down, z forward.
+      let flip = Quaternion(angle: .pi, axis: [1, 0, 0])
+      let roll = Quaternion(angle: Double(quarterTurns(index)) * .pi / 2, axis: [0, 0, 1])
+      let worldFromCamera = (yaw * tilt * flip * roll).normalized
+      let center = worldFromCamera * SIMD3<Double>(0, 0, -1)
+      let rotation = worldFromCamera.conjugate
+      return RigidTransform(rotation: rotation, translation: -(rotation * center))
+    }
+    return Reconstruction(cameras: [], photos: [], poses: poses, points: [])
+  }
+
+  private func errorDegrees(_ reconstruction: Reconstruction) -> Double {
+    let up = CameraUp(reconstruction).direction
+    return acos(min(1, max(-1, up.dot([0, 1, 0])))) * 180 / .pi
+  }
+
+  @Test(arguments: [0.0, 20, 45, 60])
+  func camerasHeldUprightDetermineUp(pitch: Double) {
+    #expect(errorDegrees(ring(pitchDegrees: pitch) { _ in 0 }) < 1)
+  }
+
+  @Test(arguments: [1, 3])
+  func camerasOnTheirSideDetermineUp(turns: Int) {
+    #expect(errorDegrees(ring(pitchDegrees: 25) { _ in turns }) < 1)
+  }
+
+  /// Landscape, portrait and upside-down photos, without a record of the orientation.
+  @Test func mixedOrientationsDetermineUp() {
+    let turns = [0, 0, 1, 0, 3, 0, 2, 0]
+    #expect(errorDegrees(ring(pitchDegrees: 25) { turns[$0 % turns.count] }) < 1)
+  }
+
+  @Test func photosFromOneDirectionStayAsTheyAre() {
+    #expect(errorDegrees(ring(pitchDegrees: 0, arcDegrees: 10) { _ in 0 }) < 1)
+  }
+
+  @Test func camerasLookingDownHaveTheirBackUp() {
+    #expect(errorDegrees(ring(pitchDegrees: 89) { _ in 0 }) < 5)
+  }
+}
