@@ -20,13 +20,16 @@ struct MaskOutputArguments: ParsableArguments {
       valueName: "folder"), completion: .directory)
   var writeMasks: String?
 
-  /// The folder; nil if none is named. Throws a `CommandFailure` if it can't be written.
-  var folder: URL? {
-    get throws {
-      guard let writeMasks else { return nil }
-      let url = URL(fileURLWithPath: writeMasks, isDirectory: true)
-      try ModelOutput.checkWritable(url)
-      return url
+  /// The folder; nil if none is named. Throws a `CommandFailure` if it can't be written, or if it
+  /// is the folder of the photos, which masks of the same name would replace.
+  func folder(photos: URL) throws -> URL? {
+    guard let writeMasks else { return nil }
+    let url = URL(fileURLWithPath: writeMasks, isDirectory: true)
+    guard url.resolvingSymlinksInPath().path != photos.resolvingSymlinksInPath().path else {
+      throw CommandFailure.usage(
+        "\(writeMasks) is the folder of the photos. Name another folder for the masks.")
     }
+    try ModelOutput.checkWritable(url)
+    return url
   }
 }

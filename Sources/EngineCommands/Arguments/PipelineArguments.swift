@@ -36,7 +36,7 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.knownDistances = try scale.knownDistances(photos: folder)
     session.engineOptions.additionalFileFormats = Set(ModelFormat.files)
     session.engineOptions.maskFolder = try masking.folder
-    session.engineOptions.maskOutput = try maskOutput.folder
+    session.engineOptions.maskOutput = try maskOutput.folder(photos: folder)
     session.engineOptions.previewFile = try preview.file()
     session.engineOptions.closesObject = !surface.keepGaps
     session.engineOptions.refinesSurface = surface.refine

@@ -32,8 +32,11 @@ package final class ImageStore: Sendable {
   }
 
   /// A store with the photos and the decoded images of another one.
-  private init(sharing other: ImageStore, usesMasks: Bool, decodedPixels: Int) {
-    source = other.source
+  private init(
+    sharing other: ImageStore, source: (any PhotoPixels)? = nil, usesMasks: Bool,
+    decodedPixels: Int
+  ) {
+    self.source = source ?? other.source
     processingPixels = other.processingPixels
     self.usesMasks = usesMasks
     cache = other.cache
@@ -45,6 +48,14 @@ package final class ImageStore: Sendable {
   /// The photos of another store without their masks; the two share their decoded images.
   package convenience init(withoutMasksOf other: ImageStore) {
     self.init(sharing: other, usesMasks: false, decodedPixels: other.decodedPixels)
+  }
+
+  /// A store of the same photos with other masks; `other` has none. The two share their decoded
+  /// images.
+  convenience init(masked photos: [Photo], contentHashes: [UInt64], sharing other: ImageStore) {
+    self.init(
+      sharing: other, source: PhotoFiles(photos: photos, contentHashes: contentHashes),
+      usesMasks: true, decodedPixels: other.decodedPixels)
   }
 
   /// The same photos for a stage that needs them in several sizes, up to `maximumPixels`: one

@@ -13,6 +13,11 @@ struct MaskOutput {
   func write(_ photos: PhotoSet, _ context: StageContext) throws {
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     let names = MaskFiles.names(forMasksOf: photos.ingested.photos.map(\.name))
+    if !photos.images.hasMasks {
+      context.notes.warn(
+        "No masks were written to \(folder.relativePath): the photos have none, and show no "
+          + "separate object.")
+    }
     _ = try context.control.parallelMap(photos.ingested.photos.count) { [folder] index in
       let photo = photos.ingested.photos[index]
       guard let mask = try photos.images.mask(photo.id) else { return }

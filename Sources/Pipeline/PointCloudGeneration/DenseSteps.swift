@@ -174,9 +174,7 @@ struct DenseSteps {
         try filtered(index), neighbors: try views.views[index].sources.map(filtered),
         options: options.coarseFilter, control: KernelControl())
     }
-    return clouds.reduce(into: PointCloud()) { cloud, part in
-      for index in part.positions.indices { cloud.append(part, index) }
-    }
+    return clouds.reduce(into: PointCloud()) { $0.append($1) }
   }
 
   /// Concatenates the views' points in view order.

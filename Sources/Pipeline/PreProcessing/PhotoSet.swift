@@ -19,12 +19,18 @@ struct PhotoSet: Sendable {
       processingPixels: ingested.processingPixels, contentHashes: ingested.contentHashes)
   }
 
-  /// The same photos with masks, by photo ID.
-  func masked(by masks: [PhotoMask?]) -> PhotoSet {
-    var masked = ingested
-    for index in masked.photos.indices { masked.photos[index].mask = masks[index] }
-    return PhotoSet(masked, readings: readings, byteBudget: byteBudget)
+  /// The photos of a set without masks, with masks by photo ID. The two share decoded images.
+  private init(_ other: PhotoSet, masks: [PhotoMask?]) {
+    var ingested = other.ingested
+    for index in ingested.photos.indices { ingested.photos[index].mask = masks[index] }
+    self.ingested = ingested
+    (readings, byteBudget) = (other.readings, other.byteBudget)
+    images = ImageStore(
+      masked: ingested.photos, contentHashes: ingested.contentHashes, sharing: other.images)
   }
+
+  /// The same photos with masks, by photo ID; this set has none.
+  func masked(by masks: [PhotoMask?]) -> PhotoSet { PhotoSet(self, masks: masks) }
 
   /// The same photos, none of them decoded.
   var emptied: PhotoSet { PhotoSet(ingested, readings: readings, byteBudget: byteBudget) }

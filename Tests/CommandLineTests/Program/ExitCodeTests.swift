@@ -42,6 +42,9 @@ import Testing
       ["photos", "m.usdz", "--poses", "no/p.json"], code: 2,
       mentioning: ["p.json", "mkdir -p"])
     try expectFailure(
+      ["photos", "m.usdz", "--write-masks", "photos"], code: 2,
+      mentioning: ["folder of the photos", "another folder"])
+    try expectFailure(
       ["evaluate", "photos", "--reference", "photos"], code: 2,
       mentioning: ["holds no result"])
   }

@@ -105,6 +105,24 @@ import Testing
     }
   }
 
+  @Test func aStoreWithOtherMasksSharesDecodedPhotos() throws {
+    let folder = try TemporaryFolder()
+    try folder.write(
+      ImageCodec.encodeJPEG(TexturePattern.image(width: 400, height: 300, seed: 1), quality: 0.9),
+      as: "a.jpg")
+    var photos = try PhotoIngestion().run(folder: folder.url, StageContext()).photos
+    let store = ImageStore(photos: photos)
+    _ = try store.image(ID(0))
+    let marked = RasterImage(width: 200, height: 150, channels: 1).marking { _ in true }
+    let file = try folder.write(ImageCodec.encodePNG(marked), as: "mask.png")
+    photos[0].mask = PhotoMask(file: file, orientation: 1, contentHash: 1, coverage: 1)
+    let masked = ImageStore(masked: photos, contentHashes: [], sharing: store)
+    #expect(try masked.image(ID(0)) == store.image(ID(0)))
+    #expect(masked.decodeCount == 1)
+    #expect(try store.mask(ID(0)) == nil && masked.mask(ID(0), maximumPixels: 30_000) == marked)
+    #expect(try masked.fingerprint(of: ID(0)) != store.fingerprint(of: ID(0)))
+  }
+
   @Test func aStoreWithoutMasksSharesDecodedPhotos() throws {
     let image = TexturePattern.image(width: 400, height: 300, seed: 1)
     let mask = RasterImage(width: 400, height: 300, channels: 1)
