@@ -36,6 +36,8 @@ struct StageStore {
 
 /// The result of alignment without the photos.
 private struct AlignmentRecord: Codable {
+  /// The masks of an object that was moved; nil if it was not.
+  var masks: EstimatedMasks?
   var cameras: [Camera]
   var cameraOfPhoto: [ID<Camera>]
   var poses: [RigidTransform?]
@@ -47,9 +49,10 @@ private struct AlignmentRecord: Codable {
 
 extension StageStore {
   /// Saves the result of alignment with its notes.
-  func save(_ reconstruction: Reconstruction, _ notes: StageNotes) throws {
+  func save(_ aligned: AlignedPhotos, _ notes: StageNotes) throws {
+    let reconstruction = aligned.reconstruction
     let record = AlignmentRecord(
-      cameras: reconstruction.cameras, cameraOfPhoto: reconstruction.photos.map(\.camera),
+      masks: aligned.masks, cameras: reconstruction.cameras, cameraOfPhoto: reconstruction.photos.map(\.camera),
       poses: reconstruction.poses, points: reconstruction.points,
       worldFrame: reconstruction.worldFrame, unregistered: reconstruction.unregistered,
       notes: SavedNotes(notes))
@@ -58,16 +61,19 @@ extension StageStore {
 
   /// The alignment of the same photos by an earlier run; nil if there is none that can be reused.
   /// Its notes are added to `notes`.
-  func reconstruction(of photos: [Photo], _ notes: StageNotes) -> Reconstruction? {
+  func alignment(of photos: [Photo], _ notes: StageNotes) -> AlignedPhotos? {
     guard let record: AlignmentRecord = read("alignment", madeFrom: inputs.alignment),
-      record.cameraOfPhoto.count == photos.count, record.poses.count == photos.count
+      record.cameraOfPhoto.count == photos.count, record.poses.count == photos.count,
+      record.masks?.areIntact ?? true
     else { return nil }
     var photos = photos
     for (index, camera) in record.cameraOfPhoto.enumerated() { photos[index].camera = camera }
     record.notes.replay(to: notes)
-    return Reconstruction(
-      cameras: record.cameras, photos: photos, poses: record.poses, points: record.points,
-      worldFrame: record.worldFrame, unregistered: record.unregistered)
+    return AlignedPhotos(
+      reconstruction: Reconstruction(
+        cameras: record.cameras, photos: photos, poses: record.poses, points: record.points,
+        worldFrame: record.worldFrame, unregistered: record.unregistered),
+      masks: record.masks)
   }
 }
 

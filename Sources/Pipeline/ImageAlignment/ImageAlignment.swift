@@ -39,18 +39,38 @@ package struct ImageAlignment: Sendable {
   package func run(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
+    let map = try map(
+      photos: photos, cameras: cameras, images: images, context.part(from: 0, to: 0.87))
+    try throwOrWarn(map, context.notes)
+    return try finish(map.reconstruction, map, images, context.part(from: 0.87, to: 1))
+  }
+
+  /// A map of the photos and what it was made from.
+  struct Map: Sendable {
+    /// Not refined yet, in the frame of one of the photos.
+    var reconstruction: Reconstruction
+    var graph: ViewGraph
+    var features: [FeatureSet]
+    /// Initial cameras, with focal lengths from self-calibration.
+    var cameras: [Camera]
+    /// The signs of repeated structure, or of an object that was moved; nil if the check failed.
+    var findings: SceneAmbiguityCheck.Findings?
+  }
+
+  /// Maps the photos by features of the images, and checks the map. Throws
+  /// `PipelineError.alignmentFailed` if there is no map, but not if parts of it are superimposed.
+  func map(
+    photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
+  ) throws -> Map {
     try PipelineError.checkCount(photos.count, needed: options.minimumPhotos)
-    let sizes = [options.features.photoPixels, options.refinement.workingPixels]
-    let images =
-      sizes[0] == sizes[1] ? images : images.decodingOnce(forSizesUpTo: max(sizes[0], sizes[1]))
     let features = try timed("featureSeconds", context) {
       try FeatureExtraction(options.features).run(
-        photos, images: images, context.part(from: 0, to: 0.4))
+        photos, images: decodingOnce(images), context.part(from: 0, to: 0.45))
     }
     let (graph, calibrated) = try timed("matchingSeconds", context) {
       try CorrespondenceSearch(options.search).run(
         photos: photos, cameras: cameras, features: features, ordering: options.ordering,
-        context.part(from: 0.4, to: 0.7))
+        context.part(from: 0.45, to: 0.8))
     }
     guard !graph.pairs.isEmpty else {
       throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
@@ -64,23 +84,51 @@ package struct ImageAlignment: Sendable {
     let mapped = try timed("mappingSeconds", context) {
       try SparseMapping(options.mapping).run(
         graph, features: features, photos: photos, cameras: calibrated,
-        context.part(from: 0.7, to: 0.85))
+        context.part(from: 0.8, to: 0.97))
     }
     try check(mapped, context.notes)
-    try timed("ambiguityCheckSeconds", context) {
-      try checkSceneAmbiguity(mapped, graph, features, images, context.part(from: 0.85, to: 0.87))
+    var map = Map(reconstruction: mapped, graph: graph, features: features, cameras: calibrated)
+    map.findings = try timed("ambiguityCheckSeconds", context) {
+      try ambiguityFindings(map, images, context.part(from: 0.97, to: 1))
     }
+    return map
+  }
+
+  /// The largest reconstruction of some of the photos of a map, refined and in the world frame.
+  func reconstruction(
+    of group: [Int], _ map: Map, _ images: ImageStore, _ context: StageContext
+  ) throws -> Reconstruction {
+    let mapped = try SparseMapping(options.mapping).run(
+      map.graph.restricted(to: group), features: map.features, photos: map.reconstruction.photos,
+      cameras: map.cameras, context.part(from: 0, to: 0.5))
+    try check(mapped, context.notes)
+    return try finish(mapped, map, images, context.part(from: 0.5, to: 1))
+  }
+
+  /// Refines the observations and moves the reconstruction to the world frame.
+  func finish(
+    _ mapped: Reconstruction, _ map: Map, _ images: ImageStore, _ context: StageContext
+  ) throws -> Reconstruction {
     let refined = try timed("refinementSeconds", context) {
-      try refine(mapped, features, calibrated, images, context.part(from: 0.87, to: 0.98))
+      try refine(
+        mapped, map.features, map.cameras, decodingOnce(images), context.part(from: 0, to: 0.85))
     }
     var worldAlignment = options.worldAlignment
-    let masks = images.hasMasks ? photos.count { $0.mask != nil } : 0
-    worldAlignment.findsSupport = worldAlignment.findsSupport && 2 * masks < photos.count
+    let masks = images.hasMasks ? mapped.photos.count { $0.mask != nil } : 0
+    worldAlignment.findsSupport =
+      worldAlignment.findsSupport && 2 * masks < mapped.photos.count
     let reconstruction = WorldAlignment(worldAlignment).run(
-      refined, context.part(from: 0.98, to: 1))
+      refined, context.part(from: 0.85, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction
+  }
+
+  /// The photos, decoded once for features and refinement.
+  private func decodingOnce(_ images: ImageStore) -> ImageStore {
+    let sizes = [options.features.photoPixels, options.refinement.workingPixels]
+    return sizes[0] == sizes[1]
+      ? images : images.decodingOnce(forSizesUpTo: max(sizes[0], sizes[1]))
   }
 
   /// The reconstruction with refined observations, or the unrefined one if refinement fails.
@@ -98,30 +146,35 @@ package struct ImageAlignment: Sendable {
     }
   }
 
-  /// Throws if the reconstruction superimposes repeated structures of the scene, and warns if it
-  /// may.
-  private func checkSceneAmbiguity(
-    _ mapped: Reconstruction, _ graph: ViewGraph, _ features: [FeatureSet], _ images: ImageStore,
-    _ context: StageContext
-  ) throws {
-    let findings: SceneAmbiguityCheck.Findings
+  /// The signs that the map superimposes repeated structures of the scene; nil if the check fails.
+  private func ambiguityFindings(
+    _ map: Map, _ images: ImageStore, _ context: StageContext
+  ) throws -> SceneAmbiguityCheck.Findings? {
     do {
-      findings = try SceneAmbiguityCheck(options.sceneAmbiguity)
-        .run(mapped, graph, features: features, images: images, context)
+      return try SceneAmbiguityCheck(options.sceneAmbiguity)
+        .run(
+          map.reconstruction, map.graph, features: map.features, images: decodingOnce(images),
+          context)
     } catch let error as KernelError where error != .outOfMemory {
       context.notes.warn("The scene was not checked for repeated structure (\(error)).")
-      return
+      return nil
     }
+  }
+
+  /// Throws if a map superimposes repeated structures of the scene, and warns if it may.
+  func throwOrWarn(_ map: Map, _ notes: StageNotes) throws {
+    guard let findings = map.findings else { return }
+    let photos = map.reconstruction.photos
     switch findings.verdict {
     case .consistent: break
     case .ambiguous:
-      context.notes.warn(
+      notes.warn(
         "The model may superimpose similar parts of the scene: "
-          + "\(findings.reason(mapped.photos)). Check the model; \(Self.ambiguityAdvice)")
+          + "\(findings.reason(photos)). Check the model; \(Self.ambiguityAdvice)")
     case .inconsistent:
       throw PipelineError.alignmentFailed(
         reason: "similar parts of the scene can't be distinguished: "
-          + "\(findings.reason(mapped.photos)); \(Self.ambiguityAdvice)")
+          + "\(findings.reason(photos)); \(Self.ambiguityAdvice)")
     }
   }
 

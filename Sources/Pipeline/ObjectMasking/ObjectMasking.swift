@@ -40,7 +40,20 @@ struct ObjectMasking {
     var agreement: [Double?]
     var support: SupportPlane?
     /// The coarse points that do not belong to the object.
-    var surroundings: PointCloud
+    var surroundings = PointCloud()
+
+    /// No masks.
+    init(photoCount: Int) {
+      masks = Array(repeating: nil, count: photoCount)
+      agreement = Array(repeating: nil, count: photoCount)
+    }
+
+    /// Adds the masks of other photos.
+    mutating func add(_ other: Result) {
+      for index in masks.indices where other.masks[index] != nil {
+        (masks[index], agreement[index]) = (other.masks[index], other.agreement[index])
+      }
+    }
   }
 
   var options = Options()
@@ -68,10 +81,9 @@ struct ObjectMasking {
       context.part(from: 0.7, to: 0.75).control)
     let estimated = try MaskEstimation(options: options.estimation)
       .run(views, points: object, context.part(from: 0.75, to: 1))
-    var result = Result(
-      masks: Array(repeating: nil, count: reconstruction.photos.count),
-      agreement: Array(repeating: nil, count: reconstruction.photos.count),
-      support: isolated.support, surroundings: cloud.filtered(by: isolated.isKept.map { !$0 }))
+    var result = Result(photoCount: reconstruction.photos.count)
+    result.support = isolated.support
+    result.surroundings = cloud.filtered(by: isolated.isKept.map { !$0 })
     return add(estimated, of: views, to: &result, context.notes) ? result : nil
   }
 

@@ -41,13 +41,13 @@ struct ReconstructionMethod {
 
   /// Estimates cameras, poses and sparse points in the frame that all results share.
   func align(_ photos: PhotoSet) throws -> Reconstruction {
-    try cache.reconstruction {
+    try cache.aligned {
       let result = try source.cameras(of: photos, configuration, cache, recorder)
-      recorder.record(result)
+      recorder.record(result.reconstruction)
       // Given cameras may have been read from the checkpoint.
-      if source.isPhotosOnly { try cache.checkpoint?.write(result) }
+      if source.isPhotosOnly { try cache.checkpoint?.write(result.reconstruction) }
       return result
-    }
+    }.reconstruction
   }
 
   /// Estimates the masks of the object, if it is to be isolated and the photos have none, and
@@ -74,7 +74,7 @@ struct ReconstructionMethod {
   private func estimatedScene(
     _ photos: PhotoSet, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> ObjectScene {
-    let masks = try cache.sealedMasks(of: photos, configuration, context.notes) {
+    let masks = try cache.masksOfAlignment ?? cache.sealedMasks(of: photos, configuration, context.notes) {
       try ObjectMasking(options: configuration.objectMasking)
         .run(reconstruction, images: photos.images, context)
     }

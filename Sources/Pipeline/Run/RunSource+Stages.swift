@@ -25,12 +25,12 @@ extension RunSource {
   func cameras(
     of photos: PhotoSet, _ configuration: PipelineConfiguration, _ cache: StageCache,
     _ recorder: RunRecorder
-  ) throws -> Reconstruction {
+  ) throws -> AlignedPhotos {
     switch self {
     case .photos:
       return try recorder.run(.imageAlignment, images: photos.images) { context in
         try cache.sealedAlignment(of: photos, configuration, context.notes) {
-          try Self.align(photos, configuration, context)
+          try Self.align(photos, configuration, maskFolder: cache.maskFolder(), context)
         }
       }
     case .photosWithCameras(_, let known):
@@ -38,20 +38,28 @@ extension RunSource {
         try Self.assign(known, to: photos, $0)
       }
       recorder.record(missing: missing)
-      return result
+      return AlignedPhotos(reconstruction: result)
     case .savedRun(let saved):
-      return saved.reconstruction(of: photos.ingested)
+      return AlignedPhotos(reconstruction: saved.reconstruction(of: photos.ingested))
     }
   }
 
   /// Structure from motion.
   private static func align(
-    _ photos: PhotoSet, _ configuration: PipelineConfiguration, _ context: StageContext
-  ) throws -> Reconstruction {
+    _ photos: PhotoSet, _ configuration: PipelineConfiguration, maskFolder: URL,
+    _ context: StageContext
+  ) throws -> AlignedPhotos {
     var options = configuration.alignment
     options.worldAlignment.readings = photos.readings
-    return try MaskedAlignment(ImageAlignment(options))
-      .run(photos.ingested, images: photos.images, context)
+    let alignment = ImageAlignment(options)
+    guard configuration.isObjectMaskingEnabled, !photos.images.hasMasks else {
+      return AlignedPhotos(
+        reconstruction: try MaskedAlignment(alignment)
+          .run(photos.ingested, images: photos.images, context))
+    }
+    return try MovedObjectAlignment(
+      alignment: alignment, masking: ObjectMasking(options: configuration.objectMasking)
+    ).run(photos, folder: maskFolder, context)
   }
 
   /// Assigns given cameras to the photos, and triangulates sparse points if none were given. Also

@@ -23,7 +23,7 @@ final class StageCache {
   private var lock: DirectoryLock?
 
   private var photos: PhotoSet?
-  private var reconstruction: Reconstruction?
+  private var aligned: AlignedPhotos?
   private var scene: ObjectScene?
   /// Folder of estimated masks of a run without a checkpoint directory.
   private var temporaryMasks: URL?
@@ -77,10 +77,13 @@ final class StageCache {
     return result
   }
 
-  func reconstruction(_ make: () throws -> Reconstruction) throws -> Reconstruction {
-    if let reconstruction { return reconstruction }
+  /// The masks that alignment estimated; nil if it did not.
+  var masksOfAlignment: EstimatedMasks? { aligned?.masks }
+
+  func aligned(_ make: () throws -> AlignedPhotos) throws -> AlignedPhotos {
+    if let aligned { return aligned }
     let result = try make()
-    reconstruction = result
+    aligned = result
     return result
   }
 
@@ -114,10 +117,10 @@ extension StageCache {
   /// The alignment that an earlier run sealed, or else the result of `make`, which is then sealed.
   func sealedAlignment(
     of photos: PhotoSet, _ configuration: PipelineConfiguration, _ notes: StageNotes,
-    _ make: () throws -> Reconstruction
-  ) throws -> Reconstruction {
+    _ make: () throws -> AlignedPhotos
+  ) throws -> AlignedPhotos {
     guard let store = try store(photos, configuration) else { return try make() }
-    if let found = store.reconstruction(of: photos.ingested.photos, notes) { return found }
+    if let found = store.alignment(of: photos.ingested.photos, notes) { return found }
     let result = try make()
     try store.save(result, notes)
     return result
@@ -136,8 +139,8 @@ extension StageCache {
   }
 
   /// The folder of estimated masks.
-  private func maskFolder() -> URL {
-    if let checkpoint { return checkpoint.masks }
+  func maskFolder() -> URL {
+    if let folder = checkpoint?.masks ?? temporaryMasks { return folder }
     let folder = PatchWorkspace.temporaryParent
       .appendingPathComponent("photogrammetry-masks-\(UUID().uuidString)")
     temporaryMasks = folder

@@ -74,6 +74,8 @@ package struct ViewGraph: Sendable {
   package var pairs: [VerifiedPair]
   /// Pairs with some matches that could not be verified, sorted by pair.
   package var rejected: [RejectedPair]
+  /// Pairs between which two bodies moved differently, sorted by pair; empty if the scene is rigid.
+  package var motions: [TwoMotions] = []
 
   package init(photoCount: Int, pairs: [VerifiedPair], rejected: [RejectedPair] = []) {
     self.photoCount = photoCount

@@ -49,6 +49,7 @@ extension SceneAmbiguityCheck {
     package var maximumAgreement = 0.2
     /// Number of pairs whose matches contradict the reconstruction from which on it is questioned.
     package var minimumContradicted = 2
+    var placements = PlacementDetection.Options()
 
     package init() {}
   }

@@ -20,6 +20,9 @@ package struct SceneAmbiguityCheck: Sendable {
     package var conflicts: [Evidence] = []
     /// Pairs whose matches contradict the reconstruction, sorted.
     package var contradicted: [PhotoPair] = []
+    /// Groups of photos between which the object seems to have been moved, larger ones first; one
+    /// group if it was not moved.
+    package var placements: [[Int]] = []
     package var verdict = Verdict.consistent
   }
 
@@ -49,6 +52,8 @@ package struct SceneAmbiguityCheck: Sendable {
       ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
     }
     findings.contradicted = graph.contradicted(by: reconstruction, features: features, options)
+    findings.placements = PlacementDetection(options: options.placements)
+      .run(evidence, isConflict: isConflict, reconstruction, graph)
     let needed = max(
       Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
     let signs = [
@@ -58,6 +63,7 @@ package struct SceneAmbiguityCheck: Sendable {
     findings.verdict =
       !signs.contains(true) ? .consistent : signs.contains(false) ? .ambiguous : .inconsistent
     context.notes.record("ambiguityConflicts", Double(findings.conflicts.count))
+    context.notes.record("placements", Double(findings.placements.count))
     context.notes.record("contradictedPairs", Double(findings.contradicted.count))
     return findings
   }

@@ -14,6 +14,7 @@ package struct CorrespondenceSearch {
     package var verification = PairVerification.Options()
     package var selfCalibration = SelfCalibration.Options()
     package var guidedMatching = GuidedMatching.Options()
+    package var secondMotions = SecondMotionSearch.Options()
 
     package init() {}
   }
@@ -54,7 +55,8 @@ package struct CorrespondenceSearch {
     if calibrated != cameras {
       try matchedPairs.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
     }
-    try matchedPairs.guide(calibrated, context.part(from: 0.97, to: 1))
+    try matchedPairs.guide(calibrated, context.part(from: 0.97, to: 0.99))
+    try matchedPairs.findSecondMotions(calibrated, context.part(from: 0.99, to: 1))
     context.notes.record("candidatePairs", Double(Set(choice.candidates).union(more).count))
     matchedPairs.report(context.notes)
     return (matchedPairs.graph, calibrated)
@@ -121,11 +123,21 @@ private struct MatchedPairs {
     ).run(graph, features: features, photos: photos, cameras: cameras, context)
   }
 
+  /// Searches for pairs between which a part of the scene moved.
+  mutating func findSecondMotions(_ cameras: [Camera], _ context: StageContext) throws {
+    graph.motions = try SecondMotionSearch(
+      options.secondMotions, verification: PairVerification(verification)
+    ).run(
+      pairs, matches: matches, graph: graph, features: features, photos: photos, cameras: cameras,
+      context)
+  }
+
   /// Records the numbers of pairs and matches, and warns if no pair was verified.
   func report(_ notes: StageNotes) {
     notes.record("pairs", Double(pairs.count))
     notes.record("matches", Double(matches.reduce(0) { $0 + $1.count }))
     notes.record("verifiedPairs", Double(graph.pairs.count))
+    notes.record("twoMotionPairs", Double(graph.motions.count))
     notes.record("verifiedMatches", Double(graph.pairs.reduce(0) { $0 + $1.matches.count }))
     if graph.pairs.isEmpty, graph.photoCount > 1 {
       notes.warn(

@@ -76,12 +76,3 @@ package struct GuidedMatching {
     return better
   }
 }
-
-extension RigidTransform {
-  /// The essential matrix E of `bFromA`: `x_bᵀ E x_a = 0` for corresponding viewing rays.
-  var essentialMatrix: Matrix3 {
-    let t = translation
-    let cross = Matrix3(rows: [0, -t.z, t.y], [t.z, 0, -t.x], [-t.y, t.x, 0])
-    return cross * rotation.matrix
-  }
-}

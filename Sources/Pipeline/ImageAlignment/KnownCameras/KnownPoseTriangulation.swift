@@ -187,16 +187,3 @@ package struct KnownPoseTriangulation: Sendable {
     return map
   }
 }
-
-extension Matrix3 {
-  /// The Sampson distance of two points at depth 1 from this essential matrix: to first order, the
-  /// distance that they would have to move to satisfy it.
-  fileprivate func sampsonError(_ first: SIMD2<Double>, _ second: SIMD2<Double>) -> Double {
-    let (a, b) = (SIMD3(first, 1), SIMD3(second, 1))
-    let line = SIMD3(row0.dot(a), row1.dot(a), row2.dot(a))
-    let x = row0.x * b.x + row1.x * b.y + row2.x * b.z
-    let y = row0.y * b.x + row1.y * b.y + row2.y * b.z
-    let square = line.x * line.x + line.y * line.y + x * x + y * y
-    return square > 0 ? abs(b.dot(line)) / square.squareRoot() : .infinity
-  }
-}

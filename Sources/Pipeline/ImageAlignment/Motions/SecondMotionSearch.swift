@@ -1,0 +1,146 @@
+import Kernels
+import SceneModel
+
+/// Finds the pairs of photos that show two rigid motions, by sequential RANSAC: a second geometry
+/// is estimated from the matches that contradict the first.
+package struct SecondMotionSearch: Sendable {
+  package struct Options: Hashable, Codable, Sendable {
+    /// Whether to search for second motions.
+    package var isEnabled = true
+    /// The pairs with the most unexplained matches are examined first, up to this number. If less
+    /// than `minimumShare` of them show a second motion, the scene is considered rigid.
+    package var sampleSize = 40
+    package var minimumShare = 0.15
+    /// Minimum number of matches of each motion.
+    package var minimumMatches = 20
+    /// Minimum fraction of the unexplained matches that must agree with the second motion.
+    package var minimumShareOfRest = 0.4
+    /// Minimum fraction of the matches of one motion that must contradict the other.
+    package var minimumDistinctShare = 0.7
+    /// Matches contradict a motion beyond this multiple of the error limit.
+    package var distinctFactor = 2.0
+    /// Maximum displacement of a static match, as a fraction of the photo's longer side.
+    package var staticDisplacement = 0.001
+    /// Maximum number of RANSAC iterations.
+    package var maximumIterations = 500
+
+    package init() {}
+  }
+
+  package var options: Options
+  package var verification: PairVerification
+
+  package init(_ options: Options, verification: PairVerification) {
+    (self.options, self.verification) = (options, verification)
+  }
+
+  /// The pairs with two motions, sorted by pair. `matches` has all matches of each of `pairs`, the
+  /// best first; `graph` has the first motions.
+  func run(
+    _ pairs: [PhotoPair], matches: [[FeatureMatch]], graph: ViewGraph, features: [FeatureSet],
+    photos: [Photo], cameras: [Camera], _ context: StageContext
+  ) throws -> [TwoMotions] {
+    guard options.isEnabled else { return [] }
+    let points = try context.control.parallelMap(photos.count) { index in
+      cameras[photos[index].camera.index].normalizedPositions(of: features[index])
+    }
+    let known = Dictionary(uniqueKeysWithValues: graph.pairs.map { ($0.pair, $0) })
+    let candidates = try context.control.parallelMap(pairs.count) { index in
+      candidate(
+        pairs[index], matches[index], known[pairs[index]], features, photos)
+    }.compactMap { $0 }.sorted { ($1.priority, $0.pair) < ($0.priority, $1.pair) }
+    func examine(_ part: ArraySlice<Candidate>, _ control: KernelControl) throws -> [TwoMotions] {
+      let part = Array(part)
+      return try control.parallelMap(part.count) {
+        try motions(part[$0], points, photos, cameras)
+      }.compactMap { $0 }
+    }
+    let sample = candidates.prefix(options.sampleSize)
+    let found = try examine(sample, context.control)
+    guard !found.isEmpty, Double(found.count) >= options.minimumShare * Double(sample.count) else {
+      return []
+    }
+    return (found + (try examine(candidates.dropFirst(sample.count), context.control)))
+      .sorted { $0.pair < $1.pair }
+  }
+
+  /// A pair that may show two motions.
+  private struct Candidate: Sendable {
+    var pair: PhotoPair
+    /// The first motion; its pose is nil if it is static.
+    var first: VerifiedPair
+    var isStatic: Bool
+    /// The matches that the first motion doesn't explain.
+    var rest: [FeatureMatch]
+
+    var priority: Int { min(first.matches.count, rest.count) }
+  }
+
+  private func candidate(
+    _ pair: PhotoPair, _ matches: [FeatureMatch], _ known: VerifiedPair?, _ features: [FeatureSet],
+    _ photos: [Photo]
+  ) -> Candidate? {
+    let (a, b) = (photos[pair.first.index], photos[pair.second.index])
+    if a.width == b.width, a.height == b.height {
+      let limit = Float(options.staticDisplacement * Double(max(a.width, a.height)))
+      let isStatic = matches.map { match in
+        let shift =
+          features[pair.second.index].positions[Int(match.second)]
+          - features[pair.first.index].positions[Int(match.first)]
+        return (shift * shift).sum() <= limit * limit
+      }
+      let still = matches.indices.filter { isStatic[$0] }.map { matches[$0] }
+      if still.count >= options.minimumMatches {
+        let rest = matches.indices.filter { !isStatic[$0] }.map { matches[$0] }
+        guard rest.count >= options.minimumMatches else { return nil }
+        return Candidate(
+          pair: pair,
+          first: VerifiedPair(
+            pair: pair, model: .homography, secondFromFirst: nil,
+            matches: still.sorted { $0.first < $1.first }, medianAngle: 0),
+          isStatic: true, rest: rest)
+      }
+    }
+    guard let known, known.secondFromFirst != nil else { return nil }
+    let explained = Set(known.matches)
+    let rest = matches.filter { !explained.contains($0) }
+    guard rest.count >= options.minimumMatches else { return nil }
+    return Candidate(pair: pair, first: known, isStatic: false, rest: rest)
+  }
+
+  private func motions(
+    _ candidate: Candidate, _ points: [[SIMD2<Double>]], _ photos: [Photo], _ cameras: [Camera]
+  ) throws -> TwoMotions? {
+    let pair = candidate.pair
+    let points = (points[pair.first.index], points[pair.second.index])
+    let cameras = (
+      cameras[photos[pair.first.index].camera.index],
+      cameras[photos[pair.second.index].camera.index]
+    )
+    var second = verification
+    second.options.minimumInliers = options.minimumMatches
+    second.options.minimumInlierRatio = options.minimumShareOfRest
+    second.options.maximumIterations = options.maximumIterations
+    second.options.seed = verification.options.seed &+ 0x9E37_79B9
+    second.options.isUncalibratedWhereAssumed = false
+    guard
+      case .verified(let other) = try second.verify(
+        pair, candidate.rest, points: points, cameras: cameras),
+      let pose = other.secondFromFirst
+    else { return nil }
+    let limit = options.distinctFactor * verification.maximumError(cameras)
+    func areDistinct(_ matches: [FeatureMatch], from pose: RigidTransform) -> Bool {
+      let matrix = pose.essentialMatrix
+      let outside = matches.count {
+        matrix.sampsonError(points.0[Int($0.first)], points.1[Int($0.second)]) > limit
+      }
+      return Double(outside) >= options.minimumDistinctShare * Double(matches.count)
+    }
+    guard areDistinct(candidate.first.matches, from: pose) else { return nil }
+    if let first = candidate.first.secondFromFirst, !areDistinct(other.matches, from: first) {
+      return nil
+    }
+    return TwoMotions(
+      pair: pair, bodies: [candidate.first, other], isFirstStatic: candidate.isStatic)
+  }
+}
