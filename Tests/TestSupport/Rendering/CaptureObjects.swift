@@ -1,8 +1,8 @@
 import Foundation
 import SceneModel
 
-/// Objects 0.22 to 0.3 m long for `CaptureScene`, closed on all sides. Their frame has +y up and its
-/// origin below the middle of the object, which stands or lies on y = 0.
+/// Objects 0.21 to 0.3 m long for `CaptureScene`, closed on all sides. Their frame has +y up and
+/// its origin below the middle of the object, which stands or lies on y = 0.
 package enum CaptureObject: String, CaseIterable, Sendable {
   case statue, box, vase, axe
 

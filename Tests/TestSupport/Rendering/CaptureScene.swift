@@ -1,8 +1,8 @@
 import Foundation
 import SceneModel
 
-/// Photos of an object that moves relative to its surroundings, or doesn't: the object is lit by the
-/// fixed light of a room and has the same texture in all captures of the same seed.
+/// Photos of an object that moves relative to its surroundings, or doesn't: the object is lit by
+/// the fixed light of a room and has the same texture in all captures of the same seed.
 package struct CaptureScene: Sendable {
   /// What moves from photo to photo.
   package struct View: Sendable {
