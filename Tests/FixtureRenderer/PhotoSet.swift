@@ -1,4 +1,3 @@
-import Formats
 import Foundation
 import ImageFiles
 import Kernels
@@ -21,15 +20,11 @@ struct PhotoSet {
   func write(to folder: URL, _ control: KernelControl) throws {
     for index in scene.poses.indices {
       var bytes = try ImageCodec.encodeJPEG(scene.photo(index, control), quality: quality)
-      if hasMetadata { bytes = ExifWriter.jpeg(bytes, with: exif) }
+      if hasMetadata { bytes = ExifWriter.jpeg(bytes, with: truth.exif) }
       try writeFile(bytes, folder.appendingPathComponent("images/\(RenderedScene.name(index))"))
     }
     try writeHeld(to: folder.appendingPathComponent("holdout"), control)
-    try writeFile(Array(camerasJSON.utf8), folder.appendingPathComponent("gt/cameras.json"))
-    var mesh = scene.object
-    mesh.normals = []
-    if isZUp { mesh.positions = mesh.positions.map { SIMD3($0.x, -$0.z, $0.y) } }
-    try writeFile(PLY.encode(mesh), folder.appendingPathComponent("gt/mesh.ply"))
+    try truth.write(entries, scene.object, to: folder.appendingPathComponent("gt"))
   }
 
   private func writeHeld(to folder: URL, _ control: KernelControl) throws {
@@ -46,43 +41,17 @@ struct PhotoSet {
 
   private static func heldName(_ index: Int) -> String { "held_\(index).png" }
 
-  /// As for a full-frame sensor, 36 mm wide.
-  private var exif: ExifFields {
-    let camera = scene.camera
-    let tenths = UInt32((camera.focalLength.x / Double(camera.width) * 360).rounded())
-    var exif = ExifFields()
-    exif.make = "Rendered"
-    exif.model = "Pinhole"
-    exif.focalLength = (tenths, 10)
-    exif.focalLengthIn35mmFilm = Int((Double(tenths) / 10).rounded())
-    return exif
-  }
+  private var truth: GroundTruth { GroundTruth(camera: scene.camera, isZUp: isZUp) }
 
-  /// A list of name, K, R and t: `x_camera = R x_world + t`, x right, y down, z forward, pixel
-  /// origin at the top-left corner of the top-left pixel.
-  private var camerasJSON: String {
-    var entries = scene.poses.enumerated().map {
-      entry(RenderedScene.name($0), $1, of: scene.camera)
-    }
+  private var entries: [String] {
+    var entries = scene.poses.enumerated().map { truth.entry(RenderedScene.name($0), $1) }
     if let held {
+      let truth = GroundTruth(camera: held.camera, isZUp: isZUp)
       entries += held.poses.enumerated().map {
-        entry(Self.heldName($0), $1, of: held.camera, more: ", \"holdout\": true")
+        truth.entry(Self.heldName($0), $1, more: ", \"holdout\": true")
       }
     }
-    return "[\n" + entries.joined(separator: ",\n") + "\n]\n"
-  }
-
-  private func entry(
-    _ name: String, _ pose: RigidTransform, of camera: Camera, more: String = ""
-  ) -> String {
-    let k = [
-      [camera.focalLength.x, 0, camera.principalPoint.x],
-      [0, camera.focalLength.y, camera.principalPoint.y], [0, 0, 1],
-    ]
-    let m = pose.rotation.matrix
-    let r = [m.row0, m.row1, m.row2].map { isZUp ? [$0.x, -$0.z, $0.y] : [$0.x, $0.y, $0.z] }
-    let t = [pose.translation.x, pose.translation.y, pose.translation.z]
-    return "{\"name\": \"\(name)\", \"K\": \(k), \"R\": \(r), \"t\": \(t)\(more)}"
+    return entries
   }
 }
 

@@ -9,9 +9,15 @@ import TestSupport
 //   render-fixtures <folder> dense [name …]    sets to evaluate the dense stage, by name or all
 //   render-fixtures <folder> texture [name …]  sets to evaluate the texture, with held-out photos
 //   render-fixtures <folder> ring [count]      a large set of photos, 160 by default
+//   render-fixtures <folder> captures [seed] [object,…|all] [capture,…|all] [surroundings,…|all]
+//
+// The last writes a set `<object>-<capture>-<surroundings>` per combination, with exact masks, to
+// compare kinds of capture: the seed is 1 by default; the other names are the cases of
+// `CaptureObject`, `Capture` and `CaptureSurroundings`. Cameras and surface are in the frame of the
+// object, in which the cameras of all captures are comparable.
 //
 // The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
-// is not part of the surface.
+// is not part of the surface. Those of captures are z-up as well.
 
 let folder = URL(
   fileURLWithPath: CommandLine.arguments.dropFirst().first ?? "Fixtures", isDirectory: true)
@@ -36,6 +42,11 @@ case "ring":
   let scene = DenseScene.rich.scene(
     width: 816, poses: DenseScene.sweep(count: count), fineness: 0.5)
   try write(PhotoSet(scene: scene, quality: 0.92, isZUp: true), "ring")
+case "captures":
+  try CaptureSelection(Array(words.dropFirst())).forEach { scene, name in
+    try CaptureSet(scene: scene)
+      .write(to: folder.appendingPathComponent(name, isDirectory: true), control)
+  }
 default:
   try write(PhotoSet(scene: .statue(), quality: 0.82), "orbit")
   try write(PhotoSet(scene: .relief(), hasMetadata: false, quality: 0.85), "relief")

@@ -11,6 +11,44 @@ extension Mesh {
     triangles += other.triangles.map { Triangle($0.a + first, $0.b + first, $0.c + first) }
   }
 
+  /// The mesh with other positions, and vertex normals that are the means of the normals of the
+  /// adjacent triangles, weighted by area. Vertices that only coincide are not joined: there the
+  /// mesh keeps its sharp edges.
+  package func deformed(_ position: (SIMD3<Double>) -> SIMD3<Double> = { $0 }) -> Mesh {
+    var result = self
+    result.positions = positions.map { SIMD3<Float>(position(SIMD3<Double>($0))) }
+    let p = result.positions
+    var sums = [SIMD3<Float>](repeating: .zero, count: p.count)
+    for t in triangles {
+      let corners = [Int(t.a), Int(t.b), Int(t.c)]
+      let normal = (p[corners[1]] - p[corners[0]]).cross(p[corners[2]] - p[corners[0]])
+      for corner in corners { sums[corner] += normal }
+    }
+    result.normals = sums.map { $0.squaredLength > 0 ? $0.normalized : [0, 1, 0] }
+    return result
+  }
+
+  /// The mesh moved by a rigid transform.
+  package func moved(by transform: RigidTransform) -> Mesh {
+    var result = self
+    result.positions = positions.map { SIMD3<Float>(transform * SIMD3<Double>($0)) }
+    result.normals = normals.map { SIMD3<Float>(transform.rotation * SIMD3<Double>($0)) }
+    return result
+  }
+
+  /// Closes the open bottom of a surface around the y axis, whose first `columns` vertices are its
+  /// lower edge in counterclockwise order seen from above, by a plane fan.
+  mutating func closeBottom(columns: Int) {
+    let (edge, first) = (Array(positions.prefix(columns)), UInt32(positions.count))
+    positions += edge + [edge.reduce(.zero, +) / Float(max(1, columns))]
+    normals += Array(repeating: [0, -1, 0], count: columns + 1)
+    let center = first + UInt32(columns)
+    for column in 0..<UInt32(columns) {
+      let next = (column + 1) % UInt32(columns)
+      triangles.append(Triangle(center, first + next, first + column))
+    }
+  }
+
   /// The mesh rotated about the y axis by `angle` radians, then translated.
   package func placed(turned angle: Double = 0, at offset: SIMD3<Double>) -> Mesh {
     let rotation = Quaternion(angle: angle, axis: [0, 1, 0])

@@ -11,11 +11,36 @@ package struct RenderedScene: Sendable {
   package struct Surface: Sendable {
     package var mesh: Mesh
     package var texture: SolidTexture
+    /// Maps a point to where the texture is looked up, so that the texture of a surface that moves
+    /// moves with it; nil looks it up at the point itself.
+    package var textureFromWorld: RigidTransform?
 
-    package init(mesh: Mesh, texture: SolidTexture) {
+    package init(
+      mesh: Mesh, texture: SolidTexture, textureFromWorld: RigidTransform? = nil
+    ) {
       self.mesh = mesh
       self.texture = texture
+      self.textureFromWorld = textureFromWorld
     }
+
+    func color(at point: SIMD3<Float>, footprint: Float) -> SIMD3<Float> {
+      guard let textureFromWorld else { return texture.color(at: point, footprint: footprint) }
+      let place = SIMD3<Float>(textureFromWorld * SIMD3<Double>(point))
+      return texture.color(at: place, footprint: footprint)
+    }
+  }
+
+  /// The light of a scene: radiance per albedo.
+  package struct Lighting: Sendable {
+    /// From all sides, on a vertical surface.
+    package var ambient: Float = 0.36
+    /// What a surface that faces up receives beyond `ambient`; one that faces down receives as
+    /// much less.
+    package var sky: Float = 0.14
+    /// From the direction of the sun, with shadows.
+    package var sun: Float = 0.62
+
+    package init() {}
   }
 
   /// The surface to be reconstructed, and the reference to score against.
@@ -33,6 +58,7 @@ package struct RenderedScene: Sendable {
   package var photography: Photography?
   /// Occludes a part of the object in some photos.
   package var intruder: Intruder?
+  package var lighting = Lighting()
 
   let surfaces: [Surface]
   private let caster: RayCaster
@@ -219,11 +245,12 @@ package struct RenderedScene: Sendable {
     let point = ray.origin + ray.direction * hit.distance
     let facing = max(0.2, abs(normal.dot(ray.direction.normalized)))
     let footprint = hit.distance / Float(camera.focalLength.x) / facing
-    let albedo = surface.texture.color(at: point, footprint: footprint)
+    let albedo = surface.color(at: point, footprint: footprint)
     let sun = max(0, normal.dot(light))
     let isLit = sun > 0 && !caster.isBlocked(from: point + normal * 1e-3, along: light)
+    let ambient = lighting.ambient + lighting.sky * normal.y
     return Sight(
-      radiance: albedo * (0.36 + 0.14 * normal.y + (isLit ? 0.62 * sun : 0)),
+      radiance: albedo * (ambient + (isLit ? lighting.sun * sun : 0)),
       depth: hit.distance, normal: normal, surface: part.surface, isLit: isLit)
   }
 

@@ -1,0 +1,186 @@
+import Foundation
+import SceneModel
+
+/// A kind of capture: how camera and object move from photo to photo.
+package enum Capture: String, CaseIterable, Sendable {
+  /// The camera moves around the object on two rings.
+  case walk
+  /// The camera rests at each of two elevations, and a plate turns the object.
+  case turntable
+  /// As with a turntable, but a hand turns the object on the table, by irregular steps, and another
+  /// holds the camera.
+  case hand
+  /// The camera moves around the object, which then is laid on another side.
+  case flip
+}
+
+/// The poses of camera and object in each photo of a capture.
+///
+/// Room: right-handed, +y up, meters; the table is at y = 0.
+struct CaptureMotion {
+  let capture: Capture
+  let object: CaptureObject
+  let mesh: Mesh
+  let photoCount: Int
+  private var random: SeededGenerator
+  /// The elevations of the camera in degrees.
+  private let elevations = [22.0, 48.0]
+
+  init(
+    _ capture: Capture, of object: CaptureObject, _ mesh: Mesh, photoCount: Int, seed: UInt64
+  ) {
+    self.capture = capture
+    self.object = object
+    self.mesh = mesh
+    self.photoCount = photoCount
+    random = SeededGenerator(seed: seed)
+  }
+
+  mutating func views() -> [CaptureScene.View] {
+    switch capture {
+    case .walk: walk()
+    case .turntable: turntable()
+    case .hand: hand()
+    case .flip: flip()
+    }
+  }
+
+  private mutating func walk() -> [CaptureScene.View] {
+    let roomFromObject = rest(.identity, turned: angle(180), at: .zero)
+    let target = roomFromObject * middle
+    let count = photoCount / 2
+    return (0..<photoCount).map { index in
+      let ring = min(1, index / max(1, count))
+      return CaptureScene.View(
+        cameraFromRoom: walker(
+          Double(index % count) + 0.5 * Double(ring), of: count, elevations[ring], target),
+        roomFromObject: roomFromObject)
+    }
+  }
+
+  private mutating func flip() -> [CaptureScene.View] {
+    let count = photoCount / 2
+    let other = place(0.03, around: SIMD2(0.03, -0.04))
+    let rests = [
+      rest(.identity, turned: angle(180), at: .zero),
+      rest(object.turnedOver, turned: angle(180), at: other),
+    ]
+    return (0..<photoCount).map { index in
+      let roomFromObject = rests[min(1, index / max(1, count))]
+      let camera = walker(
+        Double(index % count), of: count, elevations[index % 2], roomFromObject * middle)
+      return CaptureScene.View(cameraFromRoom: camera, roomFromObject: roomFromObject)
+    }
+  }
+
+  private mutating func turntable() -> [CaptureScene.View] {
+    let count = photoCount / 2
+    let place = place(0.01)
+    let start = rest(.identity, turned: angle(180), at: place, on: CapturePlate.height)
+    let target = start * middle
+    let cameras = elevations.map { degrees in
+      camera(turn: 0.02 * random.uniform(), degrees, target + jitter(0.01), jitter(0.015))
+    }
+    return (0..<photoCount).map { index in
+      let ring = min(1, index / max(1, count))
+      let steps = Double(index % count) + 0.5 * Double(ring)
+      let turn = 2 * .pi * steps / Double(count) + angle(1.5)
+      let roomFromPlate = RigidTransform(
+        rotation: Quaternion(angle: turn, axis: [0, 1, 0]), translation: .zero)
+      return CaptureScene.View(
+        cameraFromRoom: cameras[ring], roomFromObject: roomFromPlate * start,
+        roomFromPlate: roomFromPlate)
+    }
+  }
+
+  private mutating func hand() -> [CaptureScene.View] {
+    let count = photoCount / 2
+    var (turn, place, offset) = (angle(180), SIMD2<Double>.zero, SIMD3<Double>.zero)
+    let start = rest(.identity, turned: turn, at: place) * middle
+    return (0..<photoCount).map { index in
+      turn += 2 * .pi / Double(count) + angle(8)
+      let shift = self.place(0.015)
+      place = shortened(place + shift, to: 0.025)
+      let step = jitter(1)
+      offset = step * ((0.01 + 0.02 * random.uniform()) / max(step.length, 1e-9)) + offset * 0.7
+      let ring = min(1, index / max(1, count))
+      return CaptureScene.View(
+        cameraFromRoom: camera(turn: 0, elevations[ring], start + jitter(0.012), offset),
+        roomFromObject: rest(.identity, turned: turn, at: place))
+    }
+  }
+
+  // MARK: Poses
+
+  /// The middle of the object's bounding box, in its frame.
+  private var middle: SIMD3<Double> {
+    let (low, high) = mesh.captureBounds
+    return (low + high) / 2
+  }
+
+  /// The distance at which the object fills about two thirds of the height of the photos.
+  private var distance: Double {
+    let (low, high) = mesh.captureBounds
+    return 3 * ((high - low).length / 2 + 0.035)
+  }
+
+  /// The `cameraFromRoom` of a photographer who walks around `target`: photo `number` of `count`.
+  private mutating func walker(
+    _ number: Double, of count: Int, _ degrees: Double, _ target: SIMD3<Double>
+  ) -> RigidTransform {
+    let turn = (number + 0.3 * (random.uniform() - 0.5)) / Double(count)
+    let elevation = degrees + 4 * (random.uniform() - 0.5)
+    return camera(turn: turn, elevation, target + jitter(0.012), jitter(0.02))
+  }
+
+  /// The `cameraFromRoom` of a camera that faces `target`, `offset` away from its place on a ring,
+  /// rolled by up to a degree.
+  private mutating func camera(
+    turn: Double, _ degrees: Double, _ target: SIMD3<Double>, _ offset: SIMD3<Double>
+  ) -> RigidTransform {
+    let (azimuth, elevation) = (2 * .pi * turn, degrees * .pi / 180)
+    let direction = SIMD3(
+      cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth))
+    let roll = RigidTransform(
+      rotation: Quaternion(angle: angle(1), axis: [0, 0, 1]), translation: .zero)
+    return roll * SyntheticScene.lookingAt(target, from: target + direction * distance + offset)
+  }
+
+  /// The `roomFromObject` of the object lying on a side, turned about the vertical axis, with the
+  /// middle of its bounding box above `place` (x and z) and its lowest vertex at `height`.
+  private func rest(
+    _ side: Quaternion, turned angle: Double, at place: SIMD2<Double>, on height: Double = 0
+  ) -> RigidTransform {
+    let rotation = Quaternion(angle: angle, axis: [0, 1, 0]) * side
+    let lowest = mesh.positions.map { (rotation * SIMD3<Double>($0)).y }.min() ?? 0
+    let center = rotation * middle
+    return RigidTransform(
+      rotation: rotation,
+      translation: SIMD3(place.x - center.x, height - lowest, place.y - center.z))
+  }
+
+  // MARK: Random variations
+
+  /// Radians, between −`degrees` and `degrees`.
+  private mutating func angle(_ degrees: Double) -> Double {
+    (2 * random.uniform() - 1) * degrees * .pi / 180
+  }
+
+  /// A vector of at most `length`.
+  private mutating func jitter(_ length: Double) -> SIMD3<Double> {
+    let direction = random.normal3().normalized
+    return direction * (length * cbrt(random.uniform()))
+  }
+
+  /// A place within `radius` of `center`.
+  private mutating func place(
+    _ radius: Double, around center: SIMD2<Double> = .zero
+  ) -> SIMD2<Double> {
+    let (angle, distance) = (2 * .pi * random.uniform(), radius * random.uniform().squareRoot())
+    return center + SIMD2(cos(angle), sin(angle)) * distance
+  }
+
+  private func shortened(_ vector: SIMD2<Double>, to length: Double) -> SIMD2<Double> {
+    vector * min(1, length / max(1e-9, vector.squaredLength.squareRoot()))
+  }
+}
