@@ -102,7 +102,8 @@ struct CaptureMotion {
       let shift = self.place(0.015)
       place = shortened(place + shift, to: 0.025)
       let step = jitter(1)
-      offset = step * ((0.01 + 0.02 * random.uniform()) / max(step.length, 1e-9)) + offset * 0.7
+      offset += step * ((0.01 + 0.02 * random.uniform()) / max(step.length, 1e-9))
+      offset *= min(1, 0.03 / max(offset.length, 1e-9))
       let ring = min(1, index / max(1, count))
       return CaptureScene.View(
         cameraFromRoom: camera(turn: 0, elevations[ring], start + jitter(0.012), offset),
@@ -118,10 +119,11 @@ struct CaptureMotion {
     return (low + high) / 2
   }
 
-  /// The distance at which the object fills about two thirds of the height of the photos.
+  /// The distance at which the object fills about two thirds of the height of the photos; more
+  /// for an object that a hand also shifts.
   private var distance: Double {
     let (low, high) = mesh.captureBounds
-    return 3 * ((high - low).length / 2 + 0.035)
+    return 3 * ((high - low).length / 2 + (capture == .hand ? 0.06 : 0.035))
   }
 
   /// The `cameraFromRoom` of a photographer who walks around `target`: photo `number` of `count`.
