@@ -44,6 +44,12 @@ struct ObjectIsolation {
     /// If more than this share of the outline is truncated at the region's border, no object is
     /// clear.
     var maximumTruncation = 0.25
+    /// Whether the points are of a moving object and what carries it only, without anything that
+    /// stands still.
+    var isObjectOnly = false
+    /// If at least this share of the samples are connected and end within the region, they are an
+    /// object without surroundings.
+    var minimumBoundedShare = 0.9
     /// Share of the points that are outliers at each side of the bounds: of an object in the dense
     /// cloud, and of a scene or a sparse cloud.
     var trimmedObjectShare = 0.0005
@@ -139,10 +145,7 @@ struct IsolationSamples {
       return .failure("too little is seen by most photos.")
     }
     try context.control.step(0.1)
-    let support = SupportPlaneDetection(options: options.support).run(
-      positions: region.map { cloud.positions[$0] },
-      normals: cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] },
-      up: up, isUpKnown: isUpKnown, focus: focus, cell: cell)
+    let support = try support(of: region, context)
     try context.control.step(0.4)
     let isAbove = cloud.positions.map { position in
       support.map { $0.height(of: SIMD3<Double>(position)) > $0.band } ?? true
@@ -163,6 +166,32 @@ struct IsolationSamples {
       return .failure("the surface in the photos extends beyond their common view.")
     }
     return .object(isObject, support)
+  }
+
+  /// The plane that the object stands on. Where the surroundings have no texture, a face of the
+  /// object may be the dominant plane, which is none.
+  private func support(of region: [Int], _ context: StageContext) throws -> SupportPlane? {
+    let detection = SupportPlaneDetection(options: options.support)
+    let positions = region.map { cloud.positions[$0] }
+    let normals = cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] }
+    let found = detection.run(
+      positions: positions, normals: normals, up: up, isUpKnown: isUpKnown, focus: focus,
+      cell: cell)
+    guard let found else { return nil }
+    let division = detection.divide(positions, normals, by: found, focus: focus, cell: cell)
+    if options.isObjectOnly {
+      return detection.surrounds(found, division) && !detection.hasFlanks(division) ? found : nil
+    }
+    return try detection.hasFlanks(division) && isBounded(context) ? nil : found
+  }
+
+  /// Whether all that is seen is one object.
+  private func isBounded(_ context: StageContext) throws -> Bool {
+    let isNear = cloud.positions.indices.map {
+      Double(coverage[$0]) >= options.objectCoverage && Double(distance[$0]) < options.reach
+    }
+    guard let isObject = try object(isNear, context) else { return false }
+    return Double(isObject.count { $0 }) >= options.minimumBoundedShare * Double(cloud.count)
   }
 
   /// The candidates in the main component and in those that belong to it; nil without any.

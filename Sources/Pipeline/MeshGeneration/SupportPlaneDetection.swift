@@ -17,6 +17,12 @@ struct SupportPlaneDetection {
     var tolerance = 0.006
     /// Share of the samples that must lie on the plane.
     var minimumShare = 0.08
+    /// A plane has flanks if there are more samples below it than this share of those on it.
+    var maximumBelow = 0.35
+    /// A plane surrounds what is above it if it has samples in at least this number of sectors, out
+    /// of `sectorCount`.
+    var minimumSectors = 9
+    var sectorCount = 12
     /// Share of the cameras that must be above the plane.
     var minimumCamerasAbove = 0.8
     /// How far, in the cosine, a sample's normal may be steeper than the steepest plane.
@@ -116,6 +122,64 @@ struct SupportPlaneDetection {
     result.band = min(
       tolerance, max(options.bandDeviations * deviation, options.minimumBandCells * cell))
     return result
+  }
+}
+
+// MARK: - Faces of the object
+
+extension SupportPlaneDetection {
+  /// Samples that a plane divides.
+  struct Division {
+    /// Samples on the plane with its normal.
+    var level: [SIMD3<Double>] = []
+    var above: [SIMD3<Double>] = []
+    var below: [SIMD3<Double>] = []
+  }
+
+  /// Divides samples; `cell` is their spacing.
+  func divide(
+    _ positions: [SIMD3<Float>], _ normals: [SIMD3<Float>], by plane: SupportPlane,
+    focus: ViewFocus, cell: Double
+  ) -> Division {
+    let tolerance = max(options.minimumToleranceCells * cell, options.tolerance * focus.distance)
+    var result = Division()
+    for (index, position) in positions.enumerated() {
+      let position = SIMD3<Double>(position)
+      let height = plane.height(of: position)
+      if height > tolerance {
+        result.above.append(position)
+      } else if height < -tolerance {
+        result.below.append(position)
+      } else if normals.isEmpty
+        || SIMD3<Double>(normals[index]).dot(plane.normal) > options.minimumNormalCosine
+      {
+        result.level.append(position)
+      }
+    }
+    return result
+  }
+
+  /// Whether much is visible below the plane, which a table would hide: it is the top of a plinth.
+  func hasFlanks(_ division: Division) -> Bool {
+    Double(division.below.count) > options.maximumBelow * Double(division.level.count)
+  }
+
+  /// Whether the plane surrounds what is above it, as a turntable does.
+  func surrounds(_ plane: SupportPlane, _ division: Division) -> Bool {
+    guard !division.above.isEmpty else { return false }
+    let middle = division.above.reduce(.zero, +) / Double(division.above.count)
+    let axis: SIMD3<Double> = abs(plane.normal.x) < 0.9 ? [1, 0, 0] : [0, 1, 0]
+    let across = axis.cross(plane.normal).normalized
+    let along = plane.normal.cross(across)
+    var counts = [Int](repeating: 0, count: options.sectorCount)
+    for position in division.level {
+      let offset = position - middle
+      let turn = atan2(offset.dot(along), offset.dot(across)) / (2 * .pi) + 0.5
+      counts[min(options.sectorCount - 1, Int(turn * Double(options.sectorCount)))] += 1
+    }
+    // Sectors with a quarter of an even share.
+    let needed = division.level.count / (4 * options.sectorCount)
+    return counts.count { $0 > needed } >= options.minimumSectors
   }
 }
 

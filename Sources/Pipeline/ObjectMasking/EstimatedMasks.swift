@@ -41,14 +41,6 @@ struct EstimatedMasks: Codable, Sendable {
     }
   }
 
-  /// A mask without any part of the object, in a file of its own.
-  func hidingUnmasked(in folder: URL) throws -> PhotoMask {
-    let file = folder.appendingPathComponent("hidden.png")
-    let bytes = try ImageCodec.encodePNG(RasterImage(width: 1, height: 1, channels: 1))
-    try AtomicFile.write(Data(bytes), to: file)
-    return PhotoMask(file: file, orientation: 1, contentHash: XXHash64.hash(bytes), coverage: 0)
-  }
-
   /// Whether all files are present and unchanged.
   var areIntact: Bool {
     masks.allSatisfy { mask in

@@ -58,9 +58,11 @@ struct ObjectMasking {
 
   var options = Options()
 
-  /// Returns nil if the photos show no separate object.
+  /// Returns nil if the photos show no separate object. If `prior` is given, the object is what it
+  /// retains, and its surroundings may have moved.
   func run(
-    _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
+    _ reconstruction: Reconstruction, images: ImageStore, prior: Silhouettes? = nil,
+    _ context: StageContext
   ) throws -> Result? {
     let cloud: PointCloud
     do {
@@ -72,12 +74,17 @@ struct ObjectMasking {
     }
     let photos = try reducedPhotos(
       of: reconstruction, images, context.part(from: 0.6, to: 0.65).control)
-    let isolated = try isolate(cloud, photos, reconstruction, context.part(from: 0.65, to: 0.7))
+    let isolationContext = context.part(from: 0.65, to: 0.7)
+    let isolated =
+      try prior.map {
+        ObjectIsolation.Result(
+          isKept: try $0.areInside(cloud.positions, isolationContext.control))
+      } ?? isolate(cloud, photos, reconstruction, isolationContext)
     guard isolated.failure == nil else { return nil }
     let object = cloud.positions.indices.filter { isolated.isKept[$0] }
       .map { cloud.positions[$0] }
     let views = try views(
-      of: photos, reconstruction, discs(cloud, isolated.isKept),
+      of: photos, cloud, isolated.isKept, isRigid: prior == nil,
       context.part(from: 0.7, to: 0.75).control)
     let estimated = try MaskEstimation(options: options.estimation)
       .run(views, points: object, context.part(from: 0.75, to: 1))
@@ -144,15 +151,25 @@ struct ObjectMasking {
       labels: isObject.map { $0 ? PointLabel.object : PointLabel.surroundings })
   }
 
-  /// The photos with the points drawn into them.
+  /// The photos with the points drawn into them. Unless the scene is rigid, points of the
+  /// surroundings are drawn only into the photos that agree on them.
   private func views(
-    of photos: [ReducedPhoto], _ reconstruction: Reconstruction, _ discs: Discs,
+    of photos: [ReducedPhoto], _ cloud: PointCloud, _ isObject: [Bool], isRigid: Bool,
     _ control: KernelControl
   ) throws -> [MaskingView] {
     let coarsePixels = Double(options.coarse.maximumPixelsPerView) / 4
+    let all = discs(cloud, isObject)
     return try control.parallelMap(photos.count) { index in
       let photo = photos[index]
       let scale = max(1, (Double(photo.pixelCount) / coarsePixels).squareRoot())
+      var discs = all
+      if !isRigid {
+        let isShown = cloud.positions.indices.map {
+          isObject[$0] || cloud.visiblePhotos(of: $0).contains(UInt16(photo.id.index))
+        }
+        discs = self.discs(
+          cloud.filtered(by: isShown), zip(isObject, isShown).filter(\.1).map(\.0))
+      }
       return try MaskingView(
         photo, discs, rim: Int((options.rim * scale).rounded()), reach: options.reach,
         KernelControl())

@@ -76,6 +76,8 @@ package struct ViewGraph: Sendable {
   package var rejected: [RejectedPair]
   /// Pairs between which two bodies moved differently, sorted by pair; empty if the scene is rigid.
   package var motions: [TwoMotions] = []
+  /// Whether the object moves in front of its surroundings, whose matches are left out.
+  package var isObjectOnly = false
 
   package init(photoCount: Int, pairs: [VerifiedPair], rejected: [RejectedPair] = []) {
     self.photoCount = photoCount

@@ -9,12 +9,19 @@ package struct CorrespondenceSearch {
     /// Maximum fraction of the sampled rejections that may turn out verifiable. Above it,
     /// preemptive matching is considered unreliable and all candidates are matched.
     package var maximumFalseRejectionRatio = 0.03
+    /// If an object moves, matches of its surroundings are dropped, unless this disconnects more
+    /// than this share of the photos from the rest.
+    package var minimumObjectShare = 0.6
+    /// Whether two photos without masks are matched even if others have masks. If the masks exclude
+    /// surroundings that moved, such a pair would match these.
+    var matchesUnmaskedPairs = true
     package var expansion = PairExpansion.Options()
     package var matching = FeatureMatching.Options()
     package var verification = PairVerification.Options()
     package var selfCalibration = SelfCalibration.Options()
     package var guidedMatching = GuidedMatching.Options()
     package var secondMotions = SecondMotionSearch.Options()
+    var motionLayers = MotionLayers.Options()
 
     package init() {}
   }
@@ -56,7 +63,7 @@ package struct CorrespondenceSearch {
       try matchedPairs.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
     }
     try matchedPairs.guide(calibrated, context.part(from: 0.97, to: 0.99))
-    try matchedPairs.findSecondMotions(calibrated, context.part(from: 0.99, to: 1))
+    try matchedPairs.separateMotions(calibrated, context.part(from: 0.99, to: 1))
     context.notes.record("candidatePairs", Double(Set(choice.candidates).union(more).count))
     matchedPairs.report(context.notes)
     return (matchedPairs.graph, calibrated)
@@ -93,7 +100,11 @@ private struct MatchedPairs {
   }
 
   /// Matches and verifies more pairs.
-  mutating func add(_ more: [PhotoPair], _ context: StageContext) throws {
+  mutating func add(_ candidates: [PhotoPair], _ context: StageContext) throws {
+    let more = candidates.filter { pair in
+      options.matchesUnmaskedPairs || photos[pair.first.index].mask != nil
+        || photos[pair.second.index].mask != nil
+    }
     guard !more.isEmpty else { return }
     let found = try FeatureMatching(options.matching)
       .run(more, features: features, context.part(from: 0, to: 0.85))
@@ -123,13 +134,35 @@ private struct MatchedPairs {
     ).run(graph, features: features, photos: photos, cameras: cameras, context)
   }
 
-  /// Searches for pairs between which a part of the scene moved.
-  mutating func findSecondMotions(_ cameras: [Camera], _ context: StageContext) throws {
+  /// Searches for pairs between which an object moved relative to its surroundings; if it did, only
+  /// matches of the object remain.
+  mutating func separateMotions(_ cameras: [Camera], _ context: StageContext) throws {
     graph.motions = try SecondMotionSearch(
       options.secondMotions, verification: PairVerification(verification)
     ).run(
       pairs, matches: matches, graph: graph, features: features, photos: photos, cameras: cameras,
       context)
+    context.notes.record("twoMotionPairs", Double(graph.motions.count))
+    let surroundings = try MotionLayers(options: options.motionLayers)
+      .surroundings(graph, features: features, photos: photos, context)
+    guard let surroundings else { return }
+    let whole = self
+    matches = zip(pairs, matches).map { pair, matches in
+      matches.filter { !surroundings.contain($0, of: pair) }
+    }
+    let motions = graph.motions
+    try verifyAgain(cameras, context)
+    try guide(cameras, context)
+    graph.motions = motions
+    let (connected, before) = (graph.connectedGroups[0].count, whole.graph.connectedGroups[0].count)
+    if Double(connected) < options.minimumObjectShare * Double(before) {
+      self = whole
+      return
+    }
+    graph.isObjectOnly = true
+    context.notes.record(
+      "surroundingsFeatures",
+      Double(surroundings.hasFeature.reduce(0) { $0 + $1.count { $0 } }))
   }
 
   /// Records the numbers of pairs and matches, and warns if no pair was verified.
@@ -137,7 +170,6 @@ private struct MatchedPairs {
     notes.record("pairs", Double(pairs.count))
     notes.record("matches", Double(matches.reduce(0) { $0 + $1.count }))
     notes.record("verifiedPairs", Double(graph.pairs.count))
-    notes.record("twoMotionPairs", Double(graph.motions.count))
     notes.record("verifiedMatches", Double(graph.pairs.reduce(0) { $0 + $1.matches.count }))
     if graph.pairs.isEmpty, graph.photoCount > 1 {
       notes.warn(

@@ -19,8 +19,12 @@ package struct SecondMotionSearch: Sendable {
     package var minimumDistinctShare = 0.7
     /// Matches contradict a motion beyond this multiple of the error limit.
     package var distinctFactor = 2.0
-    /// Maximum displacement of a static match, as a fraction of the photo's longer side.
+    /// Displacement up to which matches prove that a camera did not move, as a fraction of the
+    /// photo's longer side.
     package var staticDisplacement = 0.001
+    /// If it did not, matches up to this multiple of that displacement are static: features are
+    /// not located exactly.
+    package var staticTolerance = 4.0
     /// Maximum number of RANSAC iterations.
     package var maximumIterations = 500
 
@@ -80,32 +84,39 @@ package struct SecondMotionSearch: Sendable {
     _ pair: PhotoPair, _ matches: [FeatureMatch], _ known: VerifiedPair?, _ features: [FeatureSet],
     _ photos: [Photo]
   ) -> Candidate? {
-    let (a, b) = (photos[pair.first.index], photos[pair.second.index])
-    if a.width == b.width, a.height == b.height {
-      let limit = Float(options.staticDisplacement * Double(max(a.width, a.height)))
-      let isStatic = matches.map { match in
-        let shift =
-          features[pair.second.index].positions[Int(match.second)]
-          - features[pair.first.index].positions[Int(match.first)]
-        return (shift * shift).sum() <= limit * limit
-      }
-      let still = matches.indices.filter { isStatic[$0] }.map { matches[$0] }
-      if still.count >= options.minimumMatches {
-        let rest = matches.indices.filter { !isStatic[$0] }.map { matches[$0] }
-        guard rest.count >= options.minimumMatches else { return nil }
-        return Candidate(
-          pair: pair,
-          first: VerifiedPair(
-            pair: pair, model: .homography, secondFromFirst: nil,
-            matches: still.sorted { $0.first < $1.first }, medianAngle: 0),
-          isStatic: true, rest: rest)
-      }
+    if let still = staticMatches(pair, matches, features, photos) {
+      let rest = matches.filter { !still.contains($0) }
+      guard rest.count >= options.minimumMatches else { return nil }
+      return Candidate(
+        pair: pair,
+        first: VerifiedPair(
+          pair: pair, model: .homography, secondFromFirst: nil,
+          matches: still.sorted { $0.first < $1.first }, medianAngle: 0),
+        isStatic: true, rest: rest)
     }
     guard let known, known.secondFromFirst != nil else { return nil }
     let explained = Set(known.matches)
     let rest = matches.filter { !explained.contains($0) }
     guard rest.count >= options.minimumMatches else { return nil }
     return Candidate(pair: pair, first: known, isStatic: false, rest: rest)
+  }
+
+  /// The matches at the same pixel of both photos, if they prove that the camera did not move.
+  private func staticMatches(
+    _ pair: PhotoPair, _ matches: [FeatureMatch], _ features: [FeatureSet], _ photos: [Photo]
+  ) -> Set<FeatureMatch>? {
+    let (a, b) = (photos[pair.first.index], photos[pair.second.index])
+    guard a.width == b.width, a.height == b.height else { return nil }
+    let limit = Float(options.staticDisplacement * Double(max(a.width, a.height)))
+    let shifts = matches.map { match in
+      let offset =
+        features[pair.second.index].positions[Int(match.second)]
+        - features[pair.first.index].positions[Int(match.first)]
+      return (offset * offset).sum().squareRoot()
+    }
+    guard shifts.count(where: { $0 <= limit }) >= options.minimumMatches else { return nil }
+    let tolerance = limit * Float(options.staticTolerance)
+    return Set(zip(matches, shifts).filter { $0.1 <= tolerance }.map(\.0))
   }
 
   private func motions(

@@ -1,0 +1,252 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// Divides features into those of an object and those of its surroundings, between which the object
+/// moves: on a turntable, turned by hand, or laid on another side.
+///
+/// The two motions of a pair of photos do not say which is the object's, but a feature track
+/// belongs to the same body in all photos. The tracks decide which motions belong together, and the
+/// object is the body that is nearer to the middle of the photos. In front of a camera on a tripod,
+/// what does not move is the surroundings.
+struct MotionLayers: Sendable {
+  struct Options: Hashable, Codable, Sendable {
+    /// Minimum number of tracks by which a pair's motions are assigned to the bodies.
+    var minimumVotes = 8
+    /// Number of times that all pairs are assigned again.
+    var sweeps = 3
+    /// A track belongs to a body if at least this share of its motions does.
+    var minimumTrackShare = 0.75
+    /// Minimum share of the tracks that must belong to one of the bodies, so that the two motions
+    /// are those of bodies and not of repeated structure, …
+    var minimumConsistency = 0.8
+    /// … and minimum share of features whose neighbor in the photo belongs to the same body.
+    var minimumCoherence = 0.8
+    /// Minimum share of the photos that must show the object.
+    var minimumPhotoShare = 0.5
+    /// Minimum number of features of the object in a photo that shows it.
+    var minimumFeatures = 8
+    /// Minimum rotation between the two motions of most pairs, in degrees.
+    var minimumDegrees = 3.0
+    /// If at least this share of the known tracks of a motion belong to the surroundings, all of its
+    /// matches do.
+    var minimumMotionShare = 0.8
+
+    init() {}
+  }
+
+  var options = Options()
+
+  /// What belongs to the surroundings.
+  struct Surroundings: Sendable {
+    /// Whether each feature does, by photo.
+    var hasFeature: [[Bool]]
+    /// The matches of motions that are theirs as a whole.
+    var matches: [PhotoPair: Set<FeatureMatch>]
+
+    /// Whether a match does.
+    func contain(_ match: FeatureMatch, of pair: PhotoPair) -> Bool {
+      hasFeature[pair.first.index][Int(match.first)]
+        || hasFeature[pair.second.index][Int(match.second)]
+        || matches[pair]?.contains(match) == true
+    }
+  }
+
+  /// The features and matches of the surroundings; nil if the photos don't show an object that
+  /// moves.
+  func surroundings(
+    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], _ context: StageContext
+  ) throws -> Surroundings? {
+    let turned = graph.motions.count { $0.degrees >= options.minimumDegrees }
+    guard !graph.motions.isEmpty, 2 * turned > graph.motions.count else { return nil }
+    let tracks = try TrackBuilding().run(graph.withAllMotions, features: features, context)
+    let trackOf = tracks.trackOfFeature(features)
+    let motions = graph.motions.map { motion in
+      motion.bodies.map { body in
+        body.matches.compactMap { match -> Int32? in
+          let track = trackOf[motion.pair.first.index][Int(match.first)]
+          return track >= 0 && track == trackOf[motion.pair.second.index][Int(match.second)]
+            ? track : nil
+        }
+      }
+    }
+    let scores = scores(motions, isStatic: graph.motions.map(\.isFirstStatic), tracks.count)
+    let bodies = scores.map(body)
+    let (assigned, certain) = (scores.count { $0.count > 0 }, bodies.count { $0 != 0 })
+    let bodyOf: [[Int]] = trackOf.map { tracks in
+      tracks.map { track in track < 0 ? 0 : bodies[Int(track)] }
+    }
+    guard assigned > 0, Double(certain) >= options.minimumConsistency * Double(assigned),
+      isCoherent(bodyOf, features)
+    else { return nil }
+    let hasStatic = graph.motions.contains(where: \.isFirstStatic)
+    let object: Int = hasStatic ? 1 : objectBody(bodyOf, features, photos)
+    let shown = bodyOf.count { bodies in
+      bodies.count { $0 == object } >= options.minimumFeatures
+    }
+    guard Double(shown) >= options.minimumPhotoShare * Double(photos.count) else { return nil }
+    let hasFeature = bodyOf.map { bodies in bodies.map { $0 == -object } }
+    return Surroundings(
+      hasFeature: hasFeature, matches: matches(of: graph, -object, bodyOf))
+  }
+
+  /// The matches of all motions of a body.
+  private func matches(
+    of graph: ViewGraph, _ body: Int, _ bodyOf: [[Int]]
+  ) -> [PhotoPair: Set<FeatureMatch>] {
+    var result: [PhotoPair: Set<FeatureMatch>] = [:]
+    for motion in graph.withAllMotions.pairs {
+      let bodies = motion.matches.map { bodyOf[motion.pair.first.index][Int($0.first)] }
+      let (own, known) = (bodies.count { $0 == body }, bodies.count { $0 != 0 })
+      if known >= options.minimumVotes, Double(own) >= options.minimumMotionShare * Double(known) {
+        result[motion.pair, default: []].formUnion(motion.matches)
+      }
+    }
+    return result
+  }
+
+  /// The body that most motions of a track belong to, or 0 if they disagree.
+  private func body(_ score: Score) -> Int {
+    let needed = Float(2 * options.minimumTrackShare - 1) * Float(score.count)
+    guard score.count > 0, abs(score.sum) >= needed else { return 0 }
+    return score.sum > 0 ? 1 : -1
+  }
+
+  // MARK: Assignment
+
+  /// For each track, the number of motions that it is part of and have been assigned, and the sum
+  /// of their bodies, −1 or 1.
+  private typealias Score = (sum: Float, count: Int)
+
+  /// Assigns the motions of all pairs to the two bodies, starting from static motions, which belong
+  /// to body −1, or from the pair with the strongest two motions.
+  private func scores(
+    _ motions: [[[Int32]]], isStatic: [Bool], _ trackCount: Int
+  ) -> [Score] {
+    var scores = [Score](repeating: (0, 0), count: trackCount)
+    var signs = motions.map { _ in Float(0) }
+    func add(_ index: Int, _ sign: Float, _ amount: Int) {
+      for (body, tracks) in motions[index].enumerated() {
+        for track in tracks {
+          scores[Int(track)].sum += (body == 0 ? -sign : sign) * Float(amount)
+          scores[Int(track)].count += amount
+        }
+      }
+    }
+    func assign(_ index: Int, _ sign: Float) {
+      if signs[index] != 0 { add(index, signs[index], -1) }
+      signs[index] = sign
+      if sign != 0 { add(index, sign, 1) }
+    }
+    func vote(_ index: Int) -> Float {
+      var sum: Float = 0
+      for (body, tracks) in motions[index].enumerated() {
+        for track in tracks {
+          let score = scores[Int(track)].sum
+          sum += (score > 0 ? 1 : score < 0 ? -1 : 0) * (body == 0 ? -1 : 1)
+        }
+      }
+      return sum
+    }
+    for index in motions.indices where isStatic[index] { assign(index, 1) }
+    if !isStatic.contains(true) {
+      let strengths = motions.map { min($0[0].count, $0[1].count) }
+      if let first = strengths.indices.max(by: { (strengths[$0], $1) < (strengths[$1], $0) }) {
+        assign(first, 1)
+      }
+    }
+    // The pairs with the clearest votes first.
+    while true {
+      let open = motions.indices.filter { signs[$0] == 0 }.map { ($0, vote($0)) }
+      let best = open.map { abs($0.1) }.max() ?? 0
+      guard best >= Float(options.minimumVotes) else { break }
+      for (index, vote) in open where 2 * abs(vote) >= best { assign(index, vote > 0 ? 1 : -1) }
+    }
+    for _ in 0..<options.sweeps {
+      for index in motions.indices where signs[index] != 0 && !isStatic[index] {
+        assign(index, 0)
+        let vote = vote(index)
+        assign(index, abs(vote) < Float(options.minimumVotes) ? 0 : vote > 0 ? 1 : -1)
+      }
+    }
+    return scores
+  }
+
+  // MARK: Decisions
+
+  /// Whether features of the same body are neighbors in the photos.
+  private func isCoherent(_ bodyOf: [[Int]], _ features: [FeatureSet]) -> Bool {
+    var (same, all) = (0, 0)
+    for (bodies, set) in zip(bodyOf, features) {
+      let labeled = bodies.indices.filter { bodies[$0] != 0 }
+      let sorted = labeled.sorted {
+        (set.positions[$0].x, set.positions[$0].y) < (set.positions[$1].x, set.positions[$1].y)
+      }
+      for (place, index) in sorted.enumerated() {
+        // The nearest of the features with a similar x.
+        let others = sorted[max(0, place - 60)..<min(sorted.count, place + 61)]
+        let nearest = others.filter { set.positions[$0] != set.positions[index] }.min {
+          distance(set, $0, index) < distance(set, $1, index)
+        }
+        guard let nearest else { continue }
+        all += 1
+        if bodies[nearest] == bodies[index] { same += 1 }
+      }
+    }
+    return Double(same) >= options.minimumCoherence * Double(all)
+  }
+
+  private func distance(_ set: FeatureSet, _ a: Int, _ b: Int) -> Float {
+    let offset = set.positions[a] - set.positions[b]
+    return (offset * offset).sum()
+  }
+
+  /// The body whose features are nearer to the middle of most photos.
+  private func objectBody(
+    _ bodyOf: [[Int]], _ features: [FeatureSet], _ photos: [Photo]
+  ) -> Int {
+    var votes = 0
+    for (photo, bodies) in zip(photos, bodyOf) {
+      let middle = SIMD2(Float(photo.width), Float(photo.height)) / 2
+      func spread(_ body: Int) -> Float? {
+        let distances = bodies.indices.filter { bodies[$0] == body }.map {
+          let offset = features[photo.id.index].positions[$0] - middle
+          return (offset * offset).sum()
+        }
+        return distances.count >= options.minimumFeatures ? distances.upperMedian : nil
+      }
+      guard let positive = spread(1), let negative = spread(-1) else { continue }
+      votes += positive < negative ? 1 : -1
+    }
+    return votes >= 0 ? 1 : -1
+  }
+}
+
+extension TwoMotions {
+  /// The angle between the rotations of the two motions, in degrees.
+  fileprivate var degrees: Double {
+    let rotations = bodies.map { $0.secondFromFirst?.rotation ?? .identity }
+    return (rotations[0].conjugate * rotations[1]).angle * 180 / .pi
+  }
+}
+
+extension ViewGraph {
+  /// The graph with both motions of each pair.
+  fileprivate var withAllMotions: ViewGraph {
+    let moving = Set(motions.map(\.pair))
+    var result = self
+    result.pairs = pairs.filter { !moving.contains($0.pair) } + motions.flatMap(\.bodies)
+    return result
+  }
+}
+
+extension FeatureTracks {
+  /// The track of each feature, by photo; −1 without one.
+  fileprivate func trackOfFeature(_ features: [FeatureSet]) -> [[Int32]] {
+    var result = features.map { [Int32](repeating: -1, count: $0.count) }
+    for index in photos.indices {
+      result[Int(photos[index])][Int(self.features[index])] = trackOfObservation[index]
+    }
+    return result
+  }
+}
