@@ -39,79 +39,93 @@ package struct ImageAlignment: Sendable {
   package func run(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
-    let map = try map(
-      photos: photos, cameras: cameras, images: images, context.part(from: 0, to: 0.87))
+    let matched = try match(
+      photos: photos, cameras: cameras, images: images, context.part(from: 0, to: 0.7))
+    let map = try map(matched, images: images, context.part(from: 0.7, to: 0.87))
     try throwOrWarn(map, context.notes)
-    return try finish(map.reconstruction, map, images, context.part(from: 0.87, to: 1))
+    return try finish(map.reconstruction, matched, images, context.part(from: 0.87, to: 1))
   }
 
-  /// A map of the photos and what it was made from.
+  /// Photos with their features and verified pairs.
+  struct MatchedPhotos: Sendable {
+    var photos: [Photo]
+    /// Initial cameras, with focal lengths from self-calibration.
+    var cameras: [Camera]
+    var features: [FeatureSet]
+    var graph: ViewGraph
+  }
+
+  /// A map of the photos, and the signs that parts of it are superimposed.
   struct Map: Sendable {
     /// Not refined yet, in the frame of one of the photos.
     var reconstruction: Reconstruction
-    var graph: ViewGraph
-    var features: [FeatureSet]
-    /// Initial cameras, with focal lengths from self-calibration.
-    var cameras: [Camera]
-    /// The signs of repeated structure, or of an object that was moved; nil if the check failed.
+    /// Nil if the check failed.
     var findings: SceneAmbiguityCheck.Findings?
   }
 
-  /// Maps the photos by features of the images, and checks the map. Throws
-  /// `PipelineError.alignmentFailed` if there is no map, but not if parts of it are superimposed.
-  func map(
+  /// Extracts and matches features. Throws `PipelineError.alignmentFailed` if no two photos match.
+  func match(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
-  ) throws -> Map {
+  ) throws -> MatchedPhotos {
     try PipelineError.checkCount(photos.count, needed: options.minimumPhotos)
     let features = try timed("featureSeconds", context) {
       try FeatureExtraction(options.features).run(
-        photos, images: decodingOnce(images), context.part(from: 0, to: 0.45))
+        photos, images: decodingOnce(images), context.part(from: 0, to: 0.55))
     }
     let (graph, calibrated) = try timed("matchingSeconds", context) {
       try CorrespondenceSearch(options.search).run(
         photos: photos, cameras: cameras, features: features, ordering: options.ordering,
-        context.part(from: 0.45, to: 0.8))
+        context.part(from: 0.55, to: 1))
     }
     guard !graph.pairs.isEmpty else {
       throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
     }
-    let isPureRotation = PureRotationCheck(options.pureRotation)
-      .isPureRotation(graph, features: features, photos: photos, cameras: calibrated)
+    return MatchedPhotos(photos: photos, cameras: calibrated, features: features, graph: graph)
+  }
+
+  /// Maps matched photos, and checks the map. Throws `PipelineError.alignmentFailed` if there is no
+  /// map, but not if parts of it are superimposed.
+  func map(
+    _ matched: MatchedPhotos, images: ImageStore, _ context: StageContext
+  ) throws -> Map {
+    let isPureRotation = PureRotationCheck(options.pureRotation).isPureRotation(
+      matched.graph, features: matched.features, photos: matched.photos, cameras: matched.cameras)
     guard !isPureRotation else {
       throw PipelineError.alignmentFailed(
         reason: "all photos were taken from one place; walk around the object between photos.")
     }
     let mapped = try timed("mappingSeconds", context) {
       try SparseMapping(options.mapping).run(
-        graph, features: features, photos: photos, cameras: calibrated,
-        context.part(from: 0.8, to: 0.97))
+        matched.graph, features: matched.features, photos: matched.photos,
+        cameras: matched.cameras, context.part(from: 0, to: 0.9))
     }
     try check(mapped, context.notes)
-    var map = Map(reconstruction: mapped, graph: graph, features: features, cameras: calibrated)
-    map.findings = try timed("ambiguityCheckSeconds", context) {
-      try ambiguityFindings(map, images, context.part(from: 0.97, to: 1))
+    let findings = try timed("ambiguityCheckSeconds", context) {
+      try ambiguityFindings(mapped, matched, images, context.part(from: 0.9, to: 1))
     }
-    return map
+    return Map(reconstruction: mapped, findings: findings)
   }
 
-  /// The largest reconstruction of some of the photos of a map, refined and in the world frame.
+  /// The largest reconstruction of some of the photos, refined and in the world frame.
   func reconstruction(
-    of group: [Int], _ map: Map, _ images: ImageStore, _ context: StageContext
+    of group: [Int], _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
     let mapped = try SparseMapping(options.mapping).run(
-      map.graph.restricted(to: group), features: map.features, photos: map.reconstruction.photos,
-      cameras: map.cameras, context.part(from: 0, to: 0.5))
+      matched.graph.restricted(to: group), features: matched.features, photos: matched.photos,
+      cameras: matched.cameras, context.part(from: 0, to: 0.5))
     try check(mapped, context.notes)
-    return try finish(mapped, map, images, context.part(from: 0.5, to: 1))
+    return try finish(mapped, matched, images, context.part(from: 0.5, to: 1))
   }
 
   /// Refines the observations and moves the reconstruction to the world frame.
   func finish(
-    _ mapped: Reconstruction, _ map: Map, _ images: ImageStore, _ context: StageContext
+    _ mapped: Reconstruction, _ matched: MatchedPhotos, _ images: ImageStore,
+    _ context: StageContext
   ) throws -> Reconstruction {
     let refined = try timed("refinementSeconds", context) {
       try refine(
-        mapped, map.features, map.cameras, decodingOnce(images), context.part(from: 0, to: 0.85))
+        mapped, matched.features, matched.cameras, decodingOnce(images),
+        context.part(from: 0, to: 0.85))
     }
     var worldAlignment = options.worldAlignment
     let masks = images.hasMasks ? mapped.photos.count { $0.mask != nil } : 0
@@ -148,13 +162,13 @@ package struct ImageAlignment: Sendable {
 
   /// The signs that the map superimposes repeated structures of the scene; nil if the check fails.
   private func ambiguityFindings(
-    _ map: Map, _ images: ImageStore, _ context: StageContext
+    _ mapped: Reconstruction, _ matched: MatchedPhotos, _ images: ImageStore,
+    _ context: StageContext
   ) throws -> SceneAmbiguityCheck.Findings? {
     do {
       return try SceneAmbiguityCheck(options.sceneAmbiguity)
         .run(
-          map.reconstruction, map.graph, features: map.features, images: decodingOnce(images),
-          context)
+          mapped, matched.graph, features: matched.features, images: decodingOnce(images), context)
     } catch let error as KernelError where error != .outOfMemory {
       context.notes.warn("The scene was not checked for repeated structure (\(error)).")
       return nil

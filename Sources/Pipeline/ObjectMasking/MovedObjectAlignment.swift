@@ -13,47 +13,41 @@ struct MovedObjectAlignment {
 
   /// Aligns photos without masks. `folder` receives the masks of an object that was moved.
   func run(_ photos: PhotoSet, folder: URL, _ context: StageContext) throws -> AlignedPhotos {
-    let ingested = photos.ingested
+    let matched = try alignment.match(
+      photos: photos.ingested.photos, cameras: photos.ingested.cameras, images: photos.images,
+      context.part(from: 0, to: 0.4))
+    let joining = context.part(from: 0.5, to: 1)
+    let placements = matched.graph.placements
+    if let joined = try join(placements, matched, photos, folder: folder, joining) { return joined }
     let map = try alignment.map(
-      photos: ingested.photos, cameras: ingested.cameras, images: photos.images,
-      context.part(from: 0, to: 0.5))
-    let placements = map.findings?.placements ?? []
-    if placements.count > 1 || map.graph.isObjectOnly && !placements.isEmpty {
-      let notes = StageNotes()
-      context.notes.log(
-        "The photos show the object in \(placements.count) placements, of "
-          + placements.map { String($0.count) }.joined(separator: ", ") + " photos.")
-      let joined = try join(
-        placements, map, photos, folder: folder,
-        StageContext(control: context.part(from: 0.5, to: 1).control, notes: notes))
-      if let joined {
-        context.notes.add(notes)
-        return joined
-      }
+      matched, images: photos.images, context.part(from: 0.4, to: 0.5))
+    let found = map.findings?.placements ?? []
+    if found.count > 1 || matched.graph.isObjectOnly,
+      let joined = try join(found, matched, photos, folder: folder, joining)
+    {
+      return joined
     }
     try alignment.throwOrWarn(map, context.notes)
     return AlignedPhotos(
-      reconstruction: try alignment.finish(
-        map.reconstruction, map, photos.images, context.part(from: 0.5, to: 1)))
+      reconstruction: try alignment.finish(map.reconstruction, matched, photos.images, joining))
   }
 
   /// All photos, aligned by the object that each placement's photos show; nil if that joins fewer
-  /// than two placements.
+  /// than two placements. Records nothing but the notes of the last alignment.
   private func join(
-    _ placements: [[Int]], _ map: ImageAlignment.Map, _ photos: PhotoSet, folder: URL,
-    _ context: StageContext
+    _ placements: [[Int]], _ matched: ImageAlignment.MatchedPhotos, _ photos: PhotoSet,
+    folder: URL, _ context: StageContext
   ) throws -> AlignedPhotos? {
+    guard !placements.isEmpty else { return nil }
+    let notes = StageNotes()
+    func part(from start: Double, to end: Double) -> StageContext {
+      StageContext(control: context.part(from: start, to: end).control, notes: notes)
+    }
     var rough = ObjectMasking.Result(photoCount: photos.ingested.photos.count)
     for (number, placement) in placements.enumerated() {
       let share = 0.5 / Double(placements.count)
-      let control = context.part(
-        from: share * Double(number), to: share * Double(number + 1)
-      ).control
-      if let found = try masks(
-        of: placement, map, photos.images, StageContext(control: control, notes: StageNotes()))
-      {
-        rough.add(found)
-      }
+      let part = part(from: share * Double(number), to: share * Double(number + 1))
+      if let found = try masks(of: placement, matched, photos.images, part) { rough.add(found) }
     }
     let used = placements.filter { $0.contains { rough.masks[$0] != nil } }
     let needed = min(2, placements.count)
@@ -61,20 +55,32 @@ struct MovedObjectAlignment {
     let masked = photos.masked(
       by: try EstimatedMasks(rough, of: photos.ingested.photos, in: folder).masks)
     do {
-      let reconstruction = try align(masked, context.part(from: 0.5, to: 0.8))
+      let last = StageNotes()
+      let reconstruction = try align(
+        masked, StageContext(control: part(from: 0.5, to: 0.8).control, notes: last))
       let joined = used.filter { $0.contains { reconstruction.poses[$0] != nil } }
       guard joined.count >= needed else { return nil }
+      context.notes.add(last)
       context.notes.record("joinedPlacements", Double(joined.count))
+      report(joined, context.notes)
+      let prior = try Silhouettes(reconstruction, images: masked.images, options: Self.majority)
       let final = try masking.run(
-        reconstruction, images: photos.images,
-        prior: Silhouettes(reconstruction, images: masked.images, options: Self.majority),
-        context.part(from: 0.8, to: 1))
+        reconstruction, images: photos.images, prior: prior, part(from: 0.8, to: 1))
       return AlignedPhotos(
         reconstruction: reconstruction,
         masks: try EstimatedMasks(final ?? rough, of: photos.ingested.photos, in: folder))
     } catch is PipelineError {
       return nil
     }
+  }
+
+  private func report(_ placements: [[Int]], _ notes: StageNotes) {
+    let counts = placements.map { String($0.count) }.joined(separator: ", ")
+    notes.log(
+      placements.count > 1
+        ? "The object was moved between photos: \(placements.count) placements of \(counts) photos "
+          + "were joined."
+        : "The object moves in front of its surroundings: the photos were aligned by the object.")
   }
 
   /// Whatever most of the first masks contain.
@@ -99,13 +105,13 @@ struct MovedObjectAlignment {
 
   /// The masks of the photos of one placement; nil if they show no separate object.
   private func masks(
-    of placement: [Int], _ map: ImageAlignment.Map, _ images: ImageStore, _ context: StageContext
+    of placement: [Int], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore, _ context: StageContext
   ) throws -> ObjectMasking.Result? {
     do {
       let reconstruction = try alignment.reconstruction(
-        of: placement, map, images, context.part(from: 0, to: 0.4))
+        of: placement, matched, images, context.part(from: 0, to: 0.4))
       var masking = masking
-      masking.options.isolation.isObjectOnly = map.graph.isObjectOnly
+      masking.options.isolation.isObjectOnly = matched.graph.isObjectOnly
       return try masking.run(reconstruction, images: images, context.part(from: 0.4, to: 1))
     } catch is PipelineError {
       return nil

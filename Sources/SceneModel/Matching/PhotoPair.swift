@@ -78,6 +78,9 @@ package struct ViewGraph: Sendable {
   package var motions: [TwoMotions] = []
   /// Whether the object moves in front of its surroundings, whose matches are left out.
   package var isObjectOnly = false
+  /// Groups of photos between which the object was moved; empty if it was not, or between most
+  /// photos.
+  package var placements: [[Int]] = []
 
   package init(photoCount: Int, pairs: [VerifiedPair], rejected: [RejectedPair] = []) {
     self.photoCount = photoCount

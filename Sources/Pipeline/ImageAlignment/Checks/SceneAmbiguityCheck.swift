@@ -53,7 +53,7 @@ package struct SceneAmbiguityCheck: Sendable {
     }
     findings.contradicted = graph.contradicted(by: reconstruction, features: features, options)
     findings.placements = PlacementDetection(options: options.placements)
-      .run(evidence, isConflict: isConflict, reconstruction, graph)
+      .groups(evidence, reconstruction, graph)
     let needed = max(
       Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
     let signs = [

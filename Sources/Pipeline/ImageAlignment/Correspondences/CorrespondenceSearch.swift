@@ -22,6 +22,7 @@ package struct CorrespondenceSearch {
     package var guidedMatching = GuidedMatching.Options()
     package var secondMotions = SecondMotionSearch.Options()
     var motionLayers = MotionLayers.Options()
+    var placements = PlacementDetection.Options()
 
     package init() {}
   }
@@ -146,6 +147,10 @@ private struct MatchedPairs {
     let surroundings = try MotionLayers(options: options.motionLayers)
       .surroundings(graph, features: features, photos: photos, context)
     guard let surroundings else { return }
+    if let placements = PlacementDetection(options: options.placements).groups(graph) {
+      graph.placements = placements
+      return
+    }
     let whole = self
     matches = zip(pairs, matches).map { pair, matches in
       matches.filter { !surroundings.contain($0, of: pair) }

@@ -3,48 +3,122 @@ import SceneModel
 /// Divides photos into groups between which the object was moved, for instance laid on another
 /// side.
 ///
-/// Photos taken before and after the move have nearly the same pose in a map of the surroundings,
-/// or in one of the object, but show different things. The evidence of such pairs, for and against
-/// the same placement, is a signed graph, which greedy edge contraction divides (Keuper et al.,
-/// "Efficient decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
+/// The evidence is for and against two photos showing the object in the same placement. Photos are
+/// usually in the order of capture, and then placements are intervals, which dynamic programming
+/// finds. Otherwise greedy edge contraction divides the signed graph (Keuper et al., "Efficient
+/// decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
 struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos of a placement.
     var minimumPhotos = 5
+    /// Evidence that a boundary between two intervals must explain.
+    var boundaryCost = 100
+    /// Intervals are placements if at most this share of the evidence against the same placement
+    /// remains within them.
+    var maximumRemainder = 0.1
+    /// Weight of a point that is missing in a photo, relative to one that is there: of the points
+    /// that the map predicts, up to a sixth are not found even if nothing moved.
+    var absenceWeight = 4
 
     init() {}
   }
 
+  /// What links two photos or groups of photos.
+  struct Link: Sendable {
+    /// Positive if they show the object in the same placement, negative if they don't.
+    var evidence = 0
+    /// Number of matches.
+    var matches = 0
+  }
+
   var options = Options()
 
-  /// The groups, each in ascending order, larger ones first; one group if the object did not move.
-  /// Photos without a pose form groups of their own if they match each other.
-  func run(
-    _ evidence: [SceneAmbiguityCheck.Evidence], isConflict: (SceneAmbiguityCheck.Evidence) -> Bool,
-    _ reconstruction: Reconstruction, _ graph: ViewGraph
+  /// The groups by what photos show of the points that a map predicts. Photos taken before and
+  /// after a move have nearly the same pose in a map of the surroundings, or in one of the object,
+  /// but show different things. Photos without a pose are a group of their own if they match.
+  func groups(
+    _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction, _ graph: ViewGraph
   ) -> [[Int]] {
     var links: [PhotoPair: Link] = [:]
     for one in evidence {
       links[one.pair, default: Link()].evidence +=
-        isConflict(one) ? -one.absent : max(0, one.present - one.absent)
+        one.present - options.absenceWeight * one.absent
     }
     for pair in graph.pairs where reconstruction.isPosedAlike(pair.pair) {
       links[pair.pair, default: Link()].matches += pair.matches.count
     }
-    var sets = DisjointSets(count: graph.photoCount)
-    contract(&links, &sets) { $0.evidence }
-    // Photos that are nowhere near each other in the map are linked by matches alone.
-    contract(&links, &sets) { $0.evidence < 0 ? 0 : $0.matches }
-    return sets.groups().filter { $0.count >= options.minimumPhotos }
-      .sorted { ($1.count, $0[0]) < ($0.count, $1[0]) }
+    return groups(links, photoCount: graph.photoCount)
   }
 
-  /// What links two photos or groups of photos.
-  private struct Link {
-    /// Points that the map predicts and the photos show, minus those that they should show but
-    /// don't.
-    var evidence = 0
-    var matches = 0
+  /// The groups by the pairs of a graph that show two motions; nil if the object was not moved a few
+  /// times only, but between most photos.
+  func groups(_ graph: ViewGraph) -> [[Int]]? {
+    var links: [PhotoPair: Link] = [:]
+    for motion in graph.motions {
+      links[motion.pair] = Link(evidence: -(motion.bodies.map(\.matches.count).min() ?? 0))
+    }
+    let result = intervals(links, photoCount: graph.photoCount)
+    return result.count > 1 ? result : nil
+  }
+
+  /// The groups, each in ascending order, larger ones first; one group if the object did not move.
+  func groups(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
+    let found = intervals(links, photoCount: photoCount)
+    let groups = found.isEmpty ? contracted(links, photoCount: photoCount) : found
+    return groups.sorted { ($1.count, $0[0]) < ($0.count, $1[0]) }
+  }
+
+  // MARK: Intervals
+
+  /// The division into intervals with the highest sum of evidence within them; empty if it leaves
+  /// too much evidence against the same placement within an interval, or has short intervals.
+  private func intervals(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
+    let negative = links.filter { $0.value.evidence < 0 }
+    guard !negative.isEmpty else { return [] }
+    // The evidence between each photo and later ones.
+    var later = [[(photo: Int, evidence: Int)]](repeating: [], count: photoCount)
+    for (pair, link) in links where link.evidence != 0 {
+      later[pair.first.index].append((pair.second.index, link.evidence))
+    }
+    var best = [0] + [Int](repeating: .min, count: photoCount)
+    var start = [Int](repeating: 0, count: photoCount + 1)
+    for end in stride(from: 1, through: photoCount, by: 1) {
+      var within = 0
+      for first in stride(from: end - 1, through: 0, by: -1) {
+        // `within` is the sum over the pairs of first..<end.
+        for other in later[first] where other.photo < end { within += other.evidence }
+        guard best[first] > .min, end - first >= options.minimumPhotos else { continue }
+        let total = best[first] + within - (first > 0 ? options.boundaryCost : 0)
+        if total > best[end] { (best[end], start[end]) = (total, first) }
+      }
+    }
+    guard best[photoCount] > .min else { return [] }
+    var groups: [[Int]] = []
+    var end = photoCount
+    while end > 0 {
+      groups.append(Array(start[end]..<end))
+      end = start[end]
+    }
+    var groupOf = [Int](repeating: 0, count: photoCount)
+    for (number, group) in groups.enumerated() { for photo in group { groupOf[photo] = number } }
+    let all = negative.values.reduce(0) { $0 + $1.evidence }
+    let remaining = negative.reduce(0) { sum, link in
+      groupOf[link.key.first.index] == groupOf[link.key.second.index]
+        ? sum + link.value.evidence : sum
+    }
+    return Double(remaining) >= options.maximumRemainder * Double(all) ? groups.reversed() : []
+  }
+
+  // MARK: Contraction
+
+  /// The groups of photos that remain after contracting links: first by evidence, then, between
+  /// photos that are nowhere near each other in the map, by matches.
+  private func contracted(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
+    var links = links
+    var sets = DisjointSets(count: photoCount)
+    contract(&links, &sets) { $0.evidence }
+    contract(&links, &sets) { $0.evidence < 0 ? 0 : $0.matches }
+    return sets.groups().filter { $0.count >= options.minimumPhotos }
   }
 
   /// Contracts the link of the highest weight until none is positive; parallel links add up.
