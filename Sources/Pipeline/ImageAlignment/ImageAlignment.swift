@@ -117,16 +117,18 @@ package struct ImageAlignment: Sendable {
     return try finish(mapped, matched, images, context.part(from: 0.5, to: 1))
   }
 
-  /// Refines the observations and moves the reconstruction to the world frame.
+  /// Refines the observations and moves the reconstruction, with some of the points, to the world
+  /// frame.
   func finish(
     _ mapped: Reconstruction, _ matched: MatchedPhotos, _ images: ImageStore,
-    _ context: StageContext
+    _ context: StageContext, keeping isKept: (ScenePoint) -> Bool = { _ in true }
   ) throws -> Reconstruction {
-    let refined = try timed("refinementSeconds", context) {
+    var refined = try timed("refinementSeconds", context) {
       try refine(
         mapped, matched.features, matched.cameras, decodingOnce(images),
         context.part(from: 0, to: 0.85))
     }
+    refined.points = refined.points.filter(isKept)
     var worldAlignment = options.worldAlignment
     let masks = images.hasMasks ? mapped.photos.count { $0.mask != nil } : 0
     worldAlignment.findsSupport =

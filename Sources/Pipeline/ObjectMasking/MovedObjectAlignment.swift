@@ -17,19 +17,30 @@ struct MovedObjectAlignment {
       photos: photos.ingested.photos, cameras: photos.ingested.cameras, images: photos.images,
       context.part(from: 0, to: 0.4))
     let joining = context.part(from: 0.5, to: 1)
-    let placements = matched.graph.placements
-    if let joined = try join(placements, matched, photos, folder: folder, joining) { return joined }
-    let map = try alignment.map(
-      matched, images: photos.images, context.part(from: 0.4, to: 0.5))
-    let found = map.findings?.placements ?? []
-    if found.count > 1 || matched.graph.isObjectOnly,
-      let joined = try join(found, matched, photos, folder: folder, joining)
+    let map = Result {
+      try alignment.map(matched, images: photos.images, context.part(from: 0.4, to: 0.5))
+    }
+    if case .failure(let error) = map, !(error is PipelineError) { throw error }
+    let placements = placements((try? map.get())?.findings, matched.graph)
+    if placements.count > 1 || matched.graph.isObjectOnly,
+      let joined = try join(placements, matched, photos, folder: folder, joining)
     {
       return joined
     }
-    try alignment.throwOrWarn(map, context.notes)
+    let rigid = try map.get()
+    try alignment.throwOrWarn(rigid, context.notes)
     return AlignedPhotos(
-      reconstruction: try alignment.finish(map.reconstruction, matched, photos.images, joining))
+      reconstruction: try alignment.finish(rigid.reconstruction, matched, photos.images, joining))
+  }
+
+  /// The placements by a map and by pairs of photos, or by these alone.
+  private func placements(
+    _ findings: SceneAmbiguityCheck.Findings?, _ graph: ViewGraph
+  ) -> [[Int]] {
+    if let found = findings?.placements, found.count > 1 || graph.placements.isEmpty {
+      return found
+    }
+    return graph.placements
   }
 
   /// All photos, aligned by the object that each placement's photos show; nil if that joins fewer
@@ -56,14 +67,16 @@ struct MovedObjectAlignment {
       by: try EstimatedMasks(rough, of: photos.ingested.photos, in: folder).masks)
     do {
       let last = StageNotes()
-      let reconstruction = try align(
-        masked, StageContext(control: part(from: 0.5, to: 0.8).control, notes: last))
+      var reconstruction = try alignment.run(
+        masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
+        StageContext(control: part(from: 0.5, to: 0.8).control, notes: last))
       let joined = used.filter { $0.contains { reconstruction.poses[$0] != nil } }
       guard joined.count >= needed else { return nil }
       context.notes.add(last)
       context.notes.record("joinedPlacements", Double(joined.count))
       report(joined, context.notes)
       let prior = try Silhouettes(reconstruction, images: masked.images, options: Self.majority)
+      for index in reconstruction.photos.indices { reconstruction.photos[index].mask = nil }
       let final = try masking.run(
         reconstruction, images: photos.images, prior: prior, part(from: 0.8, to: 1))
       return AlignedPhotos(
@@ -88,19 +101,6 @@ struct MovedObjectAlignment {
     var options = Silhouettes.Options()
     options.minimumShare = 0.5
     return options
-  }
-
-  /// Aligns all photos by what the masks leave. Photos without a mask are matched with those that
-  /// have one.
-  private func align(_ masked: PhotoSet, _ context: StageContext) throws -> Reconstruction {
-    var alignment = alignment
-    alignment.options.correspondences.matchesUnmaskedPairs = false
-    alignment.options.correspondences.secondMotions.isEnabled = false
-    var result = try alignment.run(
-      photos: masked.ingested.photos, cameras: masked.ingested.cameras, images: masked.images,
-      context)
-    for index in result.photos.indices { result.photos[index].mask = nil }
-    return result
   }
 
   /// The masks of the photos of one placement; nil if they show no separate object.

@@ -33,13 +33,15 @@ struct PlacementDetection: Sendable {
 
   var options = Options()
 
-  /// The groups by what photos show of the points that a map predicts. Photos taken before and
-  /// after a move have nearly the same pose in a map of the surroundings, or in one of the object,
-  /// but show different things. Photos without a pose are a group of their own if they match.
+  /// The groups by what photos show of the points that a map predicts, and by pairs that show two
+  /// motions. Photos taken before and after a move have nearly the same pose in a map of the
+  /// surroundings, or in one of the object, but show different things. Photos without a pose are a
+  /// group of their own if they match.
   func groups(
     _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction, _ graph: ViewGraph
   ) -> [[Int]] {
-    var links: [PhotoPair: Link] = [:]
+    // Matches of a moving object do not depend on its surroundings.
+    var links = links(of: graph.isObjectOnly ? [] : graph.motions)
     for one in evidence {
       links[one.pair, default: Link()].evidence +=
         one.present - options.absenceWeight * one.absent
@@ -53,12 +55,17 @@ struct PlacementDetection: Sendable {
   /// The groups by the pairs of a graph that show two motions; nil if the object was not moved a few
   /// times only, but between most photos.
   func groups(_ graph: ViewGraph) -> [[Int]]? {
+    let result = intervals(links(of: graph.motions), photoCount: graph.photoCount)
+    return result.count > 1 ? result : nil
+  }
+
+  /// Two motions are evidence against the same placement.
+  private func links(of motions: [TwoMotions]) -> [PhotoPair: Link] {
     var links: [PhotoPair: Link] = [:]
-    for motion in graph.motions {
+    for motion in motions {
       links[motion.pair] = Link(evidence: -(motion.bodies.map(\.matches.count).min() ?? 0))
     }
-    let result = intervals(links, photoCount: graph.photoCount)
-    return result.count > 1 ? result : nil
+    return links
   }
 
   /// The groups, each in ascending order, larger ones first; one group if the object did not move.
