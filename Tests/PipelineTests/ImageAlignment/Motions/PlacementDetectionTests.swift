@@ -1,0 +1,125 @@
+import SceneModel
+import Testing
+
+@testable import Pipeline
+
+@Suite struct PlacementDetectionTests {
+  private let detection = PlacementDetection()
+
+  // MARK: Intervals
+
+  /// Without evidence within the placements, with some for them, and with a little against them.
+  @Test(arguments: [0, 20, -1]) func twoPlacementsAreIntervals(evidenceWithin: Int) {
+    let links = links(12) { ($0 < 5) == ($1 < 5) ? evidenceWithin : -50 }
+    #expect(detection.groups(links, photoCount: 12) == [Array(5...11), Array(0...4)])
+  }
+
+  /// Whether or not the last placement is the first one again.
+  @Test(arguments: [0, 10, -50]) func threePlacementsAreIntervals(evidenceOfReturn: Int) {
+    let links = links(18) { first, second in
+      switch second / 6 - first / 6 {
+      case 0: 0
+      case 1: -50
+      default: evidenceOfReturn
+      }
+    }
+    #expect(
+      detection.groups(links, photoCount: 18) == [Array(0...5), Array(6...11), Array(12...17)])
+  }
+
+  @Test(arguments: 1...4) func shortIntervalIsNoPlacement(boundary: Int) {
+    let links = links(12) { ($0 < boundary) == ($1 < boundary) ? 20 : -50 }
+    #expect(detection.groups(links, photoCount: 12) == [Array(boundary...11)])
+  }
+
+  @Test func shortIntervalIsExtendedIfLittleContradicts() {
+    let links = links(16) { ($0 < 4) == ($1 < 4) ? 0 : -50 }
+    #expect(detection.groups(links, photoCount: 16) == [Array(5...15), Array(0...4)])
+  }
+
+  // MARK: Contraction
+
+  @Test func photosThatMatchAreOneGroup() {
+    var links = links(12) { _, _ in 0 }
+    for photo in 0..<11 { links[PhotoPair(ID(photo), ID(photo + 1))]?.matches = 30 }
+    #expect(detection.groups(links, photoCount: 12) == [Array(0...11)])
+  }
+
+  @Test func photosWithEvidenceOfOnePlacementAreOneGroup() {
+    let links = links(12) { $1 == $0 + 1 ? 20 : 0 }
+    #expect(detection.groups(links, photoCount: 12) == [Array(0...11)])
+  }
+
+  @Test func placementsThatInterleaveAreFound() {
+    let links = links(12) { $0 % 2 == $1 % 2 ? 50 : -50 }
+    #expect(
+      detection.groups(links, photoCount: 12) == [[0, 2, 4, 6, 8, 10], [1, 3, 5, 7, 9, 11]])
+  }
+
+  /// A photo that the map has no evidence about belongs to the photos that it matches.
+  @Test func photoWithoutEvidenceFollowsItsMatches() {
+    var links = links(12) { $0 == 0 ? 0 : $0 % 2 == $1 % 2 ? 50 : -50 }
+    for photo in [3, 5, 7] { links[PhotoPair(ID(0), ID(photo))]?.matches = 30 }
+    #expect(
+      detection.groups(links, photoCount: 12) == [[0, 1, 3, 5, 7, 9, 11], [2, 4, 6, 8, 10]])
+  }
+
+  // MARK: Pairs with two motions
+
+  /// The object moves between all photos, of which the near ones, or all, are matched.
+  @Test(arguments: [1, 3, 11]) func turntableHasNoPlacements(reach: Int) {
+    let graph = graph(12) { $1 - $0 <= reach ? [60, 40] : [] }
+    #expect(detection.groups(graph) == nil)
+  }
+
+  @Test func motionsAcrossABoundaryDivideThePhotos() {
+    let graph = graph(12) { (3...5).contains($0) && (6...8).contains($1) ? [60, 40] : [] }
+    #expect(detection.groups(graph) == [Array(0...5), Array(6...11)])
+  }
+
+  /// The weaker of the two motions counts.
+  @Test func weakMotionsDivideNothing() {
+    let graph = graph(12) { (3...5).contains($0) && (6...8).contains($1) ? [60, 2] : [] }
+    #expect(detection.groups(graph) == nil)
+  }
+
+  @Test func rigidSceneHasNoPlacements() {
+    #expect(detection.groups(ViewGraph(photoCount: 12, pairs: [])) == nil)
+  }
+
+  // MARK: Helpers
+
+  /// Links between all photos; `evidence` has the two photos in ascending order.
+  private func links(
+    _ photoCount: Int, evidence: (Int, Int) -> Int
+  ) -> [PhotoPair: PlacementDetection.Link] {
+    var links: [PhotoPair: PlacementDetection.Link] = [:]
+    for first in 0..<photoCount {
+      for second in (first + 1)..<photoCount {
+        links[PhotoPair(ID(first), ID(second))] = PlacementDetection.Link(
+          evidence: evidence(first, second))
+      }
+    }
+    return links
+  }
+
+  /// A graph of pairs with two motions; `counts` has the number of matches of each motion of two
+  /// photos, or is empty.
+  private func graph(_ photoCount: Int, counts: (Int, Int) -> [Int]) -> ViewGraph {
+    var graph = ViewGraph(photoCount: photoCount, pairs: [])
+    for first in 0..<photoCount {
+      for second in (first + 1)..<photoCount {
+        let pair = PhotoPair(ID(first), ID(second))
+        let bodies = counts(first, second).map { count in
+          VerifiedPair(
+            pair: pair, model: .essential, secondFromFirst: .identity,
+            matches: (0..<count).map { FeatureMatch(first: Int32($0), second: Int32($0)) },
+            medianAngle: 0)
+        }
+        guard !bodies.isEmpty else { continue }
+        graph.motions.append(TwoMotions(pair: pair, bodies: bodies, isFirstStatic: false))
+      }
+    }
+    return graph
+  }
+}
