@@ -52,7 +52,8 @@ extension StageStore {
   func save(_ aligned: AlignedPhotos, _ notes: StageNotes) throws {
     let reconstruction = aligned.reconstruction
     let record = AlignmentRecord(
-      masks: aligned.masks, cameras: reconstruction.cameras, cameraOfPhoto: reconstruction.photos.map(\.camera),
+      masks: aligned.masks, cameras: reconstruction.cameras,
+      cameraOfPhoto: reconstruction.photos.map(\.camera),
       poses: reconstruction.poses, points: reconstruction.points,
       worldFrame: reconstruction.worldFrame, unregistered: reconstruction.unregistered,
       notes: SavedNotes(notes))

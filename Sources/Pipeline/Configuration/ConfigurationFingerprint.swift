@@ -34,10 +34,10 @@ enum ConfigurationFingerprint {
   /// The stage that reads the options of a member. A member that is missing here counts for all
   /// stages.
   static let stages: [String: PipelineStage] = [
-    "objectMasking": .objectMasking, "pointCloudGeneration": .pointCloudGeneration,
-    "meshGeneration": .meshGeneration,
-    "photoRefinement": .meshGeneration, "simplification": .textureMapping,
-    "textureMapping": .textureMapping, "export": .optimization, "preview": .optimization,
+    // Alignment masks an object that was moved.
+    "objectMasking": .imageAlignment, "pointCloudGeneration": .pointCloudGeneration,
+    "meshGeneration": .meshGeneration, "photoRefinement": .meshGeneration,
+    "simplification": .textureMapping, "textureMapping": .textureMapping, "export": .optimization, "preview": .optimization,
     "meshPrimitive": .optimization,
   ]
 

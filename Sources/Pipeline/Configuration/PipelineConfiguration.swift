@@ -47,6 +47,7 @@ extension PipelineConfiguration {
     get { meshGeneration.isolatesObject }
     set {
       ingestion.inspection.usesMasks = newValue
+      objectMasking.isEnabled = newValue
       meshGeneration.isolatesObject = newValue
     }
   }

@@ -61,7 +61,8 @@ struct MovedObjectAlignment {
       if let found = try masks(of: placement, matched, photos.images, part) { rough.add(found) }
     }
     let used = placements.filter { $0.contains { rough.masks[$0] != nil } }
-    let needed = min(2, placements.count)
+    // A moving object has one placement if all photos agree on it.
+    let needed = matched.graph.isObjectOnly ? 1 : min(2, placements.count)
     guard used.count >= needed else { return nil }
     let masked = photos.masked(
       by: try EstimatedMasks(rough, of: photos.ingested.photos, in: folder).masks)
@@ -71,7 +72,10 @@ struct MovedObjectAlignment {
         masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
         StageContext(control: part(from: 0.5, to: 0.8).control, notes: last))
       let joined = used.filter { $0.contains { reconstruction.poses[$0] != nil } }
-      guard joined.count >= needed else { return nil }
+      let largest = placements.map(\.count).max() ?? 0
+      guard joined.count >= needed,
+        Double(reconstruction.registered.count) >= Self.minimumShare * Double(largest)
+      else { return nil }
       context.notes.add(last)
       context.notes.record("joinedPlacements", Double(joined.count))
       report(joined, context.notes)
@@ -95,6 +99,9 @@ struct MovedObjectAlignment {
           + "were joined."
         : "The object moves in front of its surroundings: the photos were aligned by the object.")
   }
+
+  /// Minimum number of registered photos, as a share of those of the largest placement.
+  private static let minimumShare = 0.9
 
   /// Whatever most of the first masks contain.
   private static var majority: Silhouettes.Options {

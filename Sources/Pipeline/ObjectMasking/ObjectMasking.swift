@@ -9,6 +9,8 @@ import SceneModel
 struct ObjectMasking {
   /// Parameters of object masking.
   struct Options: Hashable, Codable, Sendable {
+    /// Whether to mask the object if the photos have no masks.
+    var isEnabled = true
     /// The coarse reconstruction; only its steps at half resolution are used.
     var coarse = PointCloudGeneration.Options(maximumPixelsPerView: 160_000)
     var backdrop = BackdropDetection.Options()

@@ -74,10 +74,12 @@ struct ReconstructionMethod {
   private func estimatedScene(
     _ photos: PhotoSet, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> ObjectScene {
-    let masks = try cache.masksOfAlignment ?? cache.sealedMasks(of: photos, configuration, context.notes) {
-      try ObjectMasking(options: configuration.objectMasking)
-        .run(reconstruction, images: photos.images, context)
-    }
+    let masks =
+      try cache.masksOfAlignment
+      ?? cache.sealedMasks(of: photos, configuration, context.notes) {
+        try ObjectMasking(options: configuration.objectMasking)
+          .run(reconstruction, images: photos.images, context)
+      }
     return masks.isEmpty
       ? ObjectScene(photos, reconstruction) : ObjectScene(photos, reconstruction, masks)
   }

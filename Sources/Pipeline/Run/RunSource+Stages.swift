@@ -52,7 +52,7 @@ extension RunSource {
     var options = configuration.alignment
     options.worldAlignment.readings = photos.readings
     let alignment = ImageAlignment(options)
-    guard configuration.isObjectMaskingEnabled, !photos.images.hasMasks else {
+    guard configuration.objectMasking.isEnabled, !photos.images.hasMasks else {
       return AlignedPhotos(
         reconstruction: try MaskedAlignment(alignment)
           .run(photos.ingested, images: photos.images, context))

@@ -86,9 +86,9 @@ import Testing
     let notes = StageNotes()
     notes.record("pairs", 12)
     notes.warn("A sentence.")
-    try store().save(reconstruction, notes)
+    try store().save(AlignedPhotos(reconstruction: reconstruction), notes)
     let replayed = StageNotes()
-    let found = try #require(try store().reconstruction(of: ingested.photos, replayed))
+    let found = try #require(try store().alignment(of: ingested.photos, replayed)).reconstruction
     #expect(found.cameras == reconstruction.cameras)
     #expect(found.poses == reconstruction.poses)
     #expect(found.points == reconstruction.points)
@@ -98,7 +98,7 @@ import Testing
   }
 
   @Test func alignmentOfOtherPhotosOrOptionsIsNotUsed() throws {
-    try store().save(reconstruction, StageNotes())
+    try store().save(AlignedPhotos(reconstruction: reconstruction), StageNotes())
     var other = ingested
     other.contentHashes[2] += 1
     let others = [
@@ -106,15 +106,20 @@ import Testing
       try store(readings: [1: SensorReading(depth: DepthMap(width: 1, height: 1, depths: [2]))]),
       try store { $0.alignment.ordering = .sequential },
       try store { $0.alignment.features.sensitivity = .high },
+      try store { $0.isObjectMaskingEnabled = false },
     ]
-    for store in others { #expect(store.reconstruction(of: ingested.photos, StageNotes()) == nil) }
+    for store in others {
+      #expect(store.alignment(of: ingested.photos, StageNotes()) == nil)
+    }
     // The options of the surface and the machine are irrelevant.
     let same = [
       try store { $0.photoRefinement = PhotoRefinement.Options() },
       try store { $0.threadCount = 1 },
     ]
     for store in same {
-      let stored = try #require(store.reconstruction(of: ingested.photos, StageNotes()))
+      let stored = try #require(
+        store.alignment(of: ingested.photos, StageNotes())
+      ).reconstruction
       #expect(stored.poses == reconstruction.poses && stored.points == reconstruction.points)
     }
   }

@@ -52,14 +52,14 @@ package struct SceneAmbiguityCheck: Sendable {
       ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
     }
     findings.contradicted = graph.contradicted(by: reconstruction, features: features, options)
-    findings.placements = PlacementDetection(options: options.placements)
-      .groups(evidence, reconstruction, graph)
     let needed = max(
       Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
     let signs = [
       Double(findings.conflicts.count) >= needed,
       findings.contradicted.count >= options.minimumContradicted,
     ]
+    findings.placements = PlacementDetection(options: options.placements)
+      .groups(signs[0] ? evidence : [], reconstruction, graph)
     findings.verdict =
       !signs.contains(true) ? .consistent : signs.contains(false) ? .ambiguous : .inconsistent
     context.notes.record("ambiguityConflicts", Double(findings.conflicts.count))

@@ -28,8 +28,10 @@ struct MotionLayers: Sendable {
     var minimumFeatures = 8
     /// Minimum rotation between the two motions of most pairs, in degrees.
     var minimumDegrees = 3.0
-    /// If at least this share of the known tracks of a motion belong to the surroundings, all of its
-    /// matches do.
+    /// A camera was on a tripod if at least this share of the pairs say so.
+    var minimumStaticShare = 0.2
+    /// If at least this share of the known tracks of a motion belong to the surroundings, all of
+    /// its matches do.
     var minimumMotionShare = 0.8
 
     init() {}
@@ -70,7 +72,9 @@ struct MotionLayers: Sendable {
         }
       }
     }
-    let scores = scores(motions, isStatic: graph.motions.map(\.isFirstStatic), tracks.count)
+    let hasStatic = graph.motions.hasStaticCamera(minimumShare: options.minimumStaticShare)
+    let scores = scores(
+      motions, isStatic: graph.motions.map { hasStatic && $0.isFirstStatic }, tracks.count)
     let bodies = scores.map(body)
     let (assigned, certain) = (scores.count { $0.count > 0 }, bodies.count { $0 != 0 })
     let bodyOf: [[Int]] = trackOf.map { tracks in
@@ -79,7 +83,6 @@ struct MotionLayers: Sendable {
     guard assigned > 0, Double(certain) >= options.minimumConsistency * Double(assigned),
       isCoherent(bodyOf, features)
     else { return nil }
-    let hasStatic = graph.motions.contains(where: \.isFirstStatic)
     let object: Int = hasStatic ? 1 : objectBody(bodyOf, features, photos)
     let shown = bodyOf.count { bodies in
       bodies.count { $0 == object } >= options.minimumFeatures
@@ -219,6 +222,14 @@ struct MotionLayers: Sendable {
       votes += positive < negative ? 1 : -1
     }
     return votes >= 0 ? 1 : -1
+  }
+}
+
+extension [TwoMotions] {
+  /// Whether enough of the pairs are of a camera that did not move.
+  fileprivate func hasStaticCamera(minimumShare: Double) -> Bool {
+    let still = count(where: \.isFirstStatic)
+    return still > 0 && Double(still) >= minimumShare * Double(count)
   }
 }
 

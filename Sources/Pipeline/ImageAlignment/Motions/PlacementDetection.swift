@@ -52,8 +52,8 @@ struct PlacementDetection: Sendable {
     return groups(links, photoCount: graph.photoCount)
   }
 
-  /// The groups by the pairs of a graph that show two motions; nil if the object was not moved a few
-  /// times only, but between most photos.
+  /// The groups by the pairs of a graph that show two motions; nil if the object was not moved a
+  /// few times only, but between most photos.
   func groups(_ graph: ViewGraph) -> [[Int]]? {
     let result = intervals(links(of: graph.motions), photoCount: graph.photoCount)
     return result.count > 1 ? result : nil

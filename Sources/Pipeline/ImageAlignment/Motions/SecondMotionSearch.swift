@@ -147,9 +147,11 @@ package struct SecondMotionSearch: Sendable {
       }
       return Double(outside) >= options.minimumDistinctShare * Double(matches.count)
     }
-    guard areDistinct(candidate.first.matches, from: pose) else { return nil }
-    if let first = candidate.first.secondFromFirst, !areDistinct(other.matches, from: first) {
-      return nil
+    // Static matches are distinct by their displacement.
+    if let first = candidate.first.secondFromFirst {
+      guard areDistinct(candidate.first.matches, from: pose),
+        areDistinct(other.matches, from: first)
+      else { return nil }
     }
     return TwoMotions(
       pair: pair, bodies: [candidate.first, other], isFirstStatic: candidate.isStatic)
