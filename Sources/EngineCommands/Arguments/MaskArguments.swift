@@ -18,6 +18,14 @@ struct MaskArguments: ParsableArguments {
       If masks leave too few features to align the photos, features of the
       background are used as well, provided that the object did not move.
 
+    OBJECTS THAT MOVE
+      An object may turn on a turntable or by hand, or be laid on another side once
+      or several times to show its underside; take at least five photos of each
+      side, in order. Without masks, what moves is separated from what stands still,
+      and all sides are joined in one model. Neighboring photos still have to
+      overlap, and after a change of side some photos must show the same parts of
+      the object as before.
+
     """
 
   @Option(

@@ -37,8 +37,8 @@ enum ConfigurationFingerprint {
     // Alignment masks an object that was moved.
     "objectMasking": .imageAlignment, "pointCloudGeneration": .pointCloudGeneration,
     "meshGeneration": .meshGeneration, "photoRefinement": .meshGeneration,
-    "simplification": .textureMapping, "textureMapping": .textureMapping, "export": .optimization, "preview": .optimization,
-    "meshPrimitive": .optimization,
+    "simplification": .textureMapping, "textureMapping": .textureMapping,
+    "export": .optimization, "preview": .optimization, "meshPrimitive": .optimization,
   ]
 
   /// Everything that the result of `stage` depends on; equal bytes for equal options.

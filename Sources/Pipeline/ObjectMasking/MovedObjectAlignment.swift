@@ -112,7 +112,8 @@ struct MovedObjectAlignment {
 
   /// The masks of the photos of one placement; nil if they show no separate object.
   private func masks(
-    of placement: [Int], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore, _ context: StageContext
+    of placement: [Int], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
+    _ context: StageContext
   ) throws -> ObjectMasking.Result? {
     do {
       let reconstruction = try alignment.reconstruction(

@@ -51,6 +51,8 @@ extension RunSource {
   ) throws -> AlignedPhotos {
     var options = configuration.alignment
     options.worldAlignment.readings = photos.readings
+    // Without masking, the surroundings are as good as the object.
+    options.correspondences.secondMotions.isEnabled = configuration.objectMasking.isEnabled
     let alignment = ImageAlignment(options)
     guard configuration.objectMasking.isEnabled, !photos.images.hasMasks else {
       return AlignedPhotos(

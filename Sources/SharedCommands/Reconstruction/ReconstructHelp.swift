@@ -11,7 +11,7 @@ enum ReconstructHelp {
 
   private static let introduction = """
     Take 20 to 200 sharp photos all around the object, each overlapping its neighbors by 70 % or \
-    more. Keep the object still and the lighting even.
+    more. Keep the lighting even.
 
     """
 

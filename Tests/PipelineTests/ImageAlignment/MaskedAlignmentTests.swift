@@ -1,3 +1,4 @@
+import Foundation
 import ImageFiles
 import Kernels
 import Pipeline
@@ -24,8 +25,8 @@ import Testing
       })
   }
 
-  /// The background indicates a static camera; masks exclude it.
-  @Test func turntableNeedsMasks() throws {
+  /// The background indicates a static camera: masks exclude it, or else its lack of motion.
+  @Test func turntableIsAlignedByTheObject() throws {
     var scene = RenderedScene.statue(photoCount: 20, upperCount: 0, width: 480, height: 360)
     scene.samplesPerSide = 1
     let control = KernelControl(threadCount: 2)
@@ -43,6 +44,14 @@ import Testing
     #expect(aligned.registered.count == 20)
     let poses = PoseComparison(estimated: aligned.poses, true: scene.poses)
     #expect(poses.maximumCenterError < 0.01)
+
+    try FileManager.default.removeItem(at: folder.url.appendingPathComponent("masks"))
+    let unmasked = try ReconstructionPipeline(
+      .photos(in: folder.url), configuration: configuration
+    ).align()
+    #expect(unmasked.registered.count == 20)
+    let others = PoseComparison(estimated: unmasked.poses, true: scene.poses)
+    #expect(others.maximumCenterError < 0.01)
 
     configuration.isObjectMaskingEnabled = false
     #expect(throws: PipelineError.self) {

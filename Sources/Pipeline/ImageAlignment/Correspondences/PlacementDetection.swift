@@ -33,25 +33,6 @@ struct PlacementDetection: Sendable {
 
   var options = Options()
 
-  /// The groups by what photos show of the points that a map predicts, and by pairs that show two
-  /// motions. Photos taken before and after a move have nearly the same pose in a map of the
-  /// surroundings, or in one of the object, but show different things. Photos without a pose are a
-  /// group of their own if they match.
-  func groups(
-    _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction, _ graph: ViewGraph
-  ) -> [[Int]] {
-    // Matches of a moving object do not depend on its surroundings.
-    var links = links(of: graph.isObjectOnly ? [] : graph.motions)
-    for one in evidence {
-      links[one.pair, default: Link()].evidence +=
-        one.present - options.absenceWeight * one.absent
-    }
-    for pair in graph.pairs where reconstruction.isPosedAlike(pair.pair) {
-      links[pair.pair, default: Link()].matches += pair.matches.count
-    }
-    return groups(links, photoCount: graph.photoCount)
-  }
-
   /// The groups by the pairs of a graph that show two motions; nil if the object was not moved a
   /// few times only, but between most photos.
   func groups(_ graph: ViewGraph) -> [[Int]]? {
@@ -60,7 +41,7 @@ struct PlacementDetection: Sendable {
   }
 
   /// Two motions are evidence against the same placement.
-  private func links(of motions: [TwoMotions]) -> [PhotoPair: Link] {
+  func links(of motions: [TwoMotions]) -> [PhotoPair: Link] {
     var links: [PhotoPair: Link] = [:]
     for motion in motions {
       links[motion.pair] = Link(evidence: -(motion.bodies.map(\.matches.count).min() ?? 0))
@@ -145,12 +126,5 @@ struct PlacementDetection: Sendable {
         links[PhotoPair(kept, other), default: Link()].matches += link.matches
       }
     }
-  }
-}
-
-extension Reconstruction {
-  /// Whether both photos have a pose, or neither has.
-  fileprivate func isPosedAlike(_ pair: PhotoPair) -> Bool {
-    (poses[pair.first.index] == nil) == (poses[pair.second.index] == nil)
   }
 }
