@@ -15,7 +15,8 @@ extension ImageAlignment {
     let object = try alignment.match(
       photos: ingested.photos, cameras: whole.cameras, images: images,
       context.part(from: 0, to: 0.7))
-    let matched = object.adding(whole, within: placements)
+    var matched = object.adding(whole, within: placements)
+    matched.graph.isObjectOnly = whole.graph.isObjectOnly
     let map = try alignment.map(matched, images: images, context.part(from: 0.7, to: 0.87))
     try alignment.throwOrWarn(map, context.notes)
     return try alignment.finish(

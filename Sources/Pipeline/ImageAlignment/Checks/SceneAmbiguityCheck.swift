@@ -51,7 +51,10 @@ package struct SceneAmbiguityCheck: Sendable {
     findings.conflicts = evidence.filter(isConflict).sorted {
       ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
     }
-    findings.contradicted = graph.contradicted(by: reconstruction, features: features, options)
+    // What stands still contradicts a map of an object that moves, where it is still matched.
+    findings.contradicted =
+      graph.isObjectOnly
+      ? [] : graph.contradicted(by: reconstruction, features: features, options)
     let needed = max(
       Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
     let signs = [
