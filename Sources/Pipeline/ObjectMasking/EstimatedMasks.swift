@@ -30,8 +30,14 @@ struct EstimatedMasks: Codable, Sendable {
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     let names = MaskFiles.names(forMasksOf: photos.map(\.name))
     for (index, image) in result.masks.enumerated() {
-      guard let image else { continue }
       let file = folder.appendingPathComponent(names[index])
+      guard let image else {
+        // What an earlier attempt wrote must not pass for a mask.
+        if FileManager.default.fileExists(atPath: file.path) {
+          try FileManager.default.removeItem(at: file)
+        }
+        continue
+      }
       let bytes = try ImageCodec.encodePNG(image)
       try AtomicFile.write(Data(bytes), to: file)
       let marked = image.pixels.count { $0 != 0 }

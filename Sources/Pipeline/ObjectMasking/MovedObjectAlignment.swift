@@ -15,22 +15,22 @@ struct MovedObjectAlignment {
   func run(_ photos: PhotoSet, folder: URL, _ context: StageContext) throws -> AlignedPhotos {
     let matched = try alignment.match(
       photos: photos.ingested.photos, cameras: photos.ingested.cameras, images: photos.images,
-      context.part(from: 0, to: 0.4))
-    let joining = context.part(from: 0.5, to: 1)
+      context.part(from: 0, to: 0.7))
+    let rest = context.part(from: 0.87, to: 1)
     let map = Result {
-      try alignment.map(matched, images: photos.images, context.part(from: 0.4, to: 0.5))
+      try alignment.map(matched, images: photos.images, context.part(from: 0.7, to: 0.87))
     }
     if case .failure(let error) = map, !(error is PipelineError) { throw error }
     let placements = placements((try? map.get())?.findings, matched.graph)
     if placements.count > 1 || matched.graph.isObjectOnly,
-      let joined = try join(placements, matched, photos, folder: folder, joining)
+      let joined = try join(placements, matched, photos, folder: folder, rest)
     {
       return joined
     }
     let rigid = try map.get()
     try alignment.throwOrWarn(rigid, context.notes)
     return AlignedPhotos(
-      reconstruction: try alignment.finish(rigid.reconstruction, matched, photos.images, joining))
+      reconstruction: try alignment.finish(rigid.reconstruction, matched, photos.images, rest))
   }
 
   /// The placements by a map and by pairs of photos, or by these alone.
@@ -62,7 +62,7 @@ struct MovedObjectAlignment {
     }
     let used = placements.filter { $0.contains { rough.masks[$0] != nil } }
     // A moving object has one placement if all photos agree on it.
-    let needed = matched.graph.isObjectOnly ? 1 : min(2, placements.count)
+    let needed = matched.graph.isObjectOnly ? 1 : 2
     guard used.count >= needed else { return nil }
     let masked = photos.masked(
       by: try EstimatedMasks(rough, of: photos.ingested.photos, in: folder).masks)
@@ -86,7 +86,8 @@ struct MovedObjectAlignment {
       return AlignedPhotos(
         reconstruction: reconstruction,
         masks: try EstimatedMasks(final ?? rough, of: photos.ingested.photos, in: folder))
-    } catch is PipelineError {
+    } catch let error as PipelineError {
+      context.notes.log("The placements of the object were not joined: \(error)")
       return nil
     }
   }

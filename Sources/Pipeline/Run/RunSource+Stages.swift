@@ -51,10 +51,11 @@ extension RunSource {
   ) throws -> AlignedPhotos {
     var options = configuration.alignment
     options.worldAlignment.readings = photos.readings
-    // Without masking, the surroundings are as good as the object.
-    options.correspondences.secondMotions.isEnabled = configuration.objectMasking.isEnabled
+    let findsObject = configuration.objectMasking.isEnabled && !photos.images.hasMasks
+    // Given masks exclude the surroundings; without masking, these are as good as the object.
+    options.correspondences.secondMotions.isEnabled = findsObject
     let alignment = ImageAlignment(options)
-    guard configuration.objectMasking.isEnabled, !photos.images.hasMasks else {
+    guard findsObject else {
       return AlignedPhotos(
         reconstruction: try MaskedAlignment(alignment)
           .run(photos.ingested, images: photos.images, context))

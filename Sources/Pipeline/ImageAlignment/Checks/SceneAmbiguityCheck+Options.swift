@@ -49,6 +49,7 @@ extension SceneAmbiguityCheck {
     package var maximumAgreement = 0.2
     /// Number of pairs whose matches contradict the reconstruction from which on it is questioned.
     package var minimumContradicted = 2
+    /// How photos are divided if the object seems to have been moved.
     var placements = PlacementDetection.Options()
 
     package init() {}

@@ -9,8 +9,8 @@ package struct CorrespondenceSearch {
     /// Maximum fraction of the sampled rejections that may turn out verifiable. Above it,
     /// preemptive matching is considered unreliable and all candidates are matched.
     package var maximumFalseRejectionRatio = 0.03
-    /// If an object moves, matches of its surroundings are dropped, unless this disconnects more
-    /// than this share of the photos from the rest.
+    /// If an object moves, matches of its surroundings are dropped, provided that at least this
+    /// share of the connected photos stays connected.
     package var minimumObjectShare = 0.6
     /// Whether two photos without masks are matched even if others have masks. If the masks exclude
     /// surroundings that moved, such a pair would match these.

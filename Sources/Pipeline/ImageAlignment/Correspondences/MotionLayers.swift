@@ -22,6 +22,8 @@ struct MotionLayers: Sendable {
     var minimumConsistency = 0.8
     /// … and minimum share of features whose neighbor in the photo belongs to the same body.
     var minimumCoherence = 0.8
+    /// Number of features on either side, ordered by x, among which that neighbor is searched for.
+    var neighborWindow = 60
     /// Minimum share of the photos that must show the object.
     var minimumPhotoShare = 0.5
     /// Minimum number of features of the object in a photo that shows it.
@@ -187,7 +189,8 @@ struct MotionLayers: Sendable {
       }
       for (place, index) in sorted.enumerated() {
         // The nearest of the features with a similar x.
-        let others = sorted[max(0, place - 60)..<min(sorted.count, place + 61)]
+        let window = options.neighborWindow
+        let others = sorted[max(0, place - window)..<min(sorted.count, place + window + 1)]
         let nearest = others.filter { set.positions[$0] != set.positions[index] }.min {
           distance(set, $0, index) < distance(set, $1, index)
         }

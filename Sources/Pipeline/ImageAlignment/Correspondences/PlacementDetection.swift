@@ -104,8 +104,12 @@ struct PlacementDetection: Sendable {
   private func contracted(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
     var links = links
     var sets = DisjointSets(count: photoCount)
-    contract(&links, &sets) { $0.evidence }
-    contract(&links, &sets) { $0.evidence < 0 ? 0 : $0.matches }
+    if links.values.contains(where: { $0.evidence < 0 }) {
+      contract(&links, &sets) { $0.evidence }
+      contract(&links, &sets) { $0.evidence < 0 ? 0 : $0.matches }
+    } else {
+      for pair in links.keys { sets.join(pair.first.index, pair.second.index) }
+    }
     return sets.groups().filter { $0.count >= options.minimumPhotos }
   }
 
