@@ -1,3 +1,4 @@
+import Foundation
 import SceneModel
 
 /// Keeps images within a byte budget. Thread-safe.
@@ -11,7 +12,8 @@ final class ImageCache: Sendable {
     case decoded(reduction: Int)
     /// Made from the photo as decoded with the reduction.
     case resized(width: Int, height: Int, reduction: Int)
-    case mask(width: Int, height: Int)
+    /// From one of the sets of masks of stores that share decoded images.
+    case mask(width: Int, height: Int, set: UUID)
   }
 
   private struct Key: Hashable {

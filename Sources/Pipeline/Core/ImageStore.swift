@@ -1,3 +1,4 @@
+import Foundation
 import Kernels
 import SceneModel
 
@@ -8,6 +9,8 @@ package final class ImageStore: Sendable {
   private let source: any PhotoPixels
   private let processingPixels: Int?
   private let usesMasks: Bool
+  /// Distinguishes the masks of stores that share decoded images.
+  private let maskSet: UUID
   private let cache: ImageCache
   /// The photos at full size, if all of them fit into the budget: then each is decoded at full size
   /// once. `cache` has what remains of the budget.
@@ -24,6 +27,7 @@ package final class ImageStore: Sendable {
     self.source = source
     self.processingPixels = processingPixels
     usesMasks = true
+    maskSet = UUID()
     let wholeBytes = source.byteCount <= byteBudget ? source.byteCount : 0
     cache = ImageCache(byteBudget: byteBudget - wholeBytes)
     wholePhotos = wholeBytes > 0 ? ImageCache(byteBudget: wholeBytes) : nil
@@ -37,6 +41,7 @@ package final class ImageStore: Sendable {
     decodedPixels: Int
   ) {
     self.source = source ?? other.source
+    maskSet = source == nil ? other.maskSet : UUID()
     processingPixels = other.processingPixels
     self.usesMasks = usesMasks
     cache = other.cache
@@ -133,7 +138,8 @@ package final class ImageStore: Sendable {
   package func mask(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage? {
     let size = try size(of: id, maximumPixels: maximumPixels)
     guard usesMasks else { return nil }
-    let content = ImageCache.Content.mask(width: size.width, height: size.height)
+    let content = ImageCache.Content.mask(
+      width: size.width, height: size.height, set: maskSet)
     if let kept = cache.image(content, of: id) { return kept }
     guard let mask = try source.mask(of: id) else { return nil }
     let image = try mask.resized(width: size.width, height: size.height)

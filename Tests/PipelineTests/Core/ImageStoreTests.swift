@@ -121,6 +121,14 @@ import Testing
     #expect(masked.decodeCount == 1)
     #expect(try store.mask(ID(0)) == nil && masked.mask(ID(0), maximumPixels: 30_000) == marked)
     #expect(try masked.fingerprint(of: ID(0)) != store.fingerprint(of: ID(0)))
+
+    // Other masks of the same photos are not mistaken for the cached ones.
+    let hidden = RasterImage(width: 200, height: 150, channels: 1)
+    let other = try folder.write(ImageCodec.encodePNG(hidden), as: "other.png")
+    photos[0].mask = PhotoMask(file: other, orientation: 1, contentHash: 2, coverage: 0.5)
+    let remasked = ImageStore(masked: photos, contentHashes: [], sharing: store)
+    #expect(try remasked.mask(ID(0), maximumPixels: 30_000) == hidden)
+    #expect(try remasked.image(ID(0)) == store.image(ID(0)) && remasked.decodeCount == 1)
   }
 
   @Test func aStoreWithoutMasksSharesDecodedPhotos() throws {
