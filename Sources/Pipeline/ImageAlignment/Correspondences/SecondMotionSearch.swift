@@ -17,6 +17,10 @@ package struct SecondMotionSearch: Sendable {
     package var minimumShareOfRest = 0.4
     /// Minimum fraction of the matches of one motion that must contradict the other.
     package var minimumDistinctShare = 0.7
+    /// The same for static matches: while the camera turns about the object, matches near its middle
+    /// are static as well, but agree with the motion of the rest; and in front of a tripod, some of
+    /// the background agrees with the motion of a turntable by chance.
+    package var minimumStaticDistinctShare = 0.15
     /// Matches contradict a motion beyond this multiple of the error limit.
     package var distinctFactor = 2.0
     /// Displacement up to which matches prove that a camera did not move, as a fraction of the
@@ -140,18 +144,22 @@ package struct SecondMotionSearch: Sendable {
       let pose = other.secondFromFirst
     else { return nil }
     let limit = options.distinctFactor * verification.maximumError(cameras)
-    func areDistinct(_ matches: [FeatureMatch], from pose: RigidTransform) -> Bool {
+    func areDistinct(
+      _ matches: [FeatureMatch], from pose: RigidTransform, _ minimumShare: Double
+    ) -> Bool {
       let matrix = pose.essentialMatrix
       let outside = matches.count {
         matrix.sampsonError(points.0[Int($0.first)], points.1[Int($0.second)]) > limit
       }
-      return Double(outside) >= options.minimumDistinctShare * Double(matches.count)
+      return Double(outside) >= minimumShare * Double(matches.count)
     }
-    // Static matches are distinct by their displacement.
-    if let first = candidate.first.secondFromFirst {
-      guard areDistinct(candidate.first.matches, from: pose),
-        areDistinct(other.matches, from: first)
-      else { return nil }
+    let share =
+      candidate.isStatic ? options.minimumStaticDistinctShare : options.minimumDistinctShare
+    guard areDistinct(candidate.first.matches, from: pose, share) else { return nil }
+    if let first = candidate.first.secondFromFirst,
+      !areDistinct(other.matches, from: first, share)
+    {
+      return nil
     }
     return TwoMotions(
       pair: pair, bodies: [candidate.first, other], isFirstStatic: candidate.isStatic)
