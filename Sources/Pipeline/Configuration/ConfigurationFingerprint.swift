@@ -35,7 +35,8 @@ enum ConfigurationFingerprint {
   /// stages.
   static let stages: [String: PipelineStage] = [
     // Alignment masks an object that was moved.
-    "objectMasking": .imageAlignment, "pointCloudGeneration": .pointCloudGeneration,
+    "objectMasking": .imageAlignment, "movedObjects": .imageAlignment,
+    "pointCloudGeneration": .pointCloudGeneration,
     "meshGeneration": .meshGeneration, "photoRefinement": .meshGeneration,
     "simplification": .textureMapping, "textureMapping": .textureMapping,
     "export": .optimization, "preview": .optimization, "meshPrimitive": .optimization,

@@ -6,8 +6,25 @@ import SceneModel
 /// underside.
 ///
 /// What the photos of one placement show is rigid: they are aligned separately, and the object is
-/// masked. All photos are then aligned by the masked object, which joins the placements.
+/// masked. All photos are then aligned by the masked object, which joins the placements, and their
+/// masks are compared with those that follow from all of them together.
 struct MovedObjectAlignment {
+  struct Options: Hashable, Codable, Sendable {
+    /// Minimum number of photos that the joined alignment must register, as a share of those of the
+    /// largest placement.
+    var minimumShare = 0.9
+    /// Coarse points belong to the object unless at least this share of the first masks exclude
+    /// them.
+    var maximumExclusion = 0.5
+    /// A mask of the first step is kept if its intersection over union with that of the last step,
+    /// which has no evidence of the surroundings, is at least this: else the photo was assigned to
+    /// the wrong placement.
+    var minimumOverlap = 0.75
+
+    init() {}
+  }
+
+  var options = Options()
   var alignment: ImageAlignment
   var masking: ObjectMasking
 
@@ -50,46 +67,58 @@ struct MovedObjectAlignment {
     folder: URL, _ context: StageContext
   ) throws -> AlignedPhotos? {
     guard !placements.isEmpty else { return nil }
-    let notes = StageNotes()
-    func part(from start: Double, to end: Double) -> StageContext {
-      StageContext(control: context.part(from: start, to: end).control, notes: notes)
-    }
-    var rough = ObjectMasking.Result(photoCount: photos.ingested.photos.count)
-    for (number, placement) in placements.enumerated() {
-      let share = 0.5 / Double(placements.count)
-      let part = part(from: share * Double(number), to: share * Double(number + 1))
-      if let found = try masks(of: placement, matched, photos.images, part) { rough.add(found) }
-    }
-    let used = placements.filter { $0.contains { rough.masks[$0] != nil } }
+    let first = try firstMasks(placements, matched, photos.images, context.part(from: 0, to: 0.5))
+    let used = placements.filter { $0.contains { first.masks[$0] != nil } }
     // A moving object has one placement if all photos agree on it.
     let needed = matched.graph.isObjectOnly ? 1 : 2
     guard used.count >= needed else { return nil }
     let masked = photos.masked(
-      by: try EstimatedMasks(rough, of: photos.ingested.photos, in: folder).masks)
+      by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
     do {
       let last = StageNotes()
       var reconstruction = try alignment.run(
         masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
-        StageContext(control: part(from: 0.5, to: 0.8).control, notes: last))
+        StageContext(control: context.control.part(from: 0.5, to: 0.8), notes: last))
       let joined = used.filter { $0.contains { reconstruction.poses[$0] != nil } }
       let largest = placements.map(\.count).max() ?? 0
       guard joined.count >= needed,
-        Double(reconstruction.registered.count) >= Self.minimumShare * Double(largest)
+        Double(reconstruction.registered.count) >= options.minimumShare * Double(largest)
       else { return nil }
       context.notes.add(last)
       context.notes.record("joinedPlacements", Double(joined.count))
       report(joined, context.notes)
-      let prior = try Silhouettes(reconstruction, images: masked.images, options: Self.majority)
+      var retained = Silhouettes.Options()
+      retained.minimumShare = options.maximumExclusion
+      let prior = try Silhouettes(reconstruction, images: masked.images, options: retained)
       for index in reconstruction.photos.indices { reconstruction.photos[index].mask = nil }
       let final = try masking.run(
-        reconstruction, images: photos.images, prior: prior, part(from: 0.8, to: 1))
+        reconstruction, images: photos.images, prior: prior,
+        StageContext(control: context.control.part(from: 0.8, to: 1)))
+      let masks = first.corrected(by: final, minimumOverlap: options.minimumOverlap)
       return AlignedPhotos(
         reconstruction: reconstruction,
-        masks: try EstimatedMasks(final ?? rough, of: photos.ingested.photos, in: folder))
+        masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
     } catch let error as PipelineError {
       context.notes.log("The placements of the object were not joined: \(error)")
       return nil
     }
+  }
+
+  /// The masks of each placement's photos by themselves.
+  private func firstMasks(
+    _ placements: [[Int]], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
+    _ context: StageContext
+  ) throws -> ObjectMasking.Result {
+    var result = ObjectMasking.Result(photoCount: matched.photos.count)
+    let share = 1 / Double(placements.count)
+    for (number, placement) in placements.enumerated() {
+      // The notes are those of the alignment of all photos.
+      let part = StageContext(
+        control: context.control.part(
+          from: share * Double(number), to: share * Double(number + 1)))
+      if let found = try masks(of: placement, matched, images, part) { result.add(found) }
+    }
+    return result
   }
 
   private func report(_ placements: [[Int]], _ notes: StageNotes) {
@@ -99,16 +128,6 @@ struct MovedObjectAlignment {
         ? "The object was moved between photos: \(placements.count) placements of \(counts) photos "
           + "were joined."
         : "The object moves in front of its surroundings: the photos were aligned by the object.")
-  }
-
-  /// Minimum number of registered photos, as a share of those of the largest placement.
-  private static let minimumShare = 0.9
-
-  /// Whatever most of the first masks contain.
-  private static var majority: Silhouettes.Options {
-    var options = Silhouettes.Options()
-    options.minimumShare = 0.5
-    return options
   }
 
   /// The masks of the photos of one placement; nil if they show no separate object.

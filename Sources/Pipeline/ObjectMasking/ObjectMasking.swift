@@ -50,6 +50,19 @@ struct ObjectMasking {
       agreement = Array(repeating: nil, count: photoCount)
     }
 
+    /// These masks, with those of `other` where these are missing or overlap too little with them.
+    func corrected(by other: Result?, minimumOverlap: Double) -> Result {
+      guard let other else { return self }
+      var result = self
+      for (index, mask) in other.masks.enumerated() {
+        guard let mask else { continue }
+        let overlap = masks[index].map { $0.intersectionOverUnion(with: mask) } ?? 0
+        guard overlap < minimumOverlap else { continue }
+        (result.masks[index], result.agreement[index]) = (mask, other.agreement[index])
+      }
+      return result
+    }
+
     /// Adds the masks of other photos.
     mutating func add(_ other: Result) {
       for index in masks.indices where other.masks[index] != nil {

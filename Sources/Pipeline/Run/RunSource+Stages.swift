@@ -61,7 +61,8 @@ extension RunSource {
           .run(photos.ingested, images: photos.images, context))
     }
     return try MovedObjectAlignment(
-      alignment: alignment, masking: ObjectMasking(options: configuration.objectMasking)
+      options: configuration.movedObjects, alignment: alignment,
+      masking: ObjectMasking(options: configuration.objectMasking)
     ).run(photos, folder: maskFolder, context)
   }
 

@@ -75,10 +75,14 @@ struct MotionLayers: Sendable {
       }
     }
     let hasStatic = graph.motions.hasStaticCamera(minimumShare: options.minimumStaticShare)
-    let scores = scores(
-      motions, isStatic: graph.motions.map { hasStatic && $0.isFirstStatic }, tracks.count)
-    let bodies = scores.map(body)
-    let (assigned, certain) = (scores.count { $0.count > 0 }, bodies.count { $0 != 0 })
+    var assignment = BodyAssignment(
+      motions, isStatic: graph.motions.map { hasStatic && $0.isFirstStatic },
+      trackCount: tracks.count)
+    assignment.run(minimumVotes: options.minimumVotes, sweeps: options.sweeps)
+    let bodies = (0..<tracks.count).map {
+      assignment.body(ofTrack: $0, minimumShare: options.minimumTrackShare)
+    }
+    let (assigned, certain) = (assignment.assignedTrackCount, bodies.count { $0 != 0 })
     let bodyOf: [[Int]] = trackOf.map { tracks in
       tracks.map { track in track < 0 ? 0 : bodies[Int(track)] }
     }
@@ -108,73 +112,6 @@ struct MotionLayers: Sendable {
       }
     }
     return result
-  }
-
-  /// The body that most motions of a track belong to, or 0 if they disagree.
-  private func body(_ score: Score) -> Int {
-    let needed = Float(2 * options.minimumTrackShare - 1) * Float(score.count)
-    guard score.count > 0, abs(score.sum) >= needed else { return 0 }
-    return score.sum > 0 ? 1 : -1
-  }
-
-  // MARK: Assignment
-
-  /// For each track, the number of motions that it is part of and have been assigned, and the sum
-  /// of their bodies, −1 or 1.
-  private typealias Score = (sum: Float, count: Int)
-
-  /// Assigns the motions of all pairs to the two bodies, starting from static motions, which belong
-  /// to body −1, or from the pair with the strongest two motions.
-  private func scores(
-    _ motions: [[[Int32]]], isStatic: [Bool], _ trackCount: Int
-  ) -> [Score] {
-    var scores = [Score](repeating: (0, 0), count: trackCount)
-    var signs = motions.map { _ in Float(0) }
-    func add(_ index: Int, _ sign: Float, _ amount: Int) {
-      for (body, tracks) in motions[index].enumerated() {
-        for track in tracks {
-          scores[Int(track)].sum += (body == 0 ? -sign : sign) * Float(amount)
-          scores[Int(track)].count += amount
-        }
-      }
-    }
-    func assign(_ index: Int, _ sign: Float) {
-      if signs[index] != 0 { add(index, signs[index], -1) }
-      signs[index] = sign
-      if sign != 0 { add(index, sign, 1) }
-    }
-    func vote(_ index: Int) -> Float {
-      var sum: Float = 0
-      for (body, tracks) in motions[index].enumerated() {
-        for track in tracks {
-          let score = scores[Int(track)].sum
-          sum += (score > 0 ? 1 : score < 0 ? -1 : 0) * (body == 0 ? -1 : 1)
-        }
-      }
-      return sum
-    }
-    for index in motions.indices where isStatic[index] { assign(index, 1) }
-    if !isStatic.contains(true) {
-      let strengths = motions.map { min($0[0].count, $0[1].count) }
-      if let first = strengths.indices.max(by: { (strengths[$0], $1) < (strengths[$1], $0) }) {
-        assign(first, 1)
-      }
-    }
-    // The pairs with the clearest votes first.
-    while true {
-      let open = motions.indices.filter { signs[$0] == 0 }.map { ($0, vote($0)) }
-      let best = open.map { abs($0.1) }.max() ?? 0
-      guard best >= Float(options.minimumVotes) else { break }
-      for (index, vote) in open where 2 * abs(vote) >= best { assign(index, vote > 0 ? 1 : -1) }
-    }
-    for _ in 0..<options.sweeps {
-      for index in motions.indices where signs[index] != 0 && !isStatic[index] {
-        assign(index, 0)
-        let vote = vote(index)
-        assign(index, abs(vote) < Float(options.minimumVotes) ? 0 : vote > 0 ? 1 : -1)
-      }
-    }
-    return scores
   }
 
   // MARK: Decisions

@@ -17,9 +17,9 @@ package struct SecondMotionSearch: Sendable {
     package var minimumShareOfRest = 0.4
     /// Minimum fraction of the matches of one motion that must contradict the other.
     package var minimumDistinctShare = 0.7
-    /// The same for static matches: while the camera turns about the object, matches near its middle
-    /// are static as well, but agree with the motion of the rest; and in front of a tripod, some of
-    /// the background agrees with the motion of a turntable by chance.
+    /// The same for static matches: while the camera turns about the object, matches near its
+    /// middle are static as well, but agree with the motion of the rest; and in front of a tripod,
+    /// some of the background agrees with the motion of a turntable by chance.
     package var minimumStaticDistinctShare = 0.15
     /// Matches contradict a motion beyond this multiple of the error limit.
     package var distinctFactor = 2.0

@@ -84,6 +84,21 @@ import Testing
     #expect((pose.rotation.conjugate * truth.rotation).angle < 0.5 * .pi / 180)
   }
 
+  /// A camera that turns about an axis sees the points on it at the same pixels.
+  @Test func pointsOnTheAxisOfTheCameraAreNoBackground() throws {
+    let center: SIMD3<Double> = [0, 0, 8]
+    let rotation = Quaternion(angle: 0.2, axis: [0, 1, 0])
+    let orbit = RigidTransform(rotation: rotation, translation: center - rotation * center)
+    var scene = MovingScene(cameras: [.identity, orbit], objects: [.identity, .identity])
+    for point in 0..<30 {
+      let pixel = MovingScene.camera.project(center + [0, 0.05 * Double(point), 0])
+      for photo in 0..<2 {
+        scene.features[photo].positions[MovingScene.feature(point, photo)] = SIMD2<Float>(pixel)
+      }
+    }
+    #expect(try scene.motions().isEmpty)
+  }
+
   @Test func disabledSearchFindsNothing() throws {
     let scene = MovingScene(
       cameras: (0..<2).map(MovingScene.movedCamera),
