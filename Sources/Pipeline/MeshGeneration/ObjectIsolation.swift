@@ -35,6 +35,8 @@ struct ObjectIsolation {
     var weightDistance = 0.35
     /// Components with fewer samples are noise, however near.
     var minimumComponentSamples = 8
+    /// Share of the samples below the lowest part of an object, and above the highest of its foot.
+    var footQuantile = 0.02
     /// Maximum number of rounds in which components are attached to the object.
     var attachmentRounds = 4
     /// Minimum of the attachment distance, in units of the distance of connected samples.
@@ -154,7 +156,7 @@ struct IsolationSamples {
       isAbove[$0] && Double(coverage[$0]) >= options.objectCoverage
         && Double(distance[$0]) < options.reach
     }
-    guard let isObject = try object(isCandidate, context) else {
+    guard let isObject = try object(isCandidate, on: support, context) else {
       return .failure("there is no separate object in the photos' common view.")
     }
     let central = region.filter { distance[$0] < options.centralDistance }
@@ -190,12 +192,14 @@ struct IsolationSamples {
     let isNear = cloud.positions.indices.map {
       Double(coverage[$0]) >= options.objectCoverage && Double(distance[$0]) < options.reach
     }
-    guard let isObject = try object(isNear, context) else { return false }
+    guard let isObject = try object(isNear, on: nil, context) else { return false }
     return Double(isObject.count { $0 }) >= options.minimumBoundedShare * Double(cloud.count)
   }
 
   /// The candidates in the main component and in those that belong to it; nil without any.
-  private func object(_ isCandidate: [Bool], _ context: StageContext) throws -> [Bool]? {
+  private func object(
+    _ isCandidate: [Bool], on support: SupportPlane?, _ context: StageContext
+  ) throws -> [Bool]? {
     let indices = cloud.positions.indices.filter { isCandidate[$0] }
     guard !indices.isEmpty else { return nil }
     let grid = try VoxelGrid(
@@ -216,6 +220,9 @@ struct IsolationSamples {
     var isPart = weights.map { $0 > 0 && $0 >= options.secondaryShare * weights[main] }
     isPart[main] = true
     try attach(&isPart, weights, members, indices, context.control)
+    if let support, attachFoot(&isPart, weights, members, indices, support) {
+      try attach(&isPart, weights, members, indices, context.control)
+    }
     var isObject = [Bool](repeating: false, count: cloud.count)
     for component in isPart.indices where isPart[component] {
       for member in members[component] { isObject[indices[Int(member)]] = true }
@@ -253,6 +260,39 @@ struct IsolationSamples {
       }
       if !isChanged { return }
     }
+  }
+
+  /// An object does not float: if its lowest part is high above the support, components below it
+  /// belong to it. Returns whether there are any.
+  private func attachFoot(
+    _ isPart: inout [Bool], _ weights: [Double], _ members: Members, _ indices: [Int],
+    _ support: SupportPlane
+  ) -> Bool {
+    func positions(_ component: Int) -> [SIMD3<Double>] {
+      members[component].map { SIMD3<Double>(cloud.positions[indices[Int($0)]]) }
+    }
+    let object = isPart.indices.filter { isPart[$0] }.flatMap(positions)
+    guard let bounds = Mesh(positions: object.map { SIMD3<Float>($0) }).bounds,
+      let lowest = object.map(support.height).quantile(options.footQuantile)
+    else { return false }
+    let size = Double((bounds.max - bounds.min).length)
+    guard lowest > options.attachmentDistance * size else { return false }
+    let (u, v) = support.normal.orthonormalPair
+    let middle = object.reduce(.zero, +) / Double(object.count)
+    let reach = object.map { hypot(($0 - middle).dot(u), ($0 - middle).dot(v)) }.max() ?? 0
+    var isChanged = false
+    for component in isPart.indices where !isPart[component] && weights[component] > 0 {
+      let part = positions(component)
+      let isBelow = part.allSatisfy {
+        hypot(($0 - middle).dot(u), ($0 - middle).dot(v)) <= reach
+      }
+      let top = part.map(support.height).quantile(1 - options.footQuantile) ?? .infinity
+      if isBelow, top <= lowest + options.attachmentDistance * size {
+        isPart[component] = true
+        isChanged = true
+      }
+    }
+    return isChanged
   }
 
   /// The length along which the object continues beyond the region of interest, relative to the

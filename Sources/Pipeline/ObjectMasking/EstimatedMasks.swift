@@ -25,7 +25,7 @@ struct EstimatedMasks: Codable, Sendable {
     masks = Array(repeating: nil, count: photos.count)
     agreement = result?.agreement ?? Array(repeating: nil, count: photos.count)
     support = result?.support
-    surroundings = result?.surroundings ?? PointCloud()
+    surroundings = result?.points.surroundings ?? PointCloud()
     guard let result else { return }
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     let names = MaskFiles.names(forMasksOf: photos.map(\.name))

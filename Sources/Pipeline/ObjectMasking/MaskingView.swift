@@ -50,14 +50,11 @@ struct MaskingView: Sendable {
   /// Marks the pixels within reach of the object.
   let isNear: RasterImage
 
-  /// Draws labeled points into a photo. `rim` is the width of the uncertain outline in pixels;
+  /// A photo with the labels of its pixels. `rim` is the width of the uncertain outline in pixels;
   /// `reach` is the distance from the object's points at which its mask ends, as a share of the
   /// diagonal of their bounding box.
-  init(
-    _ photo: ReducedPhoto, _ discs: Discs, rim: Int, reach: Double, _ control: KernelControl
-  ) throws {
-    self.photo = photo
-    labels = try discs.drawn(by: photo.camera, at: photo.cameraFromWorld, control)
+  init(_ photo: ReducedPhoto, _ labels: RasterImage, rim: Int, reach: Double) throws {
+    (self.photo, self.labels) = (photo, labels)
     let object = labels.marking { $0 == PointLabel.object }
     // The core of a region excludes all pixels near anything else, empty pixels included.
     let notObject = try labels.marking { $0 != PointLabel.object }.dilated(by: rim)

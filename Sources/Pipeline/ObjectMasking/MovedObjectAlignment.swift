@@ -6,20 +6,13 @@ import SceneModel
 /// underside.
 ///
 /// What the photos of one placement show is rigid: they are aligned separately, and the object is
-/// masked. All photos are then aligned by the masked object, which joins the placements, and their
-/// masks are compared with those that follow from all of them together.
+/// masked. All photos are then aligned by the masked object, which joins the placements, and masked
+/// again, now that each side of the object is known from the photos that show it best.
 struct MovedObjectAlignment {
   struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos that the joined alignment must register, as a share of those of the
     /// largest placement.
     var minimumShare = 0.9
-    /// Coarse points belong to the object unless at least this share of the first masks exclude
-    /// them.
-    var maximumExclusion = 0.5
-    /// A mask of the first step is kept if its intersection over union with that of the last step,
-    /// which has no evidence of the surroundings, is at least this: else the photo was assigned to
-    /// the wrong placement.
-    var minimumOverlap = 0.75
 
     init() {}
   }
@@ -67,34 +60,40 @@ struct MovedObjectAlignment {
     folder: URL, _ context: StageContext
   ) throws -> AlignedPhotos? {
     guard !placements.isEmpty else { return nil }
-    let first = try firstMasks(placements, matched, photos.images, context.part(from: 0, to: 0.5))
-    let used = placements.filter { $0.contains { first.masks[$0] != nil } }
+    let used = try maskedPlacements(
+      placements, matched, photos.images, context.part(from: 0, to: 0.5))
     // A moving object has one placement if all photos agree on it.
     let needed = matched.graph.isObjectOnly ? 1 : 2
     guard used.count >= needed else { return nil }
+    var first = ObjectMasking.Result(photoCount: matched.photos.count)
+    for placement in used { first.complete(with: placement.masks) }
     let masked = photos.masked(
       by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
     do {
-      let last = StageNotes()
+      let notes = StageNotes()
       var reconstruction = try alignment.run(
         masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
-        StageContext(control: context.control.part(from: 0.5, to: 0.8), notes: last))
-      let joined = used.filter { $0.contains { reconstruction.poses[$0] != nil } }
+        StageContext(control: context.control.part(from: 0.5, to: 0.8), notes: notes))
+      let joined = used.map(\.photos).filter {
+        $0.contains { reconstruction.poses[$0] != nil }
+      }
       let largest = placements.map(\.count).max() ?? 0
       guard joined.count >= needed,
         Double(reconstruction.registered.count) >= options.minimumShare * Double(largest)
       else { return nil }
-      context.notes.add(last)
+      context.notes.add(notes)
       context.notes.record("joinedPlacements", Double(joined.count))
       report(joined, context.notes)
-      var retained = Silhouettes.Options()
-      retained.minimumShare = options.maximumExclusion
-      let prior = try Silhouettes(reconstruction, images: masked.images, options: retained)
+      var evidence = MaskingEvidence(matched.graph, features: matched.features)
+      evidence.placements = try used.compactMap {
+        try $0.evidence(in: reconstruction, masked.images)
+      }
       for index in reconstruction.photos.indices { reconstruction.photos[index].mask = nil }
-      let final = try masking.run(
-        reconstruction, images: photos.images, prior: prior,
+      let last = try masking.run(
+        reconstruction, images: photos.images, evidence: evidence,
         StageContext(control: context.control.part(from: 0.8, to: 1)))
-      let masks = first.corrected(by: final, minimumOverlap: options.minimumOverlap)
+      var masks = last ?? first
+      masks.complete(with: first)
       return AlignedPhotos(
         reconstruction: reconstruction,
         masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
@@ -104,21 +103,20 @@ struct MovedObjectAlignment {
     }
   }
 
-  /// The masks of each placement's photos by themselves.
-  private func firstMasks(
+  /// The placements whose photos show a separate object.
+  private func maskedPlacements(
     _ placements: [[Int]], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
     _ context: StageContext
-  ) throws -> ObjectMasking.Result {
-    var result = ObjectMasking.Result(photoCount: matched.photos.count)
+  ) throws -> [MaskedPlacement] {
     let share = 1 / Double(placements.count)
-    for (number, placement) in placements.enumerated() {
+    return try placements.enumerated().compactMap { number, photos in
       // The notes are those of the alignment of all photos.
-      let part = StageContext(
-        control: context.control.part(
-          from: share * Double(number), to: share * Double(number + 1)))
-      if let found = try masks(of: placement, matched, images, part) { result.add(found) }
+      try maskedPlacement(
+        photos, matched, images,
+        StageContext(
+          control: context.control.part(
+            from: share * Double(number), to: share * Double(number + 1))))
     }
-    return result
   }
 
   private func report(_ placements: [[Int]], _ notes: StageNotes) {
@@ -130,17 +128,21 @@ struct MovedObjectAlignment {
         : "The object moves in front of its surroundings: the photos were aligned by the object.")
   }
 
-  /// The masks of the photos of one placement; nil if they show no separate object.
-  private func masks(
-    of placement: [Int], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
+  /// The photos of one placement with their masks; nil if they show no separate object.
+  private func maskedPlacement(
+    _ photos: [Int], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
     _ context: StageContext
-  ) throws -> ObjectMasking.Result? {
+  ) throws -> MaskedPlacement? {
     do {
       let reconstruction = try alignment.reconstruction(
-        of: placement, matched, images, context.part(from: 0, to: 0.4))
+        of: photos, matched, images, context.part(from: 0, to: 0.4))
       var masking = masking
       masking.options.isolation.isObjectOnly = matched.graph.isObjectOnly
-      return try masking.run(reconstruction, images: images, context.part(from: 0.4, to: 1))
+      return try masking.run(
+        reconstruction, images: images,
+        evidence: MaskingEvidence(matched.graph, features: matched.features),
+        context.part(from: 0.4, to: 1)
+      ).map { MaskedPlacement(photos: photos, poses: reconstruction.poses, masks: $0) }
     } catch is PipelineError {
       return nil
     }

@@ -14,11 +14,19 @@ struct ObjectMasking {
     /// The coarse reconstruction; only its steps at half resolution are used.
     var coarse = PointCloudGeneration.Options(maximumPixelsPerView: 160_000)
     var backdrop = BackdropDetection.Options()
+    var shadows = ShadowPlane.Options()
     var isolation = ObjectIsolation.Options()
     /// Maximum number of pixels of a mask.
     var maximumPixels = 300_000
     /// Radius of the discs that points are drawn as, in footprints.
     var discRadius: Float = 0.75
+    /// Coarse points of two placements of an object are of the same surface if they are within this
+    /// many footprints of each other.
+    var neighborFootprints: Float = 1
+    /// Radius of the discs that features of the surroundings are drawn as, in their scales, and its
+    /// maximum in pixels.
+    var featureRadius: Float = 1.5
+    var maximumFeatureRadius: Float = 4
     /// Distance from the outline of a region of points within which the region is inaccurate, in
     /// pixels of the coarse reconstruction: half the width of its patches.
     var rim = 2.5
@@ -41,8 +49,8 @@ struct ObjectMasking {
     /// Agreement of each mask with those of all photos, 0…1, by photo ID; nil without a mask.
     var agreement: [Double?]
     var support: SupportPlane?
-    /// The coarse points that do not belong to the object.
-    var surroundings = PointCloud()
+    /// What the masks are based on.
+    var points = LabeledCloud(cloud: PointCloud(), isObject: [])
 
     /// No masks.
     init(photoCount: Int) {
@@ -50,22 +58,9 @@ struct ObjectMasking {
       agreement = Array(repeating: nil, count: photoCount)
     }
 
-    /// These masks, with those of `other` where these are missing or overlap too little with them.
-    func corrected(by other: Result?, minimumOverlap: Double) -> Result {
-      guard let other else { return self }
-      var result = self
-      for (index, mask) in other.masks.enumerated() {
-        guard let mask else { continue }
-        let overlap = masks[index].map { $0.intersectionOverUnion(with: mask) } ?? 0
-        guard overlap < minimumOverlap else { continue }
-        (result.masks[index], result.agreement[index]) = (mask, other.agreement[index])
-      }
-      return result
-    }
-
-    /// Adds the masks of other photos.
-    mutating func add(_ other: Result) {
-      for index in masks.indices where other.masks[index] != nil {
+    /// Adds the masks of photos that have none.
+    mutating func complete(with other: Result) {
+      for index in masks.indices where masks[index] == nil {
         (masks[index], agreement[index]) = (other.masks[index], other.agreement[index])
       }
     }
@@ -73,11 +68,11 @@ struct ObjectMasking {
 
   var options = Options()
 
-  /// Returns nil if the photos show no separate object. If `prior` is given, the object is what it
-  /// retains, and its surroundings may have moved.
+  /// Returns nil if the photos show no separate object. If the evidence says what the object is, its
+  /// surroundings may have moved.
   func run(
-    _ reconstruction: Reconstruction, images: ImageStore, prior: Silhouettes? = nil,
-    _ context: StageContext
+    _ reconstruction: Reconstruction, images: ImageStore,
+    evidence: MaskingEvidence = MaskingEvidence(), _ context: StageContext
   ) throws -> Result? {
     let cloud: PointCloud
     do {
@@ -87,52 +82,54 @@ struct ObjectMasking {
       // The dense stage at full resolution reports why.
       return nil
     }
-    let photos = try reducedPhotos(
+    let (photos, backdrop) = try reducedPhotos(
       of: reconstruction, images, context.part(from: 0.6, to: 0.65).control)
     let isolationContext = context.part(from: 0.65, to: 0.7)
-    let isolated =
-      try prior.map {
-        ObjectIsolation.Result(
-          isKept: try $0.areInside(cloud.positions, isolationContext.control))
-      } ?? isolate(cloud, photos, reconstruction, isolationContext)
-    guard isolated.failure == nil else { return nil }
-    let object = cloud.positions.indices.filter { isolated.isKept[$0] }
-      .map { cloud.positions[$0] }
+    var isolated: ObjectIsolation.Result?
+    if evidence.placements.isEmpty {
+      isolated = try isolate(cloud, photos, backdrop, reconstruction, isolationContext)
+      guard isolated?.failure == nil else { return nil }
+    }
+    let points =
+      try isolated.map { LabeledCloud(cloud: cloud, isObject: $0.isKept) }
+      ?? evidence.object(
+        in: cloud, tolerance: options.neighborFootprints, isolationContext.control)
     let views = try views(
-      of: photos, cloud, isolated.isKept, isRigid: prior == nil,
-      context.part(from: 0.7, to: 0.75).control)
+      of: photos, points, evidence, reconstruction, context.part(from: 0.7, to: 0.75).control)
     let estimated = try MaskEstimation(options: options.estimation)
-      .run(views, points: object, context.part(from: 0.75, to: 1))
+      .run(views, points: points.object.positions, context.part(from: 0.75, to: 1))
     var result = Result(photoCount: reconstruction.photos.count)
-    result.support = isolated.support
-    result.surroundings = cloud.filtered(by: isolated.isKept.map { !$0 })
+    result.support = isolated?.support
+    result.points = points
     return add(estimated, of: views, to: &result, context.notes) ? result : nil
   }
 
-  /// The registered photos at the size of their masks.
+  /// The registered photos at the size of their masks, and the color of their backdrop.
   private func reducedPhotos(
     of reconstruction: Reconstruction, _ images: ImageStore, _ control: KernelControl
-  ) throws -> [ReducedPhoto] {
+  ) throws -> ([ReducedPhoto], backdrop: SIMD3<Float>?) {
     let photos = reconstruction.registered
-    let reduced = try control.parallelMap(photos.count) {
+    var reduced = try control.parallelMap(photos.count) {
       try ReducedPhoto(
         photos[$0], reconstruction, images.image(photos[$0], maximumPixels: options.maximumPixels))
     }
-    let backdrops = try BackdropDetection(options: options.backdrop)
+    let backdrop = try BackdropDetection(options: options.backdrop)
       .run(reduced.map(\.image), control)
-    return zip(reduced, backdrops ?? []).map { photo, backdrop in
-      var photo = photo
-      photo.backdrop = backdrop
-      return photo
-    } + (backdrops == nil ? reduced : [])
+    guard let backdrop else { return (reduced, nil) }
+    for (index, mask) in backdrop.masks.enumerated() { reduced[index].backdrop = mask }
+    return (reduced, backdrop.color)
   }
 
   /// Divides the cloud into object and surroundings; points of the backdrop are surroundings.
   private func isolate(
-    _ cloud: PointCloud, _ photos: [ReducedPhoto], _ reconstruction: Reconstruction,
-    _ context: StageContext
+    _ cloud: PointCloud, _ photos: [ReducedPhoto], _ backdrop: SIMD3<Float>?,
+    _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> ObjectIsolation.Result {
-    let isBackdrop = backdropPoints(cloud, photos, reconstruction.photos.count)
+    var isBackdrop = backdropPoints(cloud, photos, reconstruction.photos.count)
+    let shadows = backdrop.flatMap {
+      ShadowPlane(options: options.shadows).run(cloud, backdrop: $0, reconstruction)
+    }
+    if let shadows { isBackdrop = zip(isBackdrop, shadows.isShadow).map { $0 || $1 } }
     context.notes.record("backdropPoints", Double(isBackdrop.count { $0 }))
     let foreground = cloud.filtered(by: isBackdrop.map { !$0 })
     guard foreground.count > 0 else {
@@ -141,6 +138,7 @@ struct ObjectMasking {
     }
     var result = try ObjectIsolation(options: options.isolation)
       .run(foreground, reconstruction, context)
+    result.support = result.support ?? shadows?.plane
     var isKept = result.isKept.makeIterator()
     result.isKept = isBackdrop.map { $0 ? false : isKept.next() ?? false }
     return result
@@ -159,35 +157,23 @@ struct ObjectMasking {
     }
   }
 
-  /// The points of the cloud as discs, labeled by whether they belong to the object.
-  private func discs(_ cloud: PointCloud, _ isObject: [Bool]) -> Discs {
-    Discs(
-      positions: cloud.positions, radii: cloud.footprints.map { options.discRadius * $0 },
-      labels: isObject.map { $0 ? PointLabel.object : PointLabel.surroundings })
-  }
-
-  /// The photos with the points drawn into them. Unless the scene is rigid, points of the
-  /// surroundings are drawn only into the photos that agree on them.
+  /// The photos with the points drawn into them.
   private func views(
-    of photos: [ReducedPhoto], _ cloud: PointCloud, _ isObject: [Bool], isRigid: Bool,
-    _ control: KernelControl
+    of photos: [ReducedPhoto], _ points: LabeledCloud, _ evidence: MaskingEvidence,
+    _ reconstruction: Reconstruction, _ control: KernelControl
   ) throws -> [MaskingView] {
     let coarsePixels = Double(options.coarse.maximumPixelsPerView) / 4
-    let all = discs(cloud, isObject)
     return try control.parallelMap(photos.count) { index in
       let photo = photos[index]
       let scale = max(1, (Double(photo.pixelCount) / coarsePixels).squareRoot())
-      var discs = all
-      if !isRigid {
-        let isShown = cloud.positions.indices.map {
-          isObject[$0] || cloud.visiblePhotos(of: $0).contains(UInt16(photo.id.index))
-        }
-        discs = self.discs(
-          cloud.filtered(by: isShown), zip(isObject, isShown).filter(\.1).map(\.0))
-      }
+      var labels = try points.discs(in: photo.id, radius: options.discRadius)
+        .drawn(by: photo.camera, at: photo.cameraFromWorld, KernelControl())
+      let full = reconstruction.photos[photo.id.index]
+      evidence.drawFeatures(
+        of: photo.id, full: SIMD2(Float(full.width), Float(full.height)),
+        radius: options.featureRadius, maximumRadius: options.maximumFeatureRadius, into: &labels)
       return try MaskingView(
-        photo, discs, rim: Int((options.rim * scale).rounded()), reach: options.reach,
-        KernelControl())
+        photo, labels, rim: Int((options.rim * scale).rounded()), reach: options.reach)
     }
   }
 

@@ -27,4 +27,15 @@ package struct FeatureSet: Sendable {
     self.descriptors = descriptors
     self.colors = colors
   }
+
+  /// The features with the given indices.
+  package func selecting(_ indices: [Int]) -> FeatureSet {
+    FeatureSet(
+      positions: indices.map { positions[$0] }, scales: indices.map { scales[$0] },
+      orientations: indices.map { orientations[$0] },
+      descriptors: indices.flatMap {
+        descriptors[$0 * Self.descriptorLength..<($0 + 1) * Self.descriptorLength]
+      },
+      colors: indices.map { colors[$0] })
+  }
 }

@@ -95,6 +95,8 @@ package struct ViewGraph: Sendable {
   package var motions: [TwoMotions] = []
   /// Whether the object moves in front of its surroundings, whose matches are left out.
   package var isObjectOnly = false
+  /// If so, whether each feature belongs to the surroundings, by photo.
+  package var surroundings: [[Bool]] = []
   /// Groups of photos between which the object was moved; empty if it was not, or between most
   /// photos.
   package var placements: [[Int]] = []

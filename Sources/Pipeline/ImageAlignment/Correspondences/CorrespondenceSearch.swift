@@ -11,7 +11,7 @@ package struct CorrespondenceSearch {
     package var maximumFalseRejectionRatio = 0.03
     /// If an object moves, matches of its surroundings are dropped, provided that at least this
     /// share of the connected photos stays connected.
-    package var minimumObjectShare = 0.6
+    package var minimumObjectShare = 0.4
     /// Whether two photos without masks are matched even if others have masks. If the masks exclude
     /// surroundings that moved, such a pair would match these.
     var matchesUnmaskedPairs = true
@@ -85,7 +85,7 @@ private struct MatchedPairs {
   let options: CorrespondenceSearch.Options
   let photos: [Photo]
   let cameras: [Camera]
-  let features: [FeatureSet]
+  private var features: [FeatureSet]
   private(set) var graph: ViewGraph
   private var verification: PairVerification.Options
   private var pairs: [PhotoPair] = []
@@ -151,23 +151,66 @@ private struct MatchedPairs {
       graph.placements = placements
       return
     }
-    let whole = self
-    matches = zip(pairs, matches).map { pair, matches in
-      matches.filter { !surroundings.contain($0, of: pair) }
-    }
-    let motions = graph.motions
-    try verifyAgain(cameras, context)
-    try guide(cameras, context)
-    graph.motions = motions
-    let (connected, before) = (graph.connectedGroups[0].count, whole.graph.connectedGroups[0].count)
-    if Double(connected) < options.minimumObjectShare * Double(before) {
-      self = whole
-      return
-    }
+    let object = try objectPairs(without: surroundings, cameras, context)
+    let connected = object.graph.connectedGroups[0].count
+    guard
+      Double(connected) >= options.minimumObjectShare * Double(graph.connectedGroups[0].count)
+    else { return }
+    (matches, graph.pairs, graph.rejected) = (
+      object.matches, object.graph.pairs, object.graph.rejected
+    )
     graph.isObjectOnly = true
+    graph.surroundings = surroundings.hasFeature
     context.notes.record(
       "surroundingsFeatures",
       Double(surroundings.hasFeature.reduce(0) { $0 + $1.count { $0 } }))
+  }
+
+  /// The pairs matched again without the features of the surroundings: among fewer features, more
+  /// matches are distinctive.
+  private func objectPairs(
+    without surroundings: MotionLayers.Surroundings, _ cameras: [Camera], _ context: StageContext
+  ) throws -> MatchedPairs {
+    let kept = surroundings.hasFeature.map { isExcluded in
+      isExcluded.indices.filter { !isExcluded[$0] }
+    }
+    func original(_ match: FeatureMatch, _ pair: PhotoPair) -> FeatureMatch {
+      FeatureMatch(
+        first: Int32(kept[pair.first.index][Int(match.first)]),
+        second: Int32(kept[pair.second.index][Int(match.second)]))
+    }
+    var object = self
+    object.features = zip(features, kept).map { $0.selecting($1) }
+    object.matches = zip(
+      pairs, try FeatureMatching(options.matching).run(pairs, features: object.features, context)
+    ).map { pair, matches in
+      matches.filter { match in
+        let match = original(match, pair)
+        return !surroundings.contain(match, of: pair)
+          && !(surroundings.areStatic && isStatic(match, of: pair))
+      }
+    }
+    try object.verifyAgain(cameras, context)
+    try object.guide(cameras, context)
+    object.features = features
+    object.matches = zip(pairs, object.matches).map { pair, matches in
+      matches.map { original($0, pair) }
+    }
+    for index in object.graph.pairs.indices {
+      let pair = object.graph.pairs[index]
+      object.graph.pairs[index].matches = pair.matches.map { original($0, pair.pair) }
+    }
+    return object
+  }
+
+  /// Whether both photos show a match at the same pixel.
+  private func isStatic(_ match: FeatureMatch, of pair: PhotoPair) -> Bool {
+    let photo = photos[pair.first.index]
+    let offset =
+      features[pair.second.index].positions[Int(match.second)]
+      - features[pair.first.index].positions[Int(match.first)]
+    let limit = options.secondMotions.staticLimit(photo)
+    return (offset * offset).sum() <= limit * limit
   }
 
   /// Records the numbers of pairs and matches, and warns if no pair was verified.

@@ -47,6 +47,8 @@ struct MotionLayers: Sendable {
     var hasFeature: [[Bool]]
     /// The matches of motions that are theirs as a whole.
     var matches: [PhotoPair: Set<FeatureMatch>]
+    /// Whether they are at the same pixels in all photos.
+    var areStatic: Bool
 
     /// Whether a match does.
     func contain(_ match: FeatureMatch, of pair: PhotoPair) -> Bool {
@@ -96,7 +98,7 @@ struct MotionLayers: Sendable {
     guard Double(shown) >= options.minimumPhotoShare * Double(photos.count) else { return nil }
     let hasFeature = bodyOf.map { bodies in bodies.map { $0 == -object } }
     return Surroundings(
-      hasFeature: hasFeature, matches: matches(of: graph, -object, bodyOf))
+      hasFeature: hasFeature, matches: matches(of: graph, -object, bodyOf), areStatic: hasStatic)
   }
 
   /// The matches of all motions of a body.

@@ -11,11 +11,19 @@ struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos of a placement.
     var minimumPhotos = 5
+    /// Maximum number of intervals.
+    var maximumIntervals = 8
+    /// Maximum evidence of a single pair for or against intervals: a photo with a wrong pose
+    /// strongly contradicts a few others.
+    var maximumEvidence = 100
     /// Evidence that a boundary between two intervals must explain.
     var boundaryCost = 100
-    /// Intervals are placements if at most this share of the evidence against the same placement
-    /// remains within them.
-    var maximumRemainder = 0.1
+    /// Minimum number of photos on each side of a boundary that contradict the other side.
+    var minimumWitnesses = 3
+    /// Intervals are placements if at most this share of the evidence that a photo has against the
+    /// same placement remains within its interval, in the median of the photos, relative to what
+    /// would remain by chance.
+    var maximumRemainder = 0.5
     /// Weight of a point that is missing in a photo, relative to one that is there: of the points
     /// that the map predicts, up to a sixth are not found even if nothing moved.
     var absenceWeight = 4
@@ -56,45 +64,9 @@ struct PlacementDetection: Sendable {
     return groups.sorted { ($1.count, $0[0]) < ($0.count, $1[0]) }
   }
 
-  // MARK: Intervals
-
-  /// The division into intervals with the highest sum of evidence within them; empty if it leaves
-  /// too much evidence against the same placement within an interval, or has short intervals.
+  /// The division of the order of capture; empty if it does not explain the evidence.
   private func intervals(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
-    let negative = links.filter { $0.value.evidence < 0 }
-    guard !negative.isEmpty else { return [] }
-    // The evidence between each photo and later ones.
-    var later = [[(photo: Int, evidence: Int)]](repeating: [], count: photoCount)
-    for (pair, link) in links where link.evidence != 0 {
-      later[pair.first.index].append((pair.second.index, link.evidence))
-    }
-    var best = [0] + [Int](repeating: .min, count: photoCount)
-    var start = [Int](repeating: 0, count: photoCount + 1)
-    for end in stride(from: 1, through: photoCount, by: 1) {
-      var within = 0
-      for first in stride(from: end - 1, through: 0, by: -1) {
-        // `within` is the sum over the pairs of first..<end.
-        for other in later[first] where other.photo < end { within += other.evidence }
-        guard best[first] > .min, end - first >= options.minimumPhotos else { continue }
-        let total = best[first] + within - (first > 0 ? options.boundaryCost : 0)
-        if total > best[end] { (best[end], start[end]) = (total, first) }
-      }
-    }
-    guard best[photoCount] > .min else { return [] }
-    var groups: [[Int]] = []
-    var end = photoCount
-    while end > 0 {
-      groups.append(Array(start[end]..<end))
-      end = start[end]
-    }
-    var groupOf = [Int](repeating: 0, count: photoCount)
-    for (number, group) in groups.enumerated() { for photo in group { groupOf[photo] = number } }
-    let all = negative.values.reduce(0) { $0 + $1.evidence }
-    let remaining = negative.reduce(0) { sum, link in
-      groupOf[link.key.first.index] == groupOf[link.key.second.index]
-        ? sum + link.value.evidence : sum
-    }
-    return Double(remaining) >= options.maximumRemainder * Double(all) ? groups.reversed() : []
+    CaptureIntervals(links, photoCount: photoCount, options)?.division() ?? []
   }
 
   // MARK: Contraction

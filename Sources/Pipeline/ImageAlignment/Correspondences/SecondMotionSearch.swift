@@ -33,6 +33,11 @@ package struct SecondMotionSearch: Sendable {
     package var maximumIterations = 500
 
     package init() {}
+
+    /// The displacement up to which matches are static if the camera did not move, in pixels.
+    func staticLimit(_ photo: Photo) -> Float {
+      Float(staticTolerance * staticDisplacement * Double(max(photo.width, photo.height)))
+    }
   }
 
   package var options: Options
@@ -119,7 +124,7 @@ package struct SecondMotionSearch: Sendable {
       return (offset * offset).sum().squareRoot()
     }
     guard shifts.count(where: { $0 <= limit }) >= options.minimumMatches else { return nil }
-    let tolerance = limit * Float(options.staticTolerance)
+    let tolerance = options.staticLimit(a)
     return Set(zip(matches, shifts).filter { $0.1 <= tolerance }.map(\.0))
   }
 
