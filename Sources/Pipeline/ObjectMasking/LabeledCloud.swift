@@ -5,8 +5,8 @@ import SceneModel
 struct LabeledCloud: Sendable {
   var cloud: PointCloud
   var isObject: [Bool]
-  /// Whether object and surroundings are one rigid scene. If not, a photo shows only those points of
-  /// the surroundings that it agrees on.
+  /// Whether object and surroundings are one rigid scene. If not, a photo shows only those points
+  /// of the surroundings that it agrees on.
   var isRigid = true
   /// Surroundings that only some photos show.
   var others: [(photos: Set<Int>, cloud: PointCloud)] = []

@@ -38,8 +38,8 @@ struct MaskingEvidence: Sendable {
   ///
   /// Each placement decides about the points that it has a point of its own near by, within
   /// `tolerance` footprints. Where a placement has none, its photos may show what is behind the
-  /// object. The object is what one placement says it is; points that none knows belong to it if all
-  /// silhouettes contain them.
+  /// object. The object is what one placement says it is; points that none knows belong to it if
+  /// all silhouettes contain them.
   func object(
     in cloud: PointCloud, tolerance: Float, _ control: KernelControl
   ) throws -> LabeledCloud {
@@ -74,8 +74,8 @@ struct MaskingEvidence: Sendable {
     return result
   }
 
-  /// Draws the features that a photo shows into its labels. `full` is the photo's size; features are
-  /// discs of `radius` scales, at most `maximumRadius` pixels.
+  /// Draws the features that a photo shows into its labels. `full` is the photo's size; features
+  /// are discs of `radius` scales, at most `maximumRadius` pixels.
   func drawFeatures(
     of photo: ID<Photo>, full: SIMD2<Float>, radius: Float, maximumRadius: Float,
     into labels: inout RasterImage
@@ -85,7 +85,8 @@ struct MaskingEvidence: Sendable {
     for feature in features[photo.index] {
       labels.fillDisc(
         at: feature.position * factor,
-        radius: min(maximumRadius, radius * feature.scale * factor.x), with: PointLabel.surroundings)
+        radius: min(maximumRadius, radius * feature.scale * factor.x),
+        with: PointLabel.surroundings)
     }
   }
 }

@@ -29,14 +29,21 @@ struct ReducedPhoto: Sendable {
     cameraFromWorld = reconstruction.poses[id.index] ?? .identity
   }
 
-  /// Whether the photo shows the backdrop where it shows a point.
-  func showsBackdrop(at point: SIMD3<Double>) -> Bool {
-    guard let backdrop else { return false }
-    let seen = cameraFromWorld * point
-    guard seen.z > 0 else { return false }
+  /// The pixel that shows a point; nil if it is outside the frame.
+  func pixel(of point: SIMD3<Float>) -> Int? {
+    let seen = cameraFromWorld * SIMD3<Double>(point)
+    guard seen.z > 0 else { return nil }
     let pixel = camera.project(seen)
-    guard camera.contains(pixel) else { return false }
-    return backdrop.pixels[Int(pixel.y) * backdrop.width + Int(pixel.x)] != 0
+    guard camera.contains(pixel) else { return nil }
+    return Int(pixel.y) * image.width + Int(pixel.x)
+  }
+
+  /// Whether the photo shows the backdrop at a pixel.
+  func showsBackdrop(at pixel: Int) -> Bool { (backdrop?.pixels[pixel] ?? 0) != 0 }
+
+  /// The RGB color of a pixel, 0…255.
+  func color(at pixel: Int) -> SIMD3<Float> {
+    SIMD3((0..<3).map { Float(image.pixels[3 * pixel + $0]) })
   }
 }
 

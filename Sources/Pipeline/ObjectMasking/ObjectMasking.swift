@@ -68,8 +68,8 @@ struct ObjectMasking {
 
   var options = Options()
 
-  /// Returns nil if the photos show no separate object. If the evidence says what the object is, its
-  /// surroundings may have moved.
+  /// Returns nil if the photos show no separate object. If the evidence says what the object is,
+  /// its surroundings may have moved.
   func run(
     _ reconstruction: Reconstruction, images: ImageStore,
     evidence: MaskingEvidence = MaskingEvidence(), _ context: StageContext
@@ -125,11 +125,14 @@ struct ObjectMasking {
     _ cloud: PointCloud, _ photos: [ReducedPhoto], _ backdrop: SIMD3<Float>?,
     _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> ObjectIsolation.Result {
-    var isBackdrop = backdropPoints(cloud, photos, reconstruction.photos.count)
+    let shown = BackdropPoints(cloud, photos, photoCount: reconstruction.photos.count)
     let shadows = backdrop.flatMap {
-      ShadowPlane(options: options.shadows).run(cloud, backdrop: $0, reconstruction)
+      ShadowPlane(options: options.shadows)
+        .run(cloud, colors: shown.colors, backdrop: $0, reconstruction)
     }
-    if let shadows { isBackdrop = zip(isBackdrop, shadows.isShadow).map { $0 || $1 } }
+    let isBackdrop = cloud.positions.indices.map {
+      shown.isBackdrop[$0] || shadows?.isShadow[$0] == true
+    }
     context.notes.record("backdropPoints", Double(isBackdrop.count { $0 }))
     let foreground = cloud.filtered(by: isBackdrop.map { !$0 })
     guard foreground.count > 0 else {
@@ -142,19 +145,6 @@ struct ObjectMasking {
     var isKept = result.isKept.makeIterator()
     result.isKept = isBackdrop.map { $0 ? false : isKept.next() ?? false }
     return result
-  }
-
-  /// Whether most photos that see a point show the backdrop there.
-  private func backdropPoints(
-    _ cloud: PointCloud, _ photos: [ReducedPhoto], _ count: Int
-  ) -> [Bool] {
-    var byPhoto = [ReducedPhoto?](repeating: nil, count: count)
-    for photo in photos { byPhoto[photo.id.index] = photo }
-    return cloud.positions.indices.map { index in
-      let seen = cloud.visiblePhotos(of: index).compactMap { byPhoto[Int($0)] }
-      let marked = seen.count { $0.showsBackdrop(at: SIMD3<Double>(cloud.positions[index])) }
-      return 2 * marked > seen.count
-    }
   }
 
   /// The photos with the points drawn into them.

@@ -53,6 +53,23 @@ import Testing
     #expect(abs(support.offset) < 0.005)
   }
 
+  /// The underside of the ball hides the stem that it stands on; nothing links the two.
+  @Test func footOfTheObjectBelongsToIt() throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(center: [0, 0.8, 0], radius: 0.5, label: 1, centers: centers) { $0.y > 0.6 }
+    scene.addBall(center: [0, 0.1, 0], radius: 0.12, label: 2, centers: centers) { $0.y > 0 }
+    scene.addBall(center: [1.2, 0.1, 0], radius: 0.12, label: 3, centers: centers) { $0.y > 0 }
+    scene.addPlane(radius: 2.2, label: 0, centers: centers)
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    #expect(result.failure == nil)
+    #expect(keptShare(result, scene, label: 1) >= 0.99)
+    #expect(keptShare(result, scene, label: 2) >= 0.99)
+    #expect(keptShare(result, scene, label: 3) == 0)
+    #expect(keptShare(result, scene, label: 0) <= 0.01)
+  }
+
   @Test func objectWithoutSupportIsIsolated() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()

@@ -42,19 +42,20 @@ import Testing
 
   @Test func theBackdropIsWhatSurroundsTheObject() throws {
     let photos = (UInt32(1)...3).map { photo(seed: $0) }
-    let backdrops = try #require(
+    let backdrop = try #require(
       try BackdropDetection().run(photos, KernelControl(threadCount: 2)))
-    #expect(backdrops.count == 3)
-    for backdrop in backdrops {
-      #expect(backdrop.width == width && backdrop.height == height && backdrop.channels == 1)
-      #expect(backdrop.pixels == surroundings)
+    #expect(backdrop.masks.count == 3)
+    #expect(backdrop.color == [240, 241, 238])
+    for mask in backdrop.masks {
+      #expect(mask.width == width && mask.height == height && mask.channels == 1)
+      #expect(mask.pixels == surroundings)
     }
   }
 
   @Test func enclosedRegionsAreNotBackdrop() throws {
     let photos = [photo { x, y in (45..<65).contains(x) && (30..<50).contains(y) }]
-    let backdrops = try #require(try BackdropDetection().run(photos, KernelControl()))
-    #expect(backdrops.map(\.pixels) == [surroundings])
+    let backdrop = try #require(try BackdropDetection().run(photos, KernelControl()))
+    #expect(backdrop.masks.map(\.pixels) == [surroundings])
   }
 
   @Test func texturedSurroundingsAreNone() throws {
@@ -68,8 +69,8 @@ import Testing
     let few = [with, without, with, without, with]
     #expect(try BackdropDetection().run(few, KernelControl()) == nil)
     let most = [with, without, with, with, with]
-    let backdrops = try #require(try BackdropDetection().run(most, KernelControl()))
-    #expect(backdrops.map { $0.pixels.contains(255) } == [true, false, true, true, true])
-    #expect(backdrops[1].pixels.count == width * height)
+    let backdrop = try #require(try BackdropDetection().run(most, KernelControl()))
+    #expect(backdrop.masks.map { $0.pixels.contains(255) } == [true, false, true, true, true])
+    #expect(backdrop.masks[1].pixels.count == width * height)
   }
 }

@@ -43,7 +43,7 @@ import Testing
     let mean = scores.reduce(0, +) / Double(scores.count)
     #expect(mean >= 0.95, "\(scores)")
     #expect(result.masks.map { $0 == nil } == result.agreement.map { $0 == nil })
-    #expect(result.support != nil && result.surroundings.count > 100)
+    #expect(result.support != nil && result.points.surroundings.count > 100)
   }
 
   @Test func threadsDoNotChangeTheMasks() throws {
@@ -53,7 +53,8 @@ import Testing
     #expect(isEqual)
     #expect(one.agreement == two.agreement)
     #expect(one.support == two.support)
-    let areSurroundingsEqual = one.surroundings.positions == two.surroundings.positions
+    let areSurroundingsEqual =
+      one.points.surroundings.positions == two.points.surroundings.positions
     #expect(areSurroundingsEqual)
   }
 

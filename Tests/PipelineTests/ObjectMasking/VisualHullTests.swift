@@ -18,9 +18,10 @@ import Testing
         positions: points, radii: points.map { _ in 0.05 },
         labels: points.map { _ in PointLabel.object })
       views = try scene.reconstruction.registered.map { id in
-        try MaskingView(
-          ReducedPhoto(id, scene.reconstruction, scene.images[id.index]), discs, rim: 2,
-          reach: 0.1, KernelControl())
+        let photo = try ReducedPhoto(id, scene.reconstruction, scene.images[id.index])
+        let labels = try discs.drawn(
+          by: photo.camera, at: photo.cameraFromWorld, KernelControl())
+        return try MaskingView(photo, labels, rim: 2, reach: 0.1)
       }
       masks = scene.images.map { image in image.gray.marking { $0 > 100 } }
     }

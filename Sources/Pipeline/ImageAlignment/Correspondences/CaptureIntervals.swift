@@ -5,31 +5,52 @@ import SceneModel
 /// For each number of intervals, dynamic programming finds the division with the highest sum of
 /// evidence within them.
 struct CaptureIntervals {
-  private let options: PlacementDetection.Options
+  struct Options: Hashable, Codable, Sendable {
+    /// Minimum number of photos of a placement.
+    var minimumPhotos = 5
+    /// Maximum number of intervals.
+    var maximumIntervals = 8
+    /// Maximum evidence of a single pair for or against intervals: a photo with a wrong pose
+    /// strongly contradicts a few others.
+    var maximumEvidence = 100
+    /// Evidence that a boundary between two intervals must explain.
+    var boundaryCost = 100
+    /// Minimum number of photos on each side of a boundary that contradict the other side.
+    var minimumWitnesses = 3
+    /// Maximum share of the photos that contradict their own interval, but not another one.
+    var maximumMisplaced = 0.05
+    /// Intervals are placements if at most this share of the evidence that a photo has against the
+    /// same placement remains within its interval, in the median of the photos, relative to what
+    /// would remain by chance.
+    var maximumRemainder = 0.5
+
+    init() {}
+  }
+
+  private let options: Options
   private let photoCount: Int
   /// The evidence between each photo and others that show the object in the same placement
   /// (positive) or in another one (negative).
   private var evidence: [[(photo: Int, value: Int)]]
 
-  /// Nil without evidence against a single placement.
-  init?(
-    _ links: [PhotoPair: PlacementDetection.Link], photoCount: Int,
-    _ options: PlacementDetection.Options
-  ) {
-    guard links.values.contains(where: { $0.evidence < 0 }) else { return nil }
+  /// `evidence` is positive if both photos of a pair show the object in the same placement,
+  /// negative if they show it in different ones.
+  init(_ evidence: [PhotoPair: Int], photoCount: Int, options: Options = Options()) {
     (self.options, self.photoCount) = (options, photoCount)
-    evidence = Array(repeating: [], count: photoCount)
-    for (pair, link) in links where link.evidence != 0 {
-      evidence[pair.first.index].append((pair.second.index, link.evidence))
-      evidence[pair.second.index].append((pair.first.index, link.evidence))
+    self.evidence = Array(repeating: [], count: photoCount)
+    for (pair, value) in evidence where value != 0 {
+      self.evidence[pair.first.index].append((pair.second.index, value))
+      self.evidence[pair.second.index].append((pair.first.index, value))
     }
   }
 
   /// The division into the least intervals that explains the evidence; nil if none does.
   func division() -> [[Int]]? {
     let divisions = divisions()
+    guard let whole = divisions.first else { return nil }
     return divisions.dropFirst().first {
-      $0.score > divisions[0].score && isExplained(by: $0.groups) && isWitnessed($0.groups)
+      $0.score > whole.score && isExplained(by: $0.groups) && isWitnessed($0.groups)
+        && isEverywhereRight($0.groups)
     }?.groups
   }
 
@@ -86,15 +107,28 @@ struct CaptureIntervals {
 
   /// Whether several photos contradict the other side of each boundary.
   private func isWitnessed(_ groups: [[Int]]) -> Bool {
-    func witnesses(_ group: [Int], against other: [Int]) -> Int {
-      group.count { photo in
-        let across = evidence[photo].filter { other[0]...other[other.count - 1] ~= $0.photo }
-        return across.reduce(0) { $0 + $1.value } < 0
-      }
+    zip(groups, groups.dropFirst()).allSatisfy { left, right in
+      min(
+        left.count { sum($0, with: right) < 0 }, right.count { sum($0, with: left) < 0 }
+      ) >= options.minimumWitnesses
     }
-    return zip(groups, groups.dropFirst()).allSatisfy { left, right in
-      min(witnesses(left, against: right), witnesses(right, against: left))
-        >= options.minimumWitnesses
+  }
+
+  /// Whether hardly any photo belongs to another interval than its own.
+  private func isEverywhereRight(_ groups: [[Int]]) -> Bool {
+    let misplaced = groups.reduce(0) { count, group in
+      count
+        + group.count { photo in
+          sum(photo, with: group) < 0 && groups.contains { sum(photo, with: $0) > 0 }
+        }
+    }
+    return Double(misplaced) <= options.maximumMisplaced * Double(photoCount)
+  }
+
+  /// The evidence between a photo and those of an interval.
+  private func sum(_ photo: Int, with group: [Int]) -> Int {
+    evidence[photo].reduce(0) {
+      group[0]...group[group.count - 1] ~= $1.photo ? $0 + $1.value : $0
     }
   }
 }

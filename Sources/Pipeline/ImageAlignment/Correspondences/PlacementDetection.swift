@@ -9,21 +9,7 @@ import SceneModel
 /// decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
 struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum number of photos of a placement.
-    var minimumPhotos = 5
-    /// Maximum number of intervals.
-    var maximumIntervals = 8
-    /// Maximum evidence of a single pair for or against intervals: a photo with a wrong pose
-    /// strongly contradicts a few others.
-    var maximumEvidence = 100
-    /// Evidence that a boundary between two intervals must explain.
-    var boundaryCost = 100
-    /// Minimum number of photos on each side of a boundary that contradict the other side.
-    var minimumWitnesses = 3
-    /// Intervals are placements if at most this share of the evidence that a photo has against the
-    /// same placement remains within its interval, in the median of the photos, relative to what
-    /// would remain by chance.
-    var maximumRemainder = 0.5
+    var intervals = CaptureIntervals.Options()
     /// Weight of a point that is missing in a photo, relative to one that is there: of the points
     /// that the map predicts, up to a sixth are not found even if nothing moved.
     var absenceWeight = 4
@@ -66,7 +52,9 @@ struct PlacementDetection: Sendable {
 
   /// The division of the order of capture; empty if it does not explain the evidence.
   private func intervals(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
-    CaptureIntervals(links, photoCount: photoCount, options)?.division() ?? []
+    CaptureIntervals(
+      links.mapValues(\.evidence), photoCount: photoCount, options: options.intervals
+    ).division() ?? []
   }
 
   // MARK: Contraction
@@ -82,7 +70,7 @@ struct PlacementDetection: Sendable {
     } else {
       for pair in links.keys { sets.join(pair.first.index, pair.second.index) }
     }
-    return sets.groups().filter { $0.count >= options.minimumPhotos }
+    return sets.groups().filter { $0.count >= options.intervals.minimumPhotos }
   }
 
   /// Contracts the link of the highest weight until none is positive; parallel links add up.

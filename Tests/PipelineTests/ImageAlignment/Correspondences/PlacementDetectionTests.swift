@@ -32,6 +32,15 @@ import Testing
     #expect(detection.groups(links, photoCount: 12) == [Array(boundary...11)])
   }
 
+  /// A photo with a wrong pose contradicts some of its own placement and some of the other.
+  @Test(arguments: [2, 11]) func photoWithAWrongPoseDividesNothing(wrong: Int) {
+    let links = links(28) { first, second in
+      if first == wrong || second == wrong { return (first + second) % 3 == 0 ? -400 : 0 }
+      return (first < 14) == (second < 14) ? 0 : second == first + 14 ? -300 : 0
+    }
+    #expect(detection.groups(links, photoCount: 28) == [Array(0...13), Array(14...27)])
+  }
+
   @Test func shortIntervalIsExtendedIfLittleContradicts() {
     let links = links(16) { ($0 < 4) == ($1 < 4) ? 0 : -50 }
     #expect(detection.groups(links, photoCount: 16) == [Array(5...15), Array(0...4)])

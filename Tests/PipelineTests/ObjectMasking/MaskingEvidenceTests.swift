@@ -1,0 +1,52 @@
+import SceneModel
+import Testing
+
+@testable import Pipeline
+
+@Suite struct MaskingEvidenceTests {
+  private func evidence(at positions: [SIMD2<Float>]) -> MaskingEvidence {
+    var graph = ViewGraph(photoCount: 1, pairs: [])
+    graph.surroundings = [positions.map { _ in true } + [false]]
+    let features = FeatureSet(
+      positions: positions + [[50, 50]], scales: [Float](repeating: 4, count: positions.count + 1),
+      orientations: [], descriptors: [], colors: [])
+    return MaskingEvidence(graph, features: [features])
+  }
+
+  private func drawn(_ evidence: MaskingEvidence, maximumRadius: Float = 10) -> RasterImage {
+    var labels = RasterImage(width: 50, height: 40, channels: 1)
+    evidence.drawFeatures(
+      of: ID(0), full: [100, 80], radius: 1.5, maximumRadius: maximumRadius, into: &labels)
+    return labels
+  }
+
+  /// Photos are drawn at half their size, and features as discs of 1.5 scales: three pixels.
+  @Test func featuresOfTheSurroundingsAreDiscs() {
+    let labels = drawn(evidence(at: [[20, 30]]))
+    for y in 0..<40 {
+      for x in 0..<50 {
+        let offset = SIMD2(Float(x), Float(y)) + 0.5 - [10, 15]
+        let isInside = (offset * offset).sum() <= 9
+        #expect(labels.pixels[y * 50 + x] == (isInside ? PointLabel.surroundings : 0))
+      }
+    }
+  }
+
+  @Test func largeFeaturesAreLimited() {
+    let labels = drawn(evidence(at: [[20, 30]]), maximumRadius: 1)
+    #expect(labels.pixels.count { $0 != 0 } == 4)
+  }
+
+  @Test(arguments: [[-40, 10], [500, 10], [10, -40], [10, 500]] as [SIMD2<Float>])
+  func featuresOutsideThePhotoAreNotDrawn(position: SIMD2<Float>) {
+    #expect(drawn(evidence(at: [position])).pixels.allSatisfy { $0 == 0 })
+  }
+
+  @Test func photosWithoutEvidenceKeepTheirLabels() {
+    var labels = RasterImage(width: 2, height: 1, channels: 1)
+    labels.pixels = [PointLabel.object, 0]
+    MaskingEvidence().drawFeatures(
+      of: ID(3), full: [2, 1], radius: 1, maximumRadius: 1, into: &labels)
+    #expect(labels.pixels == [PointLabel.object, 0])
+  }
+}
