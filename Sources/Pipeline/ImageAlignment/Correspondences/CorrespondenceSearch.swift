@@ -155,7 +155,13 @@ private struct MatchedPairs {
     let connected = object.graph.connectedGroups[0].count
     guard
       Double(connected) >= options.minimumObjectShare * Double(graph.connectedGroups[0].count)
-    else { return }
+    else {
+      context.notes.warn(
+        "An object moves in front of its surroundings, but too few of its features match to align "
+          + "the photos by it: the model shows the surroundings. Fill the frame with the object, "
+          + "cover what is around it with a plain cloth, or give masks.")
+      return
+    }
     (matches, graph.pairs, graph.rejected) = (
       object.matches, object.graph.pairs, object.graph.rejected
     )
