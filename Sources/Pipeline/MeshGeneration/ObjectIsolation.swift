@@ -283,11 +283,11 @@ struct IsolationSamples {
     var isChanged = false
     for component in isPart.indices where !isPart[component] && weights[component] > 0 {
       let part = positions(component)
-      let isBelow = part.allSatisfy {
+      let isUnder = part.allSatisfy {
         hypot(($0 - middle).dot(u), ($0 - middle).dot(v)) <= reach
       }
       let top = part.map(support.height).quantile(1 - options.footQuantile) ?? .infinity
-      if isBelow, top <= lowest + options.attachmentDistance * size {
+      if isUnder, top <= lowest + options.attachmentDistance * size {
         isPart[component] = true
         isChanged = true
       }

@@ -15,13 +15,19 @@ struct LabeledCloud: Sendable {
 
   var surroundings: PointCloud { cloud.filtered(by: isObject.map { !$0 }) }
 
-  /// The points that a photo shows, as labeled discs with a radius in footprints.
+  /// All points as labeled discs with a radius in footprints.
+  func discs(radius: Float) -> Discs {
+    Discs(
+      positions: cloud.positions, radii: cloud.footprints.map { radius * $0 },
+      labels: isObject.map { $0 ? PointLabel.object : PointLabel.surroundings })
+  }
+
+  /// The points that a photo shows of a scene that is not rigid.
   func discs(in photo: ID<Photo>, radius: Float) -> Discs {
     var discs = Discs(positions: [], radii: [], labels: [])
     for point in cloud.positions.indices {
       guard
-        isRigid || isObject[point]
-          || cloud.visiblePhotos(of: point).contains(UInt16(photo.index))
+        isObject[point] || cloud.visiblePhotos(of: point).contains(UInt16(photo.index))
       else { continue }
       discs.positions.append(cloud.positions[point])
       discs.radii.append(radius * cloud.footprints[point])

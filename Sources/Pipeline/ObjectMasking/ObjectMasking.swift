@@ -153,10 +153,11 @@ struct ObjectMasking {
     _ reconstruction: Reconstruction, _ control: KernelControl
   ) throws -> [MaskingView] {
     let coarsePixels = Double(options.coarse.maximumPixelsPerView) / 4
+    let all = points.isRigid ? points.discs(radius: options.discRadius) : nil
     return try control.parallelMap(photos.count) { index in
       let photo = photos[index]
       let scale = max(1, (Double(photo.pixelCount) / coarsePixels).squareRoot())
-      var labels = try points.discs(in: photo.id, radius: options.discRadius)
+      var labels = try (all ?? points.discs(in: photo.id, radius: options.discRadius))
         .drawn(by: photo.camera, at: photo.cameraFromWorld, KernelControl())
       let full = reconstruction.photos[photo.id.index]
       evidence.drawFeatures(

@@ -17,7 +17,7 @@ struct CaptureIntervals {
     var boundaryCost = 100
     /// Minimum number of photos on each side of a boundary that contradict the other side.
     var minimumWitnesses = 3
-    /// Maximum share of the photos that contradict their own interval, but not another one.
+    /// Maximum share of the photos that contradict their own interval and agree with another one.
     var maximumMisplaced = 0.05
     /// Intervals are placements if at most this share of the evidence that a photo has against the
     /// same placement remains within its interval, in the median of the photos, relative to what
@@ -31,26 +31,27 @@ struct CaptureIntervals {
   private let photoCount: Int
   /// The evidence between each photo and others that show the object in the same placement
   /// (positive) or in another one (negative).
-  private var evidence: [[(photo: Int, value: Int)]]
+  private let evidence: [[(photo: Int, value: Int)]]
 
   /// `evidence` is positive if both photos of a pair show the object in the same placement,
   /// negative if they show it in different ones.
   init(_ evidence: [PhotoPair: Int], photoCount: Int, options: Options = Options()) {
     (self.options, self.photoCount) = (options, photoCount)
-    self.evidence = Array(repeating: [], count: photoCount)
+    var byPhoto = [[(photo: Int, value: Int)]](repeating: [], count: photoCount)
     for (pair, value) in evidence where value != 0 {
-      self.evidence[pair.first.index].append((pair.second.index, value))
-      self.evidence[pair.second.index].append((pair.first.index, value))
+      byPhoto[pair.first.index].append((pair.second.index, value))
+      byPhoto[pair.second.index].append((pair.first.index, value))
     }
+    self.evidence = byPhoto
   }
 
-  /// The division into the least intervals that explains the evidence; nil if none does.
+  /// The division into the fewest intervals that explains the evidence; nil if none does.
   func division() -> [[Int]]? {
     let divisions = divisions()
     guard let whole = divisions.first else { return nil }
     return divisions.dropFirst().first {
       $0.score > whole.score && isExplained(by: $0.groups) && isWitnessed($0.groups)
-        && isEverywhereRight($0.groups)
+        && areInPlace($0.groups)
     }?.groups
   }
 
@@ -114,8 +115,8 @@ struct CaptureIntervals {
     }
   }
 
-  /// Whether hardly any photo belongs to another interval than its own.
-  private func isEverywhereRight(_ groups: [[Int]]) -> Bool {
+  /// Whether hardly any photo belongs to an interval other than its own.
+  private func areInPlace(_ groups: [[Int]]) -> Bool {
     let misplaced = groups.reduce(0) { count, group in
       count
         + group.count { photo in

@@ -211,12 +211,8 @@ private struct MatchedPairs {
 
   /// Whether both photos show a match at the same pixel.
   private func isStatic(_ match: FeatureMatch, of pair: PhotoPair) -> Bool {
-    let photo = photos[pair.first.index]
-    let offset =
-      features[pair.second.index].positions[Int(match.second)]
-      - features[pair.first.index].positions[Int(match.first)]
-    let limit = options.secondMotions.staticLimit(photo)
-    return (offset * offset).sum() <= limit * limit
+    features.displacement(of: match, in: pair)
+      <= options.secondMotions.staticLimit(photos[pair.first.index])
   }
 
   /// Records the numbers of pairs and matches, and warns if no pair was verified.

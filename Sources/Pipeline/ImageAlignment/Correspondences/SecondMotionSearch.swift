@@ -117,12 +117,7 @@ package struct SecondMotionSearch: Sendable {
     let (a, b) = (photos[pair.first.index], photos[pair.second.index])
     guard a.width == b.width, a.height == b.height else { return nil }
     let limit = Float(options.staticDisplacement * Double(max(a.width, a.height)))
-    let shifts = matches.map { match in
-      let offset =
-        features[pair.second.index].positions[Int(match.second)]
-        - features[pair.first.index].positions[Int(match.first)]
-      return (offset * offset).sum().squareRoot()
-    }
+    let shifts = matches.map { features.displacement(of: $0, in: pair) }
     guard shifts.count(where: { $0 <= limit }) >= options.minimumMatches else { return nil }
     let tolerance = options.staticLimit(a)
     return Set(zip(matches, shifts).filter { $0.1 <= tolerance }.map(\.0))
@@ -168,5 +163,15 @@ package struct SecondMotionSearch: Sendable {
     }
     return TwoMotions(
       pair: pair, bodies: [candidate.first, other], isFirstStatic: candidate.isStatic)
+  }
+}
+
+extension [FeatureSet] {
+  /// The distance between the two features of a match in their photos, in pixels.
+  func displacement(of match: FeatureMatch, in pair: PhotoPair) -> Float {
+    let offset =
+      self[pair.second.index].positions[Int(match.second)]
+      - self[pair.first.index].positions[Int(match.first)]
+    return (offset * offset).sum().squareRoot()
   }
 }
