@@ -23,7 +23,8 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
 
       'reconstruct' is the default subcommand; see 'photogrammetry-cli reconstruct --help'.
 
-      Exit codes: 0 all results were written, 1 the run failed, 2 invalid arguments or paths, \
+      Exit codes: 0 all results were written, 1 the run failed or the model may not show the \
+      object, 2 invalid arguments or paths, \
       130 interrupted.
       """,
     version: ProgramVersion.current,

@@ -20,6 +20,8 @@ package struct PipelineArguments: EngineArguments {
 
   @OptionGroup var scale: ScaleArguments
 
+  @OptionGroup var frame: UpArguments
+
   @Flag(
     name: .customLong("dry-run"),
     help: "Check photos, masks, output and machine, print what a run would do, and exit.")
@@ -34,6 +36,7 @@ package struct PipelineArguments: EngineArguments {
   package func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {
     session.engineOptions.threadCount = runArguments.threading.threadCount
     session.engineOptions.knownDistances = try scale.knownDistances(photos: folder)
+    session.engineOptions.up = frame.up?.direction
     session.engineOptions.additionalFileFormats = Set(ModelFormat.files)
     session.engineOptions.maskFolder = try masking.folder
     session.engineOptions.maskOutput = try maskOutput.folder(photos: folder)

@@ -34,6 +34,12 @@ extension ScaleArguments {
   }
 }
 
+extension UpArguments {
+  func apply(to configuration: inout PipelineConfiguration) {
+    configuration.alignment.worldAlignment.chosenUp = up?.direction
+  }
+}
+
 extension PreviewArguments {
   /// Throws a `CommandFailure` if the file can't be written.
   func apply(to configuration: inout PipelineConfiguration) throws {

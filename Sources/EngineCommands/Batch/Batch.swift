@@ -97,6 +97,8 @@ struct Batch: AsyncParsableCommand {
 
   @OptionGroup var shape: ShapeArguments
 
+  @OptionGroup var frame: UpArguments
+
   @Option(
     name: .long,
     help: ArgumentHelp(
@@ -163,6 +165,7 @@ extension Batch {
   /// The options that affect models, as arguments of `reconstruct`.
   var modelArguments: [String] {
     detail.arguments + alignment.arguments + surface.arguments + shape.arguments
+      + frame.arguments
       + (noObjectMasking ? ["--no-object-masking"] : [])
   }
 

@@ -47,6 +47,11 @@ extension SurfaceArguments {
   var arguments: [String] { (keepGaps ? ["--keep-gaps"] : []) + (refine ? ["--refine"] : []) }
 }
 
+extension UpArguments {
+  // With an equals sign, since axes may start with a minus sign.
+  var arguments: [String] { up.map { ["--up=\($0.direction.name)"] } ?? [] }
+}
+
 extension ShapeArguments {
   var arguments: [String] {
     let corners = crop.map { [$0.box.min, $0.box.max].flatMap { [$0.x, $0.y, $0.z] } }

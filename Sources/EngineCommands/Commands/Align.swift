@@ -53,6 +53,8 @@ struct Align: ParsableCommand {
 
   @OptionGroup var scale: ScaleArguments
 
+  @OptionGroup var frame: UpArguments
+
   @OptionGroup var logging: LoggingOptions
 
   mutating func run() throws {
@@ -80,6 +82,7 @@ extension Align {
     try masking.apply(to: &configuration, areIgnored: noObjectMasking)
     configuration.checkpointDirectory = target
     try scale.apply(to: &configuration, photos: photos)
+    frame.apply(to: &configuration)
     runArguments.threading.apply(to: &configuration)
     return configuration
   }

@@ -49,6 +49,10 @@ package enum PipelineEngine: EngineSupport {
     event.triangles = textured?.counts["triangles"].map { Int($0) }
   }
 
+  package static func doubts(about session: PhotogrammetrySession) -> [String] {
+    session.report?.doubts ?? []
+  }
+
   package static func dryRun(
     _ arguments: ReconstructArguments<PipelineArguments>, photos: URL, output: ModelOutput,
     _ reporter: RunReporter

@@ -24,6 +24,9 @@ struct SavedPhotos: Sendable {
       throw SavedRunError.changedPhotos(folder: saved.photoFolder.path, names: changed)
     }
     result.processingPixels = saved.record.processingPixels
+    for (index, entry) in saved.record.photos.enumerated() {
+      result.photos[index].sharpPixels = entry.sharpPixels
+    }
     try addMasks(saved, to: &result.photos)
     return result
   }

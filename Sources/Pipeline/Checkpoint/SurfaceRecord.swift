@@ -12,6 +12,8 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     package var contentHash: String
     /// The mask that the run used; nil if it used none.
     package var mask: PhotoMask?
+    /// See `Photo.sharpPixels`.
+    package var sharpPixels: Int?
   }
 
   /// The version of the file format; incremented by incompatible changes.
@@ -39,7 +41,8 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
       PhotoFile(
         name: ingested.photos[id.index].name,
         contentHash: Self.text(ingested.contentHashes[id.index]),
-        mask: ingested.photos[id.index].mask)
+        mask: ingested.photos[id.index].mask,
+        sharpPixels: ingested.photos[id.index].sharpPixels)
     }
     self.viewPixels = viewPixels
     processingPixels = ingested.processingPixels

@@ -28,6 +28,7 @@ package final class StageNotes: Sendable {
   private struct State {
     var counts: [String: Double] = [:]
     var warnings: [String] = []
+    var doubts: [String] = []
     var details: [String] = []
   }
 
@@ -45,6 +46,15 @@ package final class StageNotes: Sendable {
     state.withLock { $0.warnings.append(sentence) }
   }
 
+  /// Records a warning, as a sentence, that the model may not be what the user wants: the command
+  /// then fails, although it writes the model.
+  package func doubt(_ sentence: String) {
+    state.withLock {
+      $0.warnings.append(sentence)
+      $0.doubts.append(sentence)
+    }
+  }
+
   /// Records additional information for verbose logs, as a sentence.
   package func log(_ sentence: String) {
     state.withLock { $0.details.append(sentence) }
@@ -52,15 +62,17 @@ package final class StageNotes: Sendable {
 
   /// Adds the notes of another part of the stage.
   func add(_ other: StageNotes) {
-    let (counts, warnings, details) = (other.counts, other.warnings, other.details)
+    let other = other.state.withLock { $0 }
     state.withLock { state in
-      state.counts.merge(counts) { $1 }
-      state.warnings += warnings
-      state.details += details
+      state.counts.merge(other.counts) { $1 }
+      state.warnings += other.warnings
+      state.doubts += other.doubts
+      state.details += other.details
     }
   }
 
   package var counts: [String: Double] { state.withLock { $0.counts } }
   package var warnings: [String] { state.withLock { $0.warnings } }
+  package var doubts: [String] { state.withLock { $0.doubts } }
   package var details: [String] { state.withLock { $0.details } }
 }

@@ -26,10 +26,12 @@ struct ViewSource: Sendable {
     return sum / Float(max(1, cameras.count))
   }
 
-  /// Ratio of full-size photo pixels to pixels of the view, by area.
+  /// Ratio of full-size photo pixels to pixels of the view, by area. The pixels of a blurred photo
+  /// are those of a sharp one with the same detail.
   func areaFactor(of view: PinholeView) -> Float {
-    let full = reconstruction.camera(of: view.photo).focalLength
-    let ratio = full / view.camera.focalLength
-    return Float(ratio.x * ratio.y)
+    let camera = reconstruction.camera(of: view.photo)
+    let ratio = camera.focalLength / view.camera.focalLength
+    let detail = reconstruction.photos[view.photo.index].detail(at: camera.width * camera.height)
+    return Float(ratio.x * ratio.y * detail)
   }
 }

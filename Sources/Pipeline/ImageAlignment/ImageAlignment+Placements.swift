@@ -3,10 +3,11 @@ import SceneModel
 /// Joining photos between which the object was moved.
 extension ImageAlignment {
   /// Aligns photos by the object that their masks leave. `whole` has the matches of the whole
-  /// photos: photos of one placement are linked by the surroundings as well.
+  /// photos: photos of one placement are linked by the surroundings as well. `upright` has the
+  /// poses of one placement's photos in a frame whose +y is up.
   func run(
     masked ingested: IngestedPhotos, images: ImageStore, whole: MatchedPhotos,
-    placements: [[Int]], _ context: StageContext
+    placements: [[Int]], upright: [RigidTransform?], _ context: StageContext
   ) throws -> Reconstruction {
     var alignment = self
     // Two photos without masks would match the surroundings.
@@ -20,7 +21,7 @@ extension ImageAlignment {
     let map = try alignment.map(matched, images: images, context.part(from: 0.7, to: 0.87))
     try alignment.throwOrWarn(map, context.notes)
     return try alignment.finish(
-      map.reconstruction, matched, images, context.part(from: 0.87, to: 1)
+      map.reconstruction, matched, images, upright: upright, context.part(from: 0.87, to: 1)
     ) { point in
       let features = point.track.filter { $0.feature >= 0 }
       let own = features.count { Int($0.feature) < object.features[$0.photo.index].count }

@@ -17,6 +17,7 @@ package struct ImageAlignment: Sendable {
     package var pureRotation = PureRotationCheck.Options()
     package var mapping = SparseMapping.Options()
     package var sceneAmbiguity = SceneAmbiguityCheck.Options()
+    var focus = FocusCheck.Options()
     package var refinement = ObservationRefinement.Options()
     package var worldAlignment = WorldAlignment.Options()
 
@@ -42,8 +43,17 @@ package struct ImageAlignment: Sendable {
     let matched = try match(
       photos: photos, cameras: cameras, images: images, context.part(from: 0, to: 0.7))
     let map = try map(matched, images: images, context.part(from: 0.7, to: 0.87))
+    return try finish(rigid: map, matched, images, context.part(from: 0.87, to: 1))
+  }
+
+  /// Finishes the map of a scene that may be rigid, and checks it.
+  func finish(
+    rigid map: Map, _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext
+  ) throws -> Reconstruction {
     try throwOrWarn(map, context.notes)
-    return try finish(map.reconstruction, matched, images, context.part(from: 0.87, to: 1))
+    let result = try finish(map.reconstruction, matched, images, context)
+    FocusCheck(options: options.focus).run(result, matched.features, context.notes)
+    return result
   }
 
   /// Photos with their features and verified pairs.
@@ -118,10 +128,11 @@ package struct ImageAlignment: Sendable {
   }
 
   /// Refines the observations and moves the reconstruction, with some of the points, to the world
-  /// frame.
+  /// frame. `upright` has poses of photos in a frame whose +y is up.
   func finish(
     _ mapped: Reconstruction, _ matched: MatchedPhotos, _ images: ImageStore,
-    _ context: StageContext, keeping isKept: (ScenePoint) -> Bool = { _ in true }
+    upright: [RigidTransform?] = [], _ context: StageContext,
+    keeping isKept: (ScenePoint) -> Bool = { _ in true }
   ) throws -> Reconstruction {
     var refined = try timed("refinementSeconds", context) {
       try refine(
@@ -134,7 +145,7 @@ package struct ImageAlignment: Sendable {
     worldAlignment.findsSupport =
       worldAlignment.findsSupport && 2 * masks < mapped.photos.count
     let reconstruction = WorldAlignment(worldAlignment).run(
-      refined, context.part(from: 0.85, to: 1))
+      refined, upright: upright, context.part(from: 0.85, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction

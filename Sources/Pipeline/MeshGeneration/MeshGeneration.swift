@@ -126,7 +126,7 @@ package struct MeshGeneration {
       return Selection(
         isKept: isKept, isObject: true,
         support: support
-          ?? SupportPlane(under: cloud.filtered(by: isKept), up: reconstruction.worldFrame.up))
+          ?? SupportPlane(under: cloud.filtered(by: isKept), in: reconstruction.worldFrame))
     }
     if options.isolatesObject {
       let result = try ObjectIsolation(options: options.isolation)

@@ -135,7 +135,7 @@ struct IsolationSamples {
       Float((SIMD3<Double>($0) - focus.point).length / focus.distance)
     }
     isUpKnown = reconstruction.worldFrame.up != .unknown
-    up = isUpKnown ? [0, 1, 0] : focus.meanUp
+    up = isUpKnown ? reconstruction.worldFrame.vertical : focus.meanUp
   }
 
   /// Detects the support plane, then selects the components of the object above it.

@@ -186,9 +186,10 @@ extension SupportPlaneDetection {
 extension SupportPlane {
   /// The level plane through the lowest points of an object; nil if the up direction isn't known,
   /// or if photos show the underside, which then requires no plane to be filled.
-  init?(under object: PointCloud, up: WorldFrame.Up) {
-    let heights = object.positions.map { Double($0.y) }
-    guard up != .unknown, object.normals.count == object.count,
+  init?(under object: PointCloud, in frame: WorldFrame) {
+    let up = SIMD3<Float>(frame.vertical)
+    let heights = object.positions.map { Double(($0 * up).sum()) }
+    guard frame.up != .unknown, object.normals.count == object.count,
       let footprint = object.medianFootprint, let low = heights.quantile(0.002),
       let high = heights.quantile(0.998),
       // A flat object has no part that is clearly the lowest.
@@ -196,8 +197,8 @@ extension SupportPlane {
     else { return nil }
     // The underside is visible if a tenth of the lowest part faces down.
     let lowest = heights.indices.filter { heights[$0] < low + 0.15 * (high - low) }
-    let facingDown = lowest.count { object.normals[$0].y < -0.7 }
+    let facingDown = lowest.count { (object.normals[$0] * up).sum() < -0.7 }
     guard 10 * facingDown < lowest.count else { return nil }
-    self.init(normal: [0, 1, 0], offset: low, band: 2 * Double(footprint))
+    self.init(normal: frame.vertical, offset: low, band: 2 * Double(footprint))
   }
 }

@@ -37,10 +37,8 @@ struct MovedObjectAlignment {
     {
       return joined
     }
-    let rigid = try map.get()
-    try alignment.throwOrWarn(rigid, context.notes)
     return AlignedPhotos(
-      reconstruction: try alignment.finish(rigid.reconstruction, matched, photos.images, rest))
+      reconstruction: try alignment.finish(rigid: try map.get(), matched, photos.images, rest))
   }
 
   /// The placements by a map and by pairs of photos, or by these alone.
@@ -73,6 +71,7 @@ struct MovedObjectAlignment {
       let notes = StageNotes()
       var reconstruction = try alignment.run(
         masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
+        upright: upright(used),
         StageContext(control: context.control.part(from: 0.5, to: 0.8), notes: notes))
       let joined = used.map(\.photos).filter {
         $0.contains { reconstruction.poses[$0] != nil }
@@ -119,6 +118,14 @@ struct MovedObjectAlignment {
     }
   }
 
+  /// The poses of the largest placement: the object stands in the model as it stood there.
+  private func upright(_ placements: [MaskedPlacement]) -> [RigidTransform?] {
+    let largest = placements.enumerated().max {
+      ($0.element.photos.count, $1.offset) < ($1.element.photos.count, $0.offset)
+    }
+    return largest?.element.poses ?? []
+  }
+
   private func report(_ placements: [[Int]], _ notes: StageNotes) {
     let counts = placements.map { String($0.count) }.joined(separator: ", ")
     notes.log(
@@ -134,6 +141,11 @@ struct MovedObjectAlignment {
     _ context: StageContext
   ) throws -> MaskedPlacement? {
     do {
+      var alignment = alignment
+      // Each placement stands as it stood; only the finished model is turned.
+      if case .model = alignment.options.worldAlignment.chosenUp {
+        alignment.options.worldAlignment.chosenUp = nil
+      }
       let reconstruction = try alignment.reconstruction(
         of: photos, matched, images, context.part(from: 0, to: 0.4))
       var masking = masking

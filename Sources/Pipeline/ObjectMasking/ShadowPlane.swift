@@ -41,8 +41,8 @@ struct ShadowPlane: Sendable {
     for _ in 0..<options.attempts {
       let plane = SupportPlaneDetection(options: options.support).run(
         positions: candidates.positions, normals: candidates.normals,
-        up: isUpKnown ? [0, 1, 0] : focus.meanUp, isUpKnown: isUpKnown, focus: focus,
-        cell: 2 * Double(spacing))
+        up: isUpKnown ? reconstruction.worldFrame.vertical : focus.meanUp,
+        isUpKnown: isUpKnown, focus: focus, cell: 2 * Double(spacing))
       guard let plane else { return nil }
       let heights = cloud.positions.map { plane.height(of: SIMD3<Double>($0)) }
       let below = heights.count { $0 < -2 * plane.band }

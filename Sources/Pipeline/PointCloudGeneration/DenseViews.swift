@@ -28,18 +28,23 @@ struct DenseViews: Sendable {
   init(
     _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options
   ) throws {
-    let sources = SourceSelection(options: options.sourceSelection).run(reconstruction)
-    let photos = reconstruction.registered.filter { !sources[$0.index].isEmpty }
+    let sources = SourceSelection(options: options.sourceSelection)
+      .run(reconstruction, viewPixels: options.maximumPixelsPerView)
+    let photos = reconstruction.registered.filter {
+      let detail = reconstruction.photos[$0.index].detail(at: options.maximumPixelsPerView)
+      return !sources[$0.index].isEmpty && detail >= options.minimumDetail
+    }
     guard !photos.isEmpty else {
       throw PipelineError.noSurface(reason: "no two photos share enough points.")
     }
     let points = Self.points(of: reconstruction)
     let position = Dictionary(uniqueKeysWithValues: photos.enumerated().map { ($1, $0) })
     views = try photos.map { photo in
-      View(
+      let limit = reconstruction.photos[photo.index].sharpPixels ?? .max
+      return View(
         photo: photo,
         camera: try images.pinholeCamera(
-          of: photo, in: reconstruction, maximumPixels: options.maximumPixelsPerView),
+          of: photo, in: reconstruction, maximumPixels: min(limit, options.maximumPixelsPerView)),
         cameraFromWorld: reconstruction.poses[photo.index] ?? .identity,
         sources: sources[photo.index].compactMap { position[$0] }, points: points[photo.index],
         objectShare: reconstruction.photos[photo.index].mask?.coverage ?? 1)

@@ -6,6 +6,9 @@ extension PointCloudGeneration {
     /// Pixels of a view at full resolution.
     package var maximumPixelsPerView = 1_000_000
     var sourceSelection = SourceSelection.Options()
+    /// Blurred photos with less than this share of a view's detail contribute no patches: their
+    /// poses are as imprecise as their pixels, and their points spoil those of sharp photos.
+    var minimumDetail = 0.5
     /// Optimization of the patches, at all resolutions.
     package var patches = PatchStereo.Options()
     /// Filter of the patches at full resolution.

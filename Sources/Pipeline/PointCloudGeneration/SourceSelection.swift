@@ -20,7 +20,8 @@ struct SourceSelection {
   var options = Options()
 
   /// The sources of each photo by id, best first; empty for photos that are not registered.
-  func run(_ reconstruction: Reconstruction) -> [[ID<Photo>]] {
+  /// Photos that are blurred at a size of `viewPixels` count less.
+  func run(_ reconstruction: Reconstruction, viewPixels: Int) -> [[ID<Photo>]] {
     let count = reconstruction.photos.count
     var scores = [[Double]](repeating: [Double](repeating: 0, count: count), count: count)
     var shared = [[Int]](repeating: [Int](repeating: 0, count: count), count: count)
@@ -38,6 +39,10 @@ struct SourceSelection {
           shared[b][a] += 1
         }
       }
+    }
+    let detail = reconstruction.photos.map { $0.detail(at: viewPixels) }
+    for photo in 0..<count {
+      for source in 0..<count { scores[photo][source] *= detail[source] }
     }
     return (0..<count).map { photo in
       (0..<count)

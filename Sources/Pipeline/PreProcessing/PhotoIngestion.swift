@@ -56,13 +56,17 @@ package struct PhotoIngestion: Sendable {
       }
     }
     candidates = zip(candidates, originals).filter { $0.1 == nil }.map(\.0)
-    let isBlurred = BlurDetection(options.blur).run(candidates.map(\.sharpness))
-    rejected += zip(candidates, isBlurred).filter(\.1).map {
+    var detail = BlurDetection(options.blur).run(candidates.map(\.sharpness))
+    rejected += zip(candidates, detail).filter { $0.1 == .unusable }.map {
       rejection($0.0, .blurred, "it is blurred; take it again with a steady, focused camera")
     }
-    candidates = zip(candidates, isBlurred).filter { !$0.1 }.map(\.0)
+    candidates = zip(candidates, detail).filter { $0.1 != .unusable }.map(\.0)
+    detail.removeAll { $0 == .unusable }
     resolveMaskOrientations(&candidates)
     var result = assemble(candidates, rejected.sorted { $0.sampleID < $1.sampleID }, files)
+    for (index, detail) in detail.enumerated() {
+      if case .blurred(let pixels) = detail { result.photos[index].sharpPixels = pixels }
+    }
     if options.inspection.usesMasks {
       result.rejectedMasks += masks.masksWithoutPhoto.map {
         RejectedMask(
@@ -200,7 +204,12 @@ package struct PhotoIngestion: Sendable {
     }
     result.rejectedMasks.forEach { notes.warn($0.reason) }
     notes.record("megapixels", PhotoTotals(result.photos).megapixels)
-    if let median = accepted.map(\.sharpness).upperMedian {
+    let blurred = result.photos.filter { $0.sharpPixels != nil }
+    notes.record("blurred", Double(blurred.count))
+    for photo in blurred {
+      notes.log("\(photo.name) is blurred; where other photos show the same, it counts less.")
+    }
+    if let median = accepted.map(\.sharpness.atFullSize).upperMedian {
       notes.record("medianSharpness", median)
     }
   }

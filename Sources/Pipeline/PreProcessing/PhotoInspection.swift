@@ -14,8 +14,7 @@ package struct InspectedPhoto: Sendable {
   package var metadata: PhotoMetadata
   /// XXH64 of the file's bytes.
   package var contentHash: UInt64
-  /// See `RasterImage.sharpness()`.
-  package var sharpness: Double
+  package var sharpness: SharpnessLadder
   /// The whole photo, upright and gray, with at most `PhotoInspection.thumbnailSide` pixels per
   /// side.
   package var thumbnail: RasterImage
@@ -72,9 +71,9 @@ package struct PhotoInspection: Sendable {
       let upright = try ImageCodec.decode(bytes, limits: options.limits)
         .turned(byOrientation: metadata.orientation)
       let reduced = try upright.reduced(to: options.sharpnessPixels).gray
-      let sharpness: Double
+      let sharpness: SharpnessLadder
       do {
-        sharpness = try reduced.sharpness()
+        sharpness = try SharpnessLadder(reduced)
       } catch KernelError.degenerate {
         throw rejection(.blurred, "it is blank: it is badly exposed, or the lens was covered")
       }

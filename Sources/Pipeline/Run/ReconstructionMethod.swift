@@ -140,7 +140,9 @@ struct ReconstructionMethod {
       guard !dense.triangles.isEmpty else { throw PipelineError.emptyCrop }
       let mesh = try Simplification(options: configuration.simplification)
         .run(dense, context.part(from: 0, to: 0.15))
-      return try TextureMapping(options: configuration.textureMapping).run(
+      var texturing = TextureMapping(options: configuration.textureMapping)
+      if !configuration.isObjectMaskingEnabled { texturing.options.presence = nil }
+      return try texturing.run(
         mesh, dense: dense, occluders: parts?.outside ?? Mesh(), reconstruction: reconstruction,
         images: photos.images, context.part(from: 0.15, to: 1))
     }

@@ -26,6 +26,8 @@ package struct TextureMapping: Sendable {
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()
     var candidates = ViewCandidates.Options()
+    /// Nil if the surface isn't that of an object.
+    var presence: ObjectPresence.Options? = ObjectPresence.Options()
     var selection = ViewSelection.Options()
     var blending = ViewBlending.Options()
     var leveling = ColorLeveling.Options()
@@ -81,6 +83,11 @@ package struct TextureMapping: Sendable {
       candidates.outliers.minimumRegionPixels, options.minimumRegionShare * source.pixelsPerPhoto)
     let rated = try ViewCandidates(options: candidates)
       .run(seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
+    // A user who cropped the model decided what is in it.
+    if let presence = options.presence, occluders.triangles.isEmpty {
+      ObjectPresence(options: presence)
+        .run(mesh, seen: seen, views: views, source.reconstruction, context.notes)
+    }
     let labels = try ViewSelection(options: options.selection)
       .run(rated, mesh: mesh, topology: topology, context.part(from: 0.22, to: 0.26))
     let weights = try ViewBlending(options: options.blending)

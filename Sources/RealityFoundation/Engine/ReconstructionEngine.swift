@@ -101,6 +101,7 @@ extension PipelineConfiguration {
     alignment.ordering = SampleOrdering(configuration.sampleOrdering)
     alignment.features.sensitivity = FeatureSensitivity(configuration.featureSensitivity)
     alignment.worldAlignment.knownDistances = options.knownDistances
+    alignment.worldAlignment.chosenUp = options.up
     meshGeneration.closesObject = options.closesObject
     if options.refinesSurface { photoRefinement = PhotoRefinement.Options() }
     meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle

@@ -11,6 +11,8 @@ package struct EngineOptions: Equatable, Sendable {
   package var refinesSurface = false
   /// Measured distances in the scene, which give the scale. Photos are named by their files.
   package var knownDistances: [KnownDistance] = []
+  /// What is up in the model; nil leaves it to the engine.
+  package var up: ChosenUp?
   /// The PNG file of a preview that shows the model from several sides; nil renders none.
   package var previewFile: URL?
   /// Formats of model files that are accepted in addition to USDZ. None by default: a program

@@ -20,11 +20,13 @@ package struct Photo: Hashable, Codable, Sendable {
   package var position: GeographicPosition?
   /// The mask that marks the object; nil without one.
   package var mask: PhotoMask?
+  /// For a blurred photo, the number of pixels of a sharp one with the same detail; otherwise nil.
+  package var sharpPixels: Int?
 
   package init(
     id: ID<Photo>, sampleID: Int, name: String, url: URL, width: Int, height: Int,
     orientation: Int, camera: ID<Camera>, position: GeographicPosition? = nil,
-    mask: PhotoMask? = nil
+    mask: PhotoMask? = nil, sharpPixels: Int? = nil
   ) {
     self.id = id
     self.sampleID = sampleID
@@ -36,6 +38,15 @@ package struct Photo: Hashable, Codable, Sendable {
     self.camera = camera
     self.position = position
     self.mask = mask
+    self.sharpPixels = sharpPixels
+  }
+}
+
+extension Photo {
+  /// The detail of the photo at a size of `pixels`, as a share of the pixels: 1 unless it is
+  /// blurred.
+  package func detail(at pixels: Int) -> Double {
+    min(1, Double(sharpPixels ?? pixels) / Double(max(1, pixels)))
   }
 }
 

@@ -50,10 +50,17 @@ package struct WorldFrame: Hashable, Codable, Sendable {
   /// The source of the up direction.
   package enum Up: String, Hashable, Codable, Sendable {
     case gravity, gps, supportPlane, cameras, unknown
+    /// The user named the side of the photos that was up.
+    case chosen
   }
 
   package var scale: Scale
   package var up: Up
+  /// The direction opposite to gravity when the photos were taken, if the user had the object
+  /// turned so that it isn't +y.
+  package var turnedVertical: SIMD3<Double>?
+  /// The direction opposite to gravity when the photos were taken.
+  package var vertical: SIMD3<Double> { turnedVertical ?? [0, 1, 0] }
 
   package init(scale: Scale = .arbitrary, up: Up = .unknown) {
     self.scale = scale

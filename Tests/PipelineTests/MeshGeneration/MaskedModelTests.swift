@@ -102,10 +102,10 @@ import Testing
       ball.footprints.append(0.02)
       ball.photoOffsets.append(0)
     }
-    #expect(SupportPlane(under: ball, up: .cameras) == nil)
+    #expect(SupportPlane(under: ball, in: WorldFrame(up: .cameras)) == nil)
     let upper = ball.filtered(by: ball.positions.map { $0.y > -0.5 })
-    let plane = SupportPlane(under: upper, up: .cameras)
+    let plane = SupportPlane(under: upper, in: WorldFrame(up: .cameras))
     #expect(plane.map { abs($0.offset + 0.5) < 0.02 } == true)
-    #expect(SupportPlane(under: upper, up: .unknown) == nil)
+    #expect(SupportPlane(under: upper, in: WorldFrame(up: .unknown)) == nil)
   }
 }

@@ -16,6 +16,8 @@ extension ObservationRefinement {
     package var minimumConfirmedShare = 0.25
     /// Minimum number of observations that keep a photo registered.
     package var minimumObservations = 10
+    /// The same for a blurred photo, as a share of the median photo's observations.
+    package var minimumShareIfBlurred = 0.05
     /// If a smaller fraction of the points remains, the refinement is discarded: the photos don't
     /// show what the poses predict.
     package var minimumPointShare = 0.5

@@ -27,12 +27,15 @@ package struct ObservationRefinement: Sendable {
       map, features: features, photos: reconstruction.photos, images: images, options,
       context.part(from: 0, to: 0.2))
     try search.refine(&map, context.part(from: 0.2, to: 0.4))
-    try adjustAndFilter(&map, &adjustment, context.part(from: 0.4, to: 0.5))
+    try adjustAndFilter(
+      &map, reconstruction.photos, &adjustment, context.part(from: 0.4, to: 0.5))
     let found = try search.extend(&map, context.part(from: 0.5, to: 0.75))
     context.notes.record("newObservations", Double(found))
-    try adjustAndFilter(&map, &adjustment, context.part(from: 0.75, to: 0.85))
+    try adjustAndFilter(
+      &map, reconstruction.photos, &adjustment, context.part(from: 0.75, to: 0.85))
     try adjustment.simplifyCameras(&map, context.control.part(from: 0.85, to: 0.9))
-    try adjustAndFilter(&map, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
+    try adjustAndFilter(
+      &map, reconstruction.photos, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
     var refined = map.reconstruction(like: reconstruction, features: features)
     let losesTooManyPoints =
       Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
@@ -52,8 +55,8 @@ package struct ObservationRefinement: Sendable {
   /// Runs a global adjustment and removes what then contradicts it: observations, and photos with
   /// too few remaining observations, whose poses would no longer be updated.
   private func adjustAndFilter(
-    _ map: inout SparseMap, _ adjustment: inout MapAdjustment, isFinal: Bool = false,
-    _ context: StageContext
+    _ map: inout SparseMap, _ photos: [Photo], _ adjustment: inout MapAdjustment,
+    isFinal: Bool = false, _ context: StageContext
   ) throws {
     let pixel =
       map.photos.cameras.map { options.workingPixel(width: $0.width, height: $0.height) }
@@ -69,9 +72,17 @@ package struct ObservationRefinement: Sendable {
         bounds.lowerBound), bounds.upperBound)
     let points = PointTriangulation(options: .init(maximumError: error * pixel))
     try points.filter(Array(map.isTriangulated.indices), in: &map, context.control)
-    for photo in map.registered where map.activeCount(ofPhoto: photo) < options.minimumObservations
-    {
-      map.remove(photo)
-    }
+    for photo in weakPhotos(map, photos) { map.remove(photo) }
+  }
+
+  /// The photos with too few active observations. Those of a blurred photo are imprecise, and if
+  /// most of them are rejected, the rest agrees by chance.
+  private func weakPhotos(_ map: SparseMap, _ photos: [Photo]) -> [Int] {
+    let counts = map.registered.map { map.activeCount(ofPhoto: $0) }
+    let typical = options.minimumShareIfBlurred * Double(counts.upperMedian ?? 0)
+    return zip(map.registered, counts).filter { photo, count in
+      count < options.minimumObservations
+        || photos[photo].sharpPixels != nil && Double(count) < typical
+    }.map(\.0)
   }
 }

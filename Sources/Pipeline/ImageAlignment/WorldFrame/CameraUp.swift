@@ -21,18 +21,27 @@ struct CameraUp: Sendable {
 
   /// Unit vector in the frame of the reconstruction.
   var direction: SIMD3<Double>
+  /// Whether the opposite direction is much less likely.
+  var isSignCertain = true
 
   init(_ reconstruction: Reconstruction, _ options: Options = Options()) {
     let rotations = reconstruction.poses.compactMap { $0?.rotation.conjugate }
     let direction = Self.meanDirection(rotations, options)
     let level = LevelCameras(rotations, options: options.level)
     if let other = level.direction(),
-      level.cost(of: other) + options.minimumLevelGain < level.cost(of: direction)
+      level.cost(of: other.up) + options.minimumLevelGain < level.cost(of: direction)
     {
-      self.direction = other
+      (self.direction, isSignCertain) = other
     } else {
       self.direction = direction
     }
+  }
+
+  /// The up direction if this side of all photos was up.
+  init(_ reconstruction: Reconstruction, side: ChosenUp.PhotoSide, _ options: Options = Options()) {
+    let roll = Quaternion(angle: side.angle, axis: [0, 0, 1])
+    let rotations = reconstruction.poses.compactMap { $0.map { $0.rotation.conjugate * roll } }
+    direction = Self.meanDirection(rotations, options)
   }
 
   /// The up direction if all cameras are held upright.

@@ -17,6 +17,8 @@ struct LevelCameras: Sendable {
     /// If fewer than this share of the photos are upright, the sign follows from the cameras'
     /// looking down.
     var minimumUprightShare = 0.2
+    /// The sign is certain if cameras look down by an angle with at least this sine, on average.
+    var minimumDownwardSine = 0.1
     var seed: UInt64 = 0x5eed_0002
 
     init() {}
@@ -46,8 +48,9 @@ struct LevelCameras: Sendable {
     return sum / Double(max(1, right.count))
   }
 
-  /// The direction with the lowest cost; nil if the photos don't determine one.
-  func direction() -> SIMD3<Double>? {
+  /// The direction with the lowest cost, and whether it may as well be the opposite one; nil if the
+  /// photos don't determine one.
+  func direction() -> (up: SIMD3<Double>, isSignCertain: Bool)? {
     guard right.count >= 2 else { return nil }
     var random = SplitMix64(seed: options.seed)
     var best: (up: SIMD3<Double>, cost: Double)?
@@ -64,7 +67,8 @@ struct LevelCameras: Sendable {
     }
     guard var up = best?.up else { return nil }
     for _ in 0..<4 { up = refined(up) }
-    return isUpsideDown(up) ? -up : up
+    let vote = upVote(for: up)
+    return (vote.score < 0 ? -up : up, vote.isCertain)
   }
 
   /// The common normal of the image axes that are horizontal if `up` is nearly right.
@@ -82,12 +86,13 @@ struct LevelCameras: Sendable {
     return x * x <= y * y + options.sideCost
   }
 
-  private func isUpsideDown(_ up: SIMD3<Double>) -> Bool {
+  /// A score that is negative if the cameras are upside down or look up.
+  private func upVote(for up: SIMD3<Double>) -> (score: Double, isCertain: Bool) {
     let upright = right.indices.filter { isUpright($0, up) }
-    let votes = upright.reduce(0.0) { $0 + top[$1].dot(up) }
     guard Double(upright.count) >= options.minimumUprightShare * Double(right.count) else {
-      return back.reduce(0.0) { $0 + $1.dot(up) } < 0
+      let downward = back.reduce(0.0) { $0 + $1.dot(up) } / Double(max(1, back.count))
+      return (downward, abs(downward) >= options.minimumDownwardSine)
     }
-    return votes < 0
+    return (upright.reduce(0.0) { $0 + top[$1].dot(up) }, true)
   }
 }

@@ -6,9 +6,12 @@ extension WorldAlignment {
     package var knownDistances: [KnownDistance] = []
     /// Gravity and depth by sample ID; they also take precedence over GPS.
     package var readings: [Int: SensorReading] = [:]
+    /// The up direction that the user chose; it takes precedence over all others.
+    package var chosenUp: ChosenUp?
     var gravity = GravityUp.Options()
     var depthMaps = DepthMapScale.Options()
     var cameraUp = CameraUp.Options()
+    var standing = StandingEnd.Options()
     /// Expected error of a GPS position in meters.
     package var gpsNoise = 5.0
     /// Minimum spread of the positions, as a multiple of their error.

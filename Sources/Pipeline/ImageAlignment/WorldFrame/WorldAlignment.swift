@@ -5,45 +5,58 @@ import SceneModel
 ///
 /// +y is up and the object stands on y = 0, centered in x and z on the points that most photos
 /// show. Scale, in order of preference: known distances, depth maps, GPS; otherwise the median
-/// distance from the cameras to the object is defined as one meter. Up direction, in order of
-/// preference: gravity, GPS, the plane that supports the object, the orientation of the cameras,
-/// which people hold upright.
+/// distance from the cameras to the object is defined as one meter. See `UpEstimation` for the up
+/// direction.
 package struct WorldAlignment: Sendable {
   package var options: Options
 
   package init(_ options: Options = Options()) { self.options = options }
 
   /// Returns the same reconstruction in the new world frame; unchanged without registered photos.
-  package func run(_ reconstruction: Reconstruction, _ context: StageContext) -> Reconstruction {
-    let centers = reconstruction.poses.compactMap { $0?.center }
+  ///
+  /// `upright` has poses of photos, by ID, in a frame whose +y is up.
+  package func run(
+    _ reconstruction: Reconstruction, upright: [RigidTransform?] = [], _ context: StageContext
+  ) -> Reconstruction {
     guard let first = reconstruction.registered.first, !reconstruction.points.isEmpty else {
       return reconstruction
     }
     let object = ObjectRegion(reconstruction)
-    var frame = WorldFrame()
-    let gravityUp = GravityUp(options: options.gravity)
-      .run(options.readings, reconstruction, context.notes)
-    let priorUp = gravityUp ?? CameraUp(reconstruction, options.cameraUp).direction
-    var up = priorUp
-    frame.up = gravityUp == nil ? .cameras : .gravity
-    let plane =
-      options.findsSupport
-      ? SparseSupportDetection(options: options).run(object, centers: centers, up: priorUp) : nil
-    if gravityUp == nil, let plane { (up, frame.up) = (plane.normal, .supportPlane) }
-    let gps = GPSFit(reconstruction, up: up, options)
-    if gravityUp == nil, let gpsUp = gps?.up { (up, frame.up) = (gpsUp, .gps) }
-
+    let estimate = UpEstimation(options: options)
+      .run(reconstruction, object, upright: upright, context.notes)
+    var frame = WorldFrame(up: estimate.source)
     let scale: Double
-    (scale, frame.scale) = self.scale(reconstruction, object, gps, context.notes)
-    let level = Self.leveling(up)
-    let front = level * ((reconstruction.poses[first.index]?.center ?? .zero) - object.center)
-    let yaw = gps?.yaw(leveling: level) ?? -atan2(front.x, front.z)
-    let rotation = (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+    (scale, frame.scale) = self.scale(reconstruction, object, estimate.gps, context.notes)
+    let front = (reconstruction.poses[first.index]?.center ?? .zero) - object.center
+    let level = Self.leveling(estimate.up)
+    let yaw = estimate.gps?.yaw(leveling: level) ?? Self.yaw(facing: level * front)
+    var rotation = (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+    var (up, plane) = (estimate.up, estimate.plane)
+    if case .model(let axis) = options.chosenUp, axis != .y {
+      up = rotation.conjugate * axis.direction
+      plane = nil
+      rotation = turned(up: up, front: front)
+      frame.turnedVertical = rotation * estimate.up
+    }
     let ground = ground(object, plane, up)
     let origin = object.center - up * ((object.center - ground).dot(up))
     let worldFromOld = SimilarityTransform(
       scale: scale, rotation: rotation, translation: -scale * (rotation * origin))
     return reconstruction.moved(by: worldFromOld, frame)
+  }
+
+  /// The rotation to a frame in which another direction is up.
+  private func turned(up: SIMD3<Double>, front: SIMD3<Double>) -> Quaternion {
+    let level = Self.leveling(up)
+    let facing = level * front
+    let isAbove = hypot(facing.x, facing.z) < 0.1 * abs(facing.y)
+    let yaw = isAbove ? 0 : Self.yaw(facing: facing)
+    return (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+  }
+
+  /// The rotation about +y that turns a direction to the front, +z.
+  private static func yaw(facing direction: SIMD3<Double>) -> Double {
+    -atan2(direction.x, direction.z)
   }
 
   /// Meters per unit, and their source.

@@ -32,7 +32,8 @@ import Testing
   }
 
   @Test(arguments: [
-    [], ["-d", "full", "-o", "sequential", "-f", "high", "--no-object-masking", "--refine"],
+    [], ["--up=-y"],
+    ["-d", "full", "-o", "sequential", "-f", "high", "--no-object-masking", "--refine"],
     [
       "-d", "custom", "--max-polygons", "900", "--texture-side", "1024", "--maps",
       "color,occlusion", "--texture-format", "jpeg:0.7", "--keep-gaps", "--quads", "--crop",
@@ -50,6 +51,7 @@ import Testing
     #expect(run.noObjectMasking == batch.noObjectMasking)
     #expect(run.engine.surface.keepGaps == batch.surface.keepGaps)
     #expect(run.engine.surface.refine == batch.surface.refine)
+    #expect(run.engine.frame.up?.direction == batch.frame.up?.direction)
     #expect(run.shape.crop == batch.shape.crop && run.shape.quads == batch.shape.quads)
     // No option is lost.
     for word in words where word.hasPrefix("--") { #expect(batch.modelArguments.contains(word)) }

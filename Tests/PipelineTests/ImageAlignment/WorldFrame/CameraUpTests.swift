@@ -1,5 +1,6 @@
 import Foundation
 import SceneModel
+import TestSupport
 import Testing
 
 @testable import Pipeline
@@ -54,5 +55,38 @@ import Testing
 
   @Test func camerasLookingDownHaveTheirBackUp() {
     #expect(errorDegrees(ring(pitchDegrees: 89) { _ in 0 }) < 5)
+  }
+
+  /// A ring of level cameras on their side looks the same from above and from below.
+  @Test func levelCamerasOnTheirSideLeaveTheSignOpen() {
+    #expect(!CameraUp(ring(pitchDegrees: 0) { _ in 1 }).isSignCertain)
+    #expect(CameraUp(ring(pitchDegrees: 25) { _ in 1 }).isSignCertain)
+    #expect(CameraUp(ring(pitchDegrees: 0) { _ in 0 }).isSignCertain)
+  }
+
+  @Test(arguments: ChosenUp.PhotoSide.allCases) func chosenSideIsUp(side: ChosenUp.PhotoSide) {
+    let turns = Int((side.angle / (.pi / 2)).rounded())
+    let up = CameraUp(ring(pitchDegrees: 20) { _ in -turns }, side: side).direction
+    #expect((up - [0, 1, 0]).length < 0.02)
+  }
+
+  /// A cone stands on its base.
+  @Test(arguments: [1.0, -1]) func objectsStandOnTheirWiderEnd(sign: Double) {
+    var random = SeededGenerator(seed: 4)
+    let cone = (0..<2000).map { _ -> SIMD3<Double> in
+      let (height, angle) = (random.uniform(), 2 * Double.pi * random.uniform())
+      return [(1.2 - height) * cos(angle), sign * height, (1.2 - height) * sin(angle)]
+    }
+    #expect(StandingEnd().isUpsideDown(cone, up: [0, 1, 0]) == (sign < 0))
+    #expect(StandingEnd().isUpsideDown(cone, up: [0, -1, 0]) == (sign > 0))
+  }
+
+  @Test func equalEndsDecideNothing() {
+    var random = SeededGenerator(seed: 4)
+    let cylinder = (0..<2000).map { _ -> SIMD3<Double> in
+      let angle = 2 * Double.pi * random.uniform()
+      return [cos(angle), random.uniform(), sin(angle)]
+    }
+    for up in [1.0, -1] { #expect(!StandingEnd().isUpsideDown(cylinder, up: [0, up, 0])) }
   }
 }

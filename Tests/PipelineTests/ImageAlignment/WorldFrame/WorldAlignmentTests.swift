@@ -84,6 +84,67 @@ import Testing
     }
   }
 
+  /// The object is turned, stands on the ground, and the vertical is remembered.
+  @Test(arguments: ChosenUp.Axis.allCases) func chosenAxisIsUp(axis: ChosenUp.Axis) {
+    var alignment = WorldAlignment()
+    let scene = scene(table: true)
+    let automatic = alignment.run(scene, StageContext())
+    alignment.options.chosenUp = .model(axis)
+    let turned = alignment.run(scene, StageContext())
+    // The same point, seen from the centroid.
+    func offset(_ scene: Reconstruction) -> SIMD3<Double> {
+      let points = scene.points.prefix(700).map(\.position)
+      return points[0] - points.reduce(.zero, +) / 700
+    }
+    #expect(abs(offset(turned).y - offset(automatic).dot(axis.direction)) < 1e-9)
+    #expect(abs(offset(turned).length - offset(automatic).length) < 1e-9)
+    let table = turned.points.suffix(400).map { $0.position.dot(turned.worldFrame.vertical) }
+    #expect((table.max() ?? 1) - (table.min() ?? 0) < 0.02)
+    #expect((turned.worldFrame.turnedVertical == nil) == (axis == .y))
+    let ball = turned.points.prefix(700).map(\.position.y)
+    #expect(ball.count { $0 > -0.02 } > 650)
+  }
+
+  /// The cameras were turned upside down, and the user says so.
+  @Test func chosenSideOfThePhotosIsUp() throws {
+    var alignment = WorldAlignment()
+    alignment.options.chosenUp = .photos(.bottom)
+    var scene = scene(table: false)
+    let roll = Quaternion(angle: .pi, axis: [0, 0, 1])
+    scene.poses = scene.poses.map { pose in
+      pose.map {
+        RigidTransform(rotation: roll * $0.rotation, translation: roll * $0.translation)
+      }
+    }
+    let aligned = alignment.run(scene, StageContext())
+    #expect(aligned.worldFrame.up == .chosen)
+    let pose = try #require(aligned.poses[0])
+    let truth = SyntheticScene().poses[0].rotation
+    let up = (roll * pose.rotation).conjugate * (truth * SIMD3<Double>(0, 1, 0))
+    #expect(acos(min(1, up.y)) * 180 / .pi < 2)
+  }
+
+  /// The up direction of another alignment of some of the photos.
+  @Test func upOfAnotherAlignmentIsUsed() throws {
+    var scene = scene(table: false)
+    // On their side, as the other alignment knows.
+    let roll = Quaternion(angle: 1.2, axis: [0, 0, 1])
+    scene.poses = scene.poses.map { pose in
+      pose.map {
+        RigidTransform(rotation: roll * $0.rotation, translation: roll * $0.translation)
+      }
+    }
+    var upright = SyntheticScene().poses.map { pose -> RigidTransform? in
+      RigidTransform(rotation: roll * pose.rotation, translation: roll * pose.translation)
+    }
+    upright[1] = nil
+    let aligned = WorldAlignment().run(scene, upright: upright, StageContext())
+    let pose = try #require(aligned.poses[0])
+    let truth = SyntheticScene().poses[0].rotation
+    let up = pose.rotation.conjugate * (roll * (truth * SIMD3<Double>(0, 1, 0)))
+    #expect(acos(min(1, up.y)) * 180 / .pi < 1)
+  }
+
   @Test func gravityMayBeWrongInSomePhotos() throws {
     var alignment = WorldAlignment()
     alignment.options.readings = gravity(noise: 0.01)

@@ -1,0 +1,25 @@
+import ArgumentParser
+import Pipeline
+
+/// What is up in the model, if the user knows better.
+struct UpArguments: ParsableArguments {
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "What is up: the side of the photos that was up when they were taken (top, bottom, left, "
+        + "right), or an axis of the model that results without this option (x, -x, y, -y, z, -z).",
+      valueName: "direction"))
+  var up: UpArgument?
+}
+
+/// A name of `ChosenUp`.
+struct UpArgument: ExpressibleByArgument {
+  static let allValueStrings = ChosenUp.names
+
+  let direction: ChosenUp
+
+  init?(argument: String) {
+    guard let direction = ChosenUp(name: argument) else { return nil }
+    self.direction = direction
+  }
+}

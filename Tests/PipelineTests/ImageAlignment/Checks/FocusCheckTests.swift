@@ -1,0 +1,54 @@
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct FocusCheckTests {
+  /// Photos around a ball with a feature for each of its points, and `others` features without a
+  /// point in the middle of each photo.
+  private func scene(
+    others: Int, keeping isKept: (SIMD3<Double>) -> Bool = { _ in true }
+  ) -> (Reconstruction, [FeatureSet]) {
+    var scene = SyntheticScene().reconstruction
+    var features = scene.photos.map { _ in FeatureSet() }
+    for index in scene.points.indices {
+      for (number, observation) in scene.points[index].track.enumerated() {
+        let photo = observation.photo.index
+        scene.points[index].track[number].feature = Int32(features[photo].count)
+        features[photo].positions.append(SIMD2<Float>(observation.pixel))
+      }
+    }
+    scene.points = scene.points.filter { isKept($0.position) }
+    var random = SeededGenerator(seed: 3)
+    for photo in scene.photos {
+      let camera = scene.camera(of: photo.id)
+      let size = SIMD2(Float(camera.width), Float(camera.height))
+      for _ in 0..<others {
+        let offset = SIMD2(Float(random.uniform() - 0.5), Float(random.uniform() - 0.5))
+        features[photo.id.index].positions.append(size * (0.5 + 0.1 * offset))
+      }
+    }
+    return (scene, features)
+  }
+
+  private func doubts(_ scene: (Reconstruction, [FeatureSet])) -> Int {
+    let notes = StageNotes()
+    FocusCheck().run(scene.0, scene.1, notes)
+    return notes.doubts.count
+  }
+
+  @Test func observedFeaturesInTheMiddleAreNoDoubt() {
+    #expect(doubts(scene(others: 0)) == 0)
+    #expect(doubts(scene(others: 10)) == 0)
+  }
+
+  /// The middle of the photos has many features, but none of a point.
+  @Test func featuresWithoutPointsInTheMiddleAreADoubt() {
+    #expect(doubts(scene(others: 2000)) == 1)
+  }
+
+  @Test func fewFeaturesSayNothing() {
+    #expect(doubts(scene(others: 0) { $0.length > 10 }) == 0)
+  }
+}

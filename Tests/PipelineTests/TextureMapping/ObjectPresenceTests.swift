@@ -1,0 +1,40 @@
+import Kernels
+import SceneModel
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+@Suite struct ObjectPresenceTests {
+  /// A triangle at a place that all photos see with an area of `area` pixels.
+  private func doubts(at place: SIMD3<Float>, area: Float) -> [String] {
+    let scene = SyntheticScene().reconstruction
+    let mesh = Mesh(
+      positions: [place, place + [0.01, 0, 0], place + [0, 0.01, 0]],
+      triangles: [Triangle(0, 1, 2)])
+    let observation = FaceObservation(
+      face: 0, area: area, cosine: 1, gradient: 1, color: SIMD3(repeating: 100))
+    let notes = StageNotes()
+    let seen = FaceViews(
+      faceCount: 1, observationsByView: scene.registered.map { _ in [observation] })
+    ObjectPresence().run(mesh, seen: seen, views: scene.registered, scene, notes)
+    return notes.doubts
+  }
+
+  private var pixels: Float {
+    let camera = SyntheticScene().reconstruction.cameras[0]
+    return Float(camera.width * camera.height)
+  }
+
+  @Test func aModelInTheMiddleIsNoDoubt() {
+    #expect(doubts(at: .zero, area: 0.1 * pixels).isEmpty)
+  }
+
+  @Test func aSpeckIsADoubt() {
+    #expect(doubts(at: .zero, area: 1e-4 * pixels).count == 1)
+  }
+
+  @Test func aModelBesideTheMiddleIsADoubt() {
+    #expect(doubts(at: [0, 40, 0], area: 0.1 * pixels).count == 1)
+  }
+}
