@@ -37,13 +37,6 @@ import Testing
         == [.preProcessing, .alignment, WorkUnit(stage: .objectMasking), .densification])
   }
 
-  @Test func withoutObjectMaskingNoMasksAreEstimated() {
-    var configuration = Session.Configuration()
-    configuration.isObjectMaskingEnabled = false
-    let plan = RunPlan([model("a", .reduced)], configuration: configuration)
-    #expect(!plan.units.contains(WorkUnit(stage: .objectMasking)))
-  }
-
   @Test func customDetailFollowsTheConfiguration() {
     var configuration = Session.Configuration()
     configuration.customDetailSpecification.maximumPolygonCount = 60_000

@@ -33,6 +33,9 @@ package struct RunReport: Codable, Sendable {
     package var status: Status
     /// Why it is not registered, as a sentence.
     package var reason: String?
+    /// How well its estimated mask agrees with those of all photos, 0…1: the intersection over
+    /// union of the mask and the outline of their visual hull. Nil without an estimated mask.
+    package var maskAgreement: Double?
   }
 
   /// The version of the report's format.

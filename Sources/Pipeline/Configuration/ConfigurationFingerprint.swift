@@ -36,6 +36,7 @@ enum ConfigurationFingerprint {
   static let stages: [String: PipelineStage] = [
     // Alignment masks an object that was moved.
     "objectMasking": .imageAlignment, "movedObjects": .imageAlignment,
+    "sky": .objectMasking,
     "pointCloudGeneration": .pointCloudGeneration,
     "meshGeneration": .meshGeneration, "photoRefinement": .meshGeneration,
     "simplification": .textureMapping, "textureMapping": .textureMapping,

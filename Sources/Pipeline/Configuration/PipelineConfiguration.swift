@@ -9,6 +9,7 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var ingestion = PhotoIngestion.Options()
   package var alignment = ImageAlignment.Options()
   var objectMasking = ObjectMasking.Options()
+  var sky = SkyDetection.Options()
   var movedObjects = MovedObjectAlignment.Options()
   package var pointCloudGeneration = PointCloudGeneration.Options()
   package var meshGeneration = MeshGeneration.Options()

@@ -119,7 +119,9 @@ package struct MeshGeneration {
     _ cloud: PointCloud, _ reconstruction: Reconstruction, _ silhouettes: Silhouettes?,
     _ support: SupportPlane?, _ context: StageContext
   ) throws -> Selection {
-    if let silhouettes, silhouettes.share >= options.sufficientMaskShare {
+    if options.isolatesObject, let silhouettes,
+      silhouettes.share >= options.sufficientMaskShare
+    {
       let isKept = try SceneTrimming(options: options.sceneTrimming)
         .run(cloud, reconstruction, context)
       context.notes.record("objectPoints", Double(isKept.count { $0 }))

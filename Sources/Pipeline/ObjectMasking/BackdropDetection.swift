@@ -63,7 +63,7 @@ struct BackdropDetection: Sendable {
   /// The backdrop of a photo; nil if it shows none.
   private func backdrop(of photo: RasterImage) -> RasterImage? {
     let border = border(of: photo)
-    let isSmooth = smoothPixels(of: photo.gray)
+    let isSmooth = photo.gray.smoothPixels(maximumRange: options.maximumRange)
     let colors = colors(of: photo) { border[$0] && isSmooth[$0] }
     let isPlain = (0..<photo.width * photo.height).map { pixel in
       isSmooth[pixel] && colors.contains { isSimilar(photo, pixel, to: $0) }
@@ -104,21 +104,6 @@ struct BackdropDetection: Sendable {
     }
   }
 
-  /// Whether each pixel is surrounded by similar ones.
-  private func smoothPixels(of gray: RasterImage) -> [Bool] {
-    (0..<gray.width * gray.height).map { pixel in
-      let (x, y) = (pixel % gray.width, pixel / gray.width)
-      var (low, high) = (UInt8.max, UInt8.min)
-      for v in max(0, y - 1)...min(gray.height - 1, y + 1) {
-        for u in max(0, x - 1)...min(gray.width - 1, x + 1) {
-          let value = gray.pixels[v * gray.width + u]
-          (low, high) = (min(low, value), max(high, value))
-        }
-      }
-      return high - low <= options.maximumRange
-    }
-  }
-
   /// Whether each pixel belongs to the border.
   private func border(of photo: RasterImage) -> [Bool] {
     let width = max(1, Int(options.borderWidth * Double(min(photo.width, photo.height))))
@@ -148,5 +133,23 @@ struct BackdropDetection: Sendable {
       }
     }
     return result
+  }
+}
+
+extension RasterImage {
+  /// Whether the values of a gray image differ by at most `maximumRange` in the window of three by
+  /// three pixels around each pixel.
+  func smoothPixels(maximumRange: UInt8) -> [Bool] {
+    (0..<width * height).map { pixel in
+      let (x, y) = (pixel % width, pixel / width)
+      var (low, high) = (UInt8.max, UInt8.min)
+      for v in max(0, y - 1)...min(height - 1, y + 1) {
+        for u in max(0, x - 1)...min(width - 1, x + 1) {
+          let value = pixels[v * width + u]
+          (low, high) = (min(low, value), max(high, value))
+        }
+      }
+      return high - low <= maximumRange
+    }
   }
 }

@@ -37,8 +37,14 @@ struct MovedObjectAlignment {
     {
       return joined
     }
-    return AlignedPhotos(
-      reconstruction: try alignment.finish(rigid: try map.get(), matched, photos.images, rest))
+    let rigid = try alignment.finish(rigid: try map.get(), matched, photos.images, rest)
+    if placements.count > 1 {
+      context.notes.doubt(
+        "The object was moved between photos (\(placements.count) groups), but its sides could not "
+          + "be joined: the model may show parts of it, or its surroundings. Take more photos of "
+          + "what both sides share, or fill the frame with the object.")
+    }
+    return AlignedPhotos(reconstruction: rigid)
   }
 
   /// The placements by a map and by pairs of photos, or by these alone.
@@ -60,46 +66,69 @@ struct MovedObjectAlignment {
     guard !placements.isEmpty else { return nil }
     let used = try maskedPlacements(
       placements, matched, photos.images, context.part(from: 0, to: 0.5))
-    // A moving object has one placement if all photos agree on it.
-    let needed = matched.graph.isObjectOnly ? 1 : 2
-    guard used.count >= needed else { return nil }
+    guard isMotionExplained(used.count, matched.graph) else { return nil }
     var first = ObjectMasking.Result(photoCount: matched.photos.count)
     for placement in used { first.complete(with: placement.masks) }
     let masked = photos.masked(
       by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
-    do {
-      let notes = StageNotes()
-      var reconstruction = try alignment.run(
-        masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
-        upright: upright(used),
-        StageContext(control: context.control.part(from: 0.5, to: 0.8), notes: notes))
-      let joined = used.map(\.photos).filter {
-        $0.contains { reconstruction.poses[$0] != nil }
-      }
-      let largest = placements.map(\.count).max() ?? 0
-      guard joined.count >= needed,
-        Double(reconstruction.registered.count) >= options.minimumShare * Double(largest)
-      else { return nil }
-      context.notes.add(notes)
-      context.notes.record("joinedPlacements", Double(joined.count))
-      report(joined, context.notes)
-      var evidence = MaskingEvidence(matched.graph, features: matched.features)
-      evidence.placements = try used.compactMap {
-        try $0.evidence(in: reconstruction, masked.images)
-      }
-      for index in reconstruction.photos.indices { reconstruction.photos[index].mask = nil }
-      let last = try masking.run(
-        reconstruction, images: photos.images, evidence: evidence,
-        StageContext(control: context.control.part(from: 0.8, to: 1)))
-      var masks = last ?? first
-      masks.complete(with: first)
-      return AlignedPhotos(
-        reconstruction: reconstruction,
-        masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
-    } catch let error as PipelineError {
-      context.notes.log("The placements of the object were not joined: \(error)")
-      return nil
+    guard
+      let (joined, notes) = try joinedAlignment(
+        of: masked, used, placements, matched, context.part(from: 0.5, to: 0.8).control)
+    else { return nil }
+    var reconstruction = joined
+    context.notes.add(notes)
+    report(used.map(\.photos).filter { reconstruction.contains($0) }, context.notes)
+    var evidence = MaskingEvidence(matched.graph, features: matched.features)
+    evidence.placements = try used.compactMap {
+      try $0.evidence(in: reconstruction, masked.images)
     }
+    for index in reconstruction.photos.indices { reconstruction.photos[index].mask = nil }
+    let last = try masking.run(
+      reconstruction, images: photos.images, evidence: evidence,
+      StageContext(control: context.control.part(from: 0.8, to: 1)))
+    var masks = last ?? first
+    masks.complete(with: first)
+    return AlignedPhotos(
+      reconstruction: reconstruction,
+      masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
+  }
+
+  /// The alignment of all photos by the masked object, with its notes. If photos remain that it
+  /// can't register, it is repeated with more features: the object may be small in the photos.
+  private func joinedAlignment(
+    of masked: PhotoSet, _ used: [MaskedPlacement], _ placements: [[Int]],
+    _ matched: ImageAlignment.MatchedPhotos, _ control: KernelControl
+  ) throws -> (Reconstruction, StageNotes)? {
+    let largest = placements.map(\.count).max() ?? 0
+    var best: (reconstruction: Reconstruction, notes: StageNotes)?
+    for sensitivity in [alignment.options.features.sensitivity, .high] {
+      var alignment = alignment
+      alignment.options.features.sensitivity = sensitivity
+      let notes = StageNotes()
+      do {
+        let result = try alignment.run(
+          masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
+          upright: upright(used), StageContext(control: control, notes: notes))
+        let count = result.registered.count
+        let isJoined = isMotionExplained(used.count { result.contains($0.photos) }, matched.graph)
+        if isJoined, Double(count) >= options.minimumShare * Double(largest),
+          count > best?.reconstruction.registered.count ?? 0
+        {
+          best = (result, notes)
+        }
+        if isJoined, count == matched.photos.count { break }
+      } catch let error as PipelineError {
+        notes.log("The placements of the object were not joined: \(error)")
+      }
+      if alignment.options.features.sensitivity == .high { break }
+    }
+    return best
+  }
+
+  /// Whether this number of placements explains that the object moves: one does if all photos agree
+  /// on it.
+  private func isMotionExplained(_ placementCount: Int, _ graph: ViewGraph) -> Bool {
+    placementCount >= (graph.isObjectOnly ? 1 : 2)
   }
 
   /// The placements whose photos show a separate object.
@@ -127,6 +156,7 @@ struct MovedObjectAlignment {
   }
 
   private func report(_ placements: [[Int]], _ notes: StageNotes) {
+    notes.record("joinedPlacements", Double(placements.count))
     let counts = placements.map { String($0.count) }.joined(separator: ", ")
     notes.log(
       placements.count > 1
@@ -159,4 +189,9 @@ struct MovedObjectAlignment {
       return nil
     }
   }
+}
+
+extension Reconstruction {
+  /// Whether one of the photos is registered.
+  fileprivate func contains(_ photos: [Int]) -> Bool { photos.contains { poses[$0] != nil } }
 }

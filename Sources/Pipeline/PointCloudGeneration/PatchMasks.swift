@@ -28,7 +28,7 @@ struct PatchMasks: Sendable {
       let mask = try images.pinholeMask(
         view.photo, of: reconstruction, maximumPixels: maximumPixels)
     else { return }
-    let isReduced = map.view.width < mask.width
+    let isReduced = map.view.width < view.camera.width
     // Boundary pixels mix in background color. At half resolution they stay: one of their four
     // pixels may be fully inside.
     try map.removePatches(

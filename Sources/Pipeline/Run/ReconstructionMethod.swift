@@ -50,11 +50,10 @@ struct ReconstructionMethod {
     }.reconstruction
   }
 
-  /// Estimates the masks of the object, if it is to be isolated and the photos have none, and
-  /// writes the masks in use if configured.
+  /// Estimates masks if the photos have none, of the object if it is to be isolated, otherwise of
+  /// all but the sky, and writes the masks in use if configured.
   func maskObject(_ photos: PhotoSet, _ reconstruction: Reconstruction) throws -> ObjectScene {
-    let areMasksNeeded =
-      configuration.isObjectMaskingEnabled && source.isPhotosOnly && !photos.images.hasMasks
+    let areMasksNeeded = source.isPhotosOnly && !photos.images.hasMasks
     guard areMasksNeeded || configuration.maskOutput != nil else {
       return ObjectScene(photos, reconstruction)
     }
@@ -70,16 +69,20 @@ struct ReconstructionMethod {
     }
   }
 
-  /// The photos with estimated masks, or without masks if there is no separate object.
+  /// The photos with estimated masks, or without masks if there is no separate object or no sky.
   private func estimatedScene(
     _ photos: PhotoSet, _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> ObjectScene {
     let masks =
       try cache.masksOfAlignment
       ?? cache.sealedMasks(of: photos, configuration, context.notes) {
-        try ObjectMasking(options: configuration.objectMasking)
-          .run(reconstruction, images: photos.images, context)
+        try configuration.isObjectMaskingEnabled
+          ? ObjectMasking(options: configuration.objectMasking)
+            .run(reconstruction, images: photos.images, context)
+          : SkyDetection(options: configuration.sky)
+            .run(reconstruction, images: photos.images, context)
       }
+    recorder.record(masks, names: photos.ingested.photos.map(\.name))
     return masks.isEmpty
       ? ObjectScene(photos, reconstruction) : ObjectScene(photos, reconstruction, masks)
   }

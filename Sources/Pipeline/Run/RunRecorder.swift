@@ -108,6 +108,15 @@ extension RunRecorder {
     report.photos += names.map { .init(name: $0, status: .missing, reason: nil) }
   }
 
+  /// Records how sure the estimated masks are; `names` are those of the photos, by ID.
+  func record(_ masks: EstimatedMasks, names: [String]) {
+    let agreement = Dictionary(
+      zip(names, masks.agreement), uniquingKeysWith: { first, _ in first })
+    for index in report.photos.indices {
+      report.photos[index].maskAgreement = agreement[report.photos[index].name] ?? nil
+    }
+  }
+
   /// Records which photos are registered, and the mean reprojection error.
   func record(_ reconstruction: Reconstruction) {
     report.photos += reconstruction.registered.map {

@@ -34,8 +34,7 @@ struct RunPlan: Sendable {
     entries = self.requests
       .map {
         Entry(
-          $0, specification: $0.specification(configuration), coarsest: coarsest,
-          masksObject: configuration.isObjectMaskingEnabled)
+          $0, specification: $0.specification(configuration), coarsest: coarsest)
       }
       .enumerated()
       .sorted { ($0.element.rank, $0.offset) < ($1.element.rank, $1.offset) }
@@ -57,7 +56,7 @@ struct RunPlan: Sendable {
 extension RunPlan.Entry {
   fileprivate init(
     _ request: PhotogrammetrySession.Request, specification: DetailSpecification?,
-    coarsest: DetailSpecification, masksObject: Bool
+    coarsest: DetailSpecification
   ) {
     self.request = request
     self.specification = specification
@@ -70,7 +69,7 @@ extension RunPlan.Entry {
       case .modelFile: .optimization
       }
     if request == .bounds { self.specification = coarsest }
-    let stages = PipelineStage.allCases.filter { $0 != .objectMasking || masksObject }
+    let stages = PipelineStage.allCases
     units = stages.prefix(through: stages.firstIndex(of: last) ?? 0)
       .map { [specification = self.specification] in
         WorkUnit(stage: $0, specification: specification)

@@ -23,7 +23,7 @@ package struct StageDurationModel: Sendable {
   package var alignment: AlignmentWork
   /// The fraction of the views that the dense stage processes: less than 1 for one of several jobs.
   package var denseShare: Double
-  /// Whether masks of the object are estimated if none are given.
+  /// Whether masks of the object are estimated if none are given; otherwise those of the sky.
   package var masksObject: Bool
 
   package init(
@@ -55,13 +55,18 @@ package struct StageDurationModel: Sendable {
     return switch unit.stage {
     case .preProcessing: (0.01 * count + 0.015 * megapixels) / threads
     case .imageAlignment: alignmentSeconds(count, megapixels) / threads
-    case .objectMasking: masksObject && photos.masked == 0 ? 0.3 + 0.2 * count / threads : 0
+    case .objectMasking: photos.masked > 0 ? 0 : maskingSeconds(count) / threads
     case .pointCloudGeneration: 0.4 + 1.84 * denseShare * count * view / threads
     // The octree usually has the same depth for 0.2 MP and 0.5 MP, and is shallower below 0.12 MP.
     case .meshGeneration: view < 0.12 ? 4.2 : 14.5 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
     case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
     case .optimization: 0.1 + 0.06 * texels
     }
+  }
+
+  /// Seconds on a single thread, of the object's masks or of those of the sky.
+  private func maskingSeconds(_ count: Double) -> Double {
+    masksObject ? 0.3 + 0.2 * count : 0.1 * count
   }
 
   /// Seconds on a single thread. Features and matches take two fifths of structure from motion, as
