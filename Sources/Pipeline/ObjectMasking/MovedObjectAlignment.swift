@@ -73,7 +73,7 @@ struct MovedObjectAlignment {
       by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
     guard
       let (joined, notes) = try joinedAlignment(
-        of: masked, used, placements, matched, context.part(from: 0.5, to: 0.8).control)
+        of: masked, used, placements, matched, context.part(from: 0.5, to: 0.8))
     else { return nil }
     var reconstruction = joined
     context.notes.add(notes)
@@ -93,36 +93,46 @@ struct MovedObjectAlignment {
       masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
   }
 
-  /// The alignment of all photos by the masked object, with its notes. If photos remain that it
-  /// can't register, it is repeated with more features: the object may be small in the photos.
+  /// An alignment of all photos by the masked object, with its notes.
+  private typealias Joined = (reconstruction: Reconstruction, notes: StageNotes)
+
+  /// The alignment by the masked object; nil if it joins too little. If photos remain that it can't
+  /// register, it is repeated with more features: the object may be small in the photos.
   private func joinedAlignment(
     of masked: PhotoSet, _ used: [MaskedPlacement], _ placements: [[Int]],
-    _ matched: ImageAlignment.MatchedPhotos, _ control: KernelControl
-  ) throws -> (Reconstruction, StageNotes)? {
-    let largest = placements.map(\.count).max() ?? 0
-    var best: (reconstruction: Reconstruction, notes: StageNotes)?
-    for sensitivity in [alignment.options.features.sensitivity, .high] {
-      var alignment = alignment
-      alignment.options.features.sensitivity = sensitivity
-      let notes = StageNotes()
-      do {
-        let result = try alignment.run(
-          masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
-          upright: upright(used), StageContext(control: control, notes: notes))
-        let count = result.registered.count
-        let isJoined = isMotionExplained(used.count { result.contains($0.photos) }, matched.graph)
-        if isJoined, Double(count) >= options.minimumShare * Double(largest),
-          count > best?.reconstruction.registered.count ?? 0
-        {
-          best = (result, notes)
-        }
-        if isJoined, count == matched.photos.count { break }
-      } catch let error as PipelineError {
-        notes.log("The placements of the object were not joined: \(error)")
-      }
-      if alignment.options.features.sensitivity == .high { break }
+    _ matched: ImageAlignment.MatchedPhotos, _ context: StageContext
+  ) throws -> Joined? {
+    let first = try joined(
+      masked, used, placements, matched, by: alignment, context.part(from: 0, to: 0.5))
+    let count = first?.reconstruction.registered.count ?? 0
+    guard count < matched.photos.count, alignment.options.features.sensitivity != .high else {
+      return first
     }
-    return best
+    var sensitive = alignment
+    sensitive.options.features.sensitivity = .high
+    let second = try joined(
+      masked, used, placements, matched, by: sensitive, context.part(from: 0.5, to: 1))
+    return second?.reconstruction.registered.count ?? 0 > count ? second : first
+  }
+
+  private func joined(
+    _ masked: PhotoSet, _ used: [MaskedPlacement], _ placements: [[Int]],
+    _ matched: ImageAlignment.MatchedPhotos, by alignment: ImageAlignment, _ context: StageContext
+  ) throws -> Joined? {
+    let notes = StageNotes()
+    do {
+      let result = try alignment.run(
+        masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
+        upright: upright(used), StageContext(control: context.control, notes: notes))
+      let largest = placements.map(\.count).max() ?? 0
+      let isSufficient =
+        isMotionExplained(used.count { result.contains($0.photos) }, matched.graph)
+        && Double(result.registered.count) >= options.minimumShare * Double(largest)
+      return isSufficient ? (result, notes) : nil
+    } catch let error as PipelineError {
+      context.notes.log("The placements of the object were not joined: \(error)")
+      return nil
+    }
   }
 
   /// Whether this number of placements explains that the object moves: one does if all photos agree
