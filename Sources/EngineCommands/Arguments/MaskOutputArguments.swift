@@ -9,7 +9,8 @@ struct MaskOutputArguments: ParsableArguments {
     OBJECT
       Without masks the object is what the photos are aimed at, above its support
       and without backdrop. Its masks are estimated; --write-masks writes them, to
-      be corrected in an image editor and used with --masks.
+      be corrected in an image editor and used with --masks. Surroundings that are
+      kept with --no-object-masking have no sky.
 
     """
 

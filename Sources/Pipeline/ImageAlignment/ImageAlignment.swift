@@ -17,7 +17,8 @@ package struct ImageAlignment: Sendable {
     package var pureRotation = PureRotationCheck.Options()
     package var mapping = SparseMapping.Options()
     package var sceneAmbiguity = SceneAmbiguityCheck.Options()
-    var focus = FocusCheck.Options()
+    /// Nil if photos may be aligned by the surroundings of the object.
+    var focus: FocusCheck.Options? = FocusCheck.Options()
     package var refinement = ObservationRefinement.Options()
     package var worldAlignment = WorldAlignment.Options()
 
@@ -52,7 +53,9 @@ package struct ImageAlignment: Sendable {
   ) throws -> Reconstruction {
     try throwOrWarn(map, context.notes)
     let result = try finish(map.reconstruction, matched, images, context)
-    FocusCheck(options: options.focus).run(result, matched.features, context.notes)
+    if let focus = options.focus {
+      FocusCheck(options: focus).run(result, matched.features, context.notes)
+    }
     return result
   }
 

@@ -28,20 +28,26 @@ struct MaskedAlignment {
   func run(
     _ ingested: IngestedPhotos, images: ImageStore, _ context: StageContext
   ) throws -> Reconstruction {
-    func align(_ images: ImageStore, _ notes: StageNotes) throws -> Reconstruction {
+    func align(
+      _ images: ImageStore, by alignment: ImageAlignment, _ notes: StageNotes
+    ) throws -> Reconstruction {
       try alignment.run(
         photos: ingested.photos, cameras: ingested.cameras, images: images,
         StageContext(control: context.control, notes: notes))
     }
-    guard images.hasMasks else { return try align(images, context.notes) }
+    guard images.hasMasks else { return try align(images, by: alignment, context.notes) }
     let notes = StageNotes()
-    let masked = Result { try align(images, notes) }
+    let masked = Result { try align(images, by: alignment, notes) }
     if case .failure(let error) = masked, !(error is PipelineError) { throw error }
     let count = (try? masked.get())?.registered.count ?? 0
     if Double(count) < options.minimumShare * Double(ingested.photos.count) {
       let wholeNotes = StageNotes()
+      // The object is checked below.
+      var unchecked = alignment
+      unchecked.options.focus = nil
       do {
-        let whole = try align(ImageStore(withoutMasksOf: images), wholeNotes)
+        let whole = try align(
+          ImageStore(withoutMasksOf: images), by: unchecked, wholeNotes)
         if whole.registered.count > count, try agrees(whole, images) {
           context.notes.add(wholeNotes)
           context.notes.warn(

@@ -52,6 +52,8 @@ package struct WorldFrame: Hashable, Codable, Sendable {
     case gravity, gps, supportPlane, cameras, unknown
     /// The user named the side of the photos that was up.
     case chosen
+    /// An object that was moved: that of its largest group of photos without a move.
+    case placement
   }
 
   package var scale: Scale

@@ -51,7 +51,7 @@ struct UpEstimation: Sendable {
     }
     let gravity = GravityUp(options: options.gravity).run(options.readings, reconstruction, notes)
     if let gravity { return (gravity, .gravity) }
-    if let up = meanUp(of: reconstruction, upright) { return (up, .supportPlane) }
+    if let up = meanUp(of: reconstruction, upright) { return (up, .placement) }
     let cameras = CameraUp(reconstruction, options.cameraUp)
     let isUpsideDown =
       !cameras.isSignCertain

@@ -30,12 +30,13 @@ package struct WorldAlignment: Sendable {
     let front = (reconstruction.poses[first.index]?.center ?? .zero) - object.center
     let level = Self.leveling(estimate.up)
     let yaw = estimate.gps?.yaw(leveling: level) ?? Self.yaw(facing: level * front)
-    var rotation = (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+    var rotation = Self.rotation(level, yaw: yaw)
     var (up, plane) = (estimate.up, estimate.plane)
     if case .model(let axis) = options.chosenUp, axis != .y {
       up = rotation.conjugate * axis.direction
       plane = nil
-      rotation = turned(up: up, front: front)
+      let turned = Self.leveling(up)
+      rotation = Self.rotation(turned, yaw: Self.yaw(facing: turned * front))
       frame.turnedVertical = rotation * estimate.up
     }
     let ground = ground(object, plane, up)
@@ -45,13 +46,9 @@ package struct WorldAlignment: Sendable {
     return reconstruction.moved(by: worldFromOld, frame)
   }
 
-  /// The rotation to a frame in which another direction is up.
-  private func turned(up: SIMD3<Double>, front: SIMD3<Double>) -> Quaternion {
-    let level = Self.leveling(up)
-    let facing = level * front
-    let isAbove = hypot(facing.x, facing.z) < 0.1 * abs(facing.y)
-    let yaw = isAbove ? 0 : Self.yaw(facing: facing)
-    return (Quaternion(angle: yaw, axis: [0, 1, 0]) * level).normalized
+  /// A rotation that levels, followed by one about +y, in radians.
+  private static func rotation(_ leveling: Quaternion, yaw: Double) -> Quaternion {
+    (Quaternion(angle: yaw, axis: [0, 1, 0]) * leveling).normalized
   }
 
   /// The rotation about +y that turns a direction to the front, +z.
