@@ -49,6 +49,9 @@ struct ObjectIsolation {
     /// Whether the points are of a moving object and what carries it only, without anything that
     /// stands still.
     var isObjectOnly = false
+    /// Whether the points are of what stands in front of a plain backdrop, which may hide the
+    /// support.
+    var isForeground = false
     /// If at least this share of the samples are connected and end within the region, they are an
     /// object without surroundings.
     var minimumBoundedShare = 0.9
@@ -149,6 +152,18 @@ struct IsolationSamples {
     try context.control.step(0.1)
     let support = try support(of: region, context)
     try context.control.step(0.4)
+    let outcome = try outcome(on: support, region, context)
+    guard options.isForeground, support != nil, case .failure = outcome else { return outcome }
+    // The plane may be a face of a flat object.
+    let whole = try self.outcome(on: nil, region, context)
+    if case .object = whole { return whole }
+    return outcome
+  }
+
+  /// The object above the plane that it stands on, if there is one.
+  private func outcome(
+    on support: SupportPlane?, _ region: [Int], _ context: StageContext
+  ) throws -> Outcome {
     let isAbove = cloud.positions.map { position in
       support.map { $0.height(of: SIMD3<Double>(position)) > $0.band } ?? true
     }

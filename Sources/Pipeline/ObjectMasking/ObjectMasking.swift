@@ -139,8 +139,9 @@ struct ObjectMasking {
       return ObjectIsolation.Result(
         isKept: isBackdrop.map { !$0 }, failure: "all of it has the color of the backdrop.")
     }
-    var result = try ObjectIsolation(options: options.isolation)
-      .run(foreground, reconstruction, context)
+    var isolation = ObjectIsolation(options: options.isolation)
+    isolation.options.isForeground = backdrop != nil
+    var result = try isolation.run(foreground, reconstruction, context)
     result.support = result.support ?? shadows?.plane
     var isKept = result.isKept.makeIterator()
     result.isKept = isBackdrop.map { $0 ? false : isKept.next() ?? false }

@@ -1,3 +1,4 @@
+import Foundation
 import Kernels
 import SceneModel
 import TestSupport
@@ -103,6 +104,31 @@ import Testing
     let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
     #expect(result.failure != nil && result.support == nil)
     #expect(result.isKept.count == scene.cloud.count && result.isKept.allSatisfy { $0 })
+  }
+
+  /// Nothing is above the only plane that is seen: in front of a plain backdrop, it is a face of
+  /// the object.
+  @Test(arguments: [true, false]) func flatObjectInFrontOfABackdropIsKept(
+    isForeground: Bool
+  ) throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addPlane(radius: 0.6, label: 1, centers: centers)
+    // Noise far from it, as on the backdrop.
+    for turn in 0..<40 {
+      scene.addBall(
+        center: [1.3 * cos(Double(turn)), -0.2, 1.3 * sin(Double(turn))], radius: 0.06, label: 0,
+        centers: centers)
+    }
+    var isolation = ObjectIsolation()
+    isolation.options.isForeground = isForeground
+    let result = try isolation.run(scene.cloud, reconstruction, StageContext())
+    #expect((result.failure == nil) == isForeground)
+    if isForeground {
+      #expect(keptShare(result, scene, label: 1) >= 0.99)
+      #expect(keptShare(result, scene, label: 0) <= 0.01)
+    }
   }
 
   @Test func sparsePointsGiveTheObjectBounds() throws {

@@ -79,8 +79,15 @@ struct PresenceGrid: Sendable {
   /// The number of cells with at least `minimum` absent points and fewer than half as many present
   /// ones.
   func contradictingCells(minimum: Int) -> Int {
-    present.indices.count {
-      absent[$0] >= minimum && absent[$0] > 2 * present[$0]
-    }
+    present.indices.count { isContradicting($0, minimum) }
+  }
+
+  /// Whether the cell of a pixel is one of these.
+  func isContradicting(_ pixel: SIMD2<Double>, minimum: Int) -> Bool {
+    isContradicting(index(pixel), minimum)
+  }
+
+  private func isContradicting(_ cell: Int, _ minimum: Int) -> Bool {
+    absent[cell] >= minimum && absent[cell] > 2 * present[cell]
   }
 }

@@ -10,9 +10,13 @@ extension PlacementDetection {
   ) -> [[Int]] {
     // Matches of a moving object do not depend on its surroundings.
     var links = links(of: graph.isObjectOnly ? [] : graph.motions)
+    let moved = MovedPoints(evidence)
     for one in evidence {
       links[one.pair, default: Link()].evidence +=
-        one.present - options.absenceWeight * one.absent
+        moved.count(one.present) - options.absenceWeight * moved.count(one.absent)
+    }
+    for (pair, count) in moved.sightings(reconstruction) {
+      links[pair, default: Link()].evidence += count
     }
     for pair in graph.pairs where reconstruction.isPosedAlike(pair.pair) {
       links[pair.pair, default: Link()].matches += pair.matches.count

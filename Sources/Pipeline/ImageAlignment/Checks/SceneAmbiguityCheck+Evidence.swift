@@ -5,10 +5,12 @@ extension SceneAmbiguityCheck {
   package struct Evidence: Hashable, Sendable {
     package var pair: PhotoPair
     /// Points that feature matching found in only one of the photos and whose texture both show.
-    package var present = 0
+    package var present: [Int32] = []
     /// Points that one photo shows and the other should show but doesn't.
-    package var absent = 0
-    /// Cells of the photos with absent points.
+    package var absent: [Int32] = []
+    /// The absent points of the cells that contradict.
+    package var contradicting: [Int32] = []
+    /// Cells of the photos with absent points and hardly any present ones.
     package var contradictingCells = 0
   }
 }

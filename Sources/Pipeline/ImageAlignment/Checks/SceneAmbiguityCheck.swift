@@ -85,6 +85,7 @@ package struct SceneAmbiguityCheck: Sendable {
       var sum = found[part.pair] ?? Evidence(pair: part.pair)
       sum.present += part.present
       sum.absent += part.absent
+      sum.contradicting += part.contradicting
       sum.contradictingCells += part.contradictingCells
       found[part.pair] = sum
     }
@@ -94,7 +95,7 @@ package struct SceneAmbiguityCheck: Sendable {
   /// Whether the photos show different parts of the scene.
   private func isConflict(_ evidence: Evidence) -> Bool {
     evidence.contradictingCells >= options.minimumCells
-      && evidence.absent >= options.minimumPoints
+      && evidence.absent.count >= options.minimumPoints
   }
 }
 

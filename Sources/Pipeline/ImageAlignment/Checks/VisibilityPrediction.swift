@@ -4,6 +4,8 @@ import SceneModel
 
 /// A point of one photo that another photo is expected to show.
 struct ExpectedPoint: Sendable {
+  /// The track of the point.
+  var track: Int32
   /// The point and its template in the first photo.
   var reference: TrackReference
   /// The expected position in the other photo, in pixels, and the local affine warp of the
@@ -55,9 +57,10 @@ struct VisibilityPrediction {
     var photos = map.photos
     photos.poses[photo] = pose
     for index in map.tracks.observationsOfPhoto[other].map(Int.init) where map.isActive[index] {
-      if let pixel = known[map.tracks.trackOfObservation[index]] {
+      let track = map.tracks.trackOfObservation[index]
+      if let pixel = known[track] {
         hypothesis.confirmedPixels.append(pixel)
-      } else if let point = expected(reference(index), from: otherCenter, photos, options) {
+      } else if let point = expected(track, reference(index), from: otherCenter, photos, options) {
         hypothesis.points.append(point)
       }
     }
@@ -72,8 +75,8 @@ struct VisibilityPrediction {
   /// The expected position of a point that another photo observes from `otherCenter`; nil if it may
   /// be occluded, lies outside, or is viewed too differently.
   private func expected(
-    _ reference: TrackReference, from otherCenter: SIMD3<Double>, _ photos: PosedPhotos,
-    _ options: SceneAmbiguityCheck.Options
+    _ track: Int32, _ reference: TrackReference, from otherCenter: SIMD3<Double>,
+    _ photos: PosedPhotos, _ options: SceneAmbiguityCheck.Options
   ) -> ExpectedPoint? {
     let camera = photos.cameras[Int(photos.cameraOfPhoto[photo])]
     let (toCamera, toOther) = (pose.center - reference.point, otherCenter - reference.point)
@@ -93,6 +96,6 @@ struct VisibilityPrediction {
       let nearestDepth = depths.nearestDepth(at: pixel),
       depth < options.depthTolerance * nearestDepth
     else { return nil }
-    return ExpectedPoint(reference: reference, pixel: pixel, warp: warp)
+    return ExpectedPoint(track: track, reference: reference, pixel: pixel, warp: warp)
   }
 }

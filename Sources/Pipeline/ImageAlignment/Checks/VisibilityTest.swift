@@ -158,18 +158,23 @@ struct VisibilityTest: Sendable {
     var evidence = SceneAmbiguityCheck.Evidence(
       pair: PhotoPair(ID(hypothesis.other), ID(hypothesis.photo)))
     var grid = PresenceGrid(photos[hypothesis.photo], cells: options.cells)
+    var absentPixels: [SIMD2<Double>] = []
     for (point, correlation) in zip(hypothesis.points, correlations) {
       guard let correlation else { continue }
       if correlation >= options.presentCorrelation {
-        evidence.present += 1
+        evidence.present.append(point.track)
         grid.countPresent(point.pixel)
       } else if correlation < options.absentCorrelation {
-        evidence.absent += 1
+        evidence.absent.append(point.track)
         grid.countAbsent(point.pixel)
+        absentPixels.append(point.pixel)
       }
     }
     hypothesis.confirmedPixels.forEach { grid.countPresent($0) }
     evidence.contradictingCells = grid.contradictingCells(minimum: options.cellPoints)
+    evidence.contradicting = zip(evidence.absent, absentPixels).compactMap { track, pixel in
+      grid.isContradicting(pixel, minimum: options.cellPoints) ? track : nil
+    }
     return evidence
   }
 }

@@ -52,14 +52,45 @@ struct CaptureIntervals {
     return divisions.dropFirst().first {
       $0.score > whole.score && isExplained(by: $0.groups) && isWitnessed($0.groups)
         && areInPlace($0.groups)
-    }?.groups
+    }.map { centered($0.groups) }
+  }
+
+  /// The division with each boundary in the middle of the positions that explain the evidence
+  /// equally well.
+  private func centered(_ groups: [[Int]]) -> [[Int]] {
+    var starts = groups.map { $0[0] } + [photoCount]
+    for index in starts.indices.dropFirst().dropLast() {
+      let (start, end) = (starts[index - 1], starts[index + 1])
+      let range = start + options.minimumPhotos...end - options.minimumPhotos
+      func isEqual(_ boundary: Int) -> Bool {
+        range.contains(boundary)
+          && across(boundary, start..<end) == across(starts[index], start..<end)
+      }
+      var (first, last) = (starts[index], starts[index])
+      while isEqual(first - 1) { first -= 1 }
+      while isEqual(last + 1) { last += 1 }
+      starts[index] = (first + last + 1) / 2
+    }
+    return zip(starts, starts.dropFirst()).map { Array($0..<$1) }
+  }
+
+  /// The evidence between the two parts that a boundary divides a range into.
+  private func across(_ boundary: Int, _ range: Range<Int>) -> Int {
+    (range.lowerBound..<boundary).reduce(0) { sum, photo in
+      evidence[photo].reduce(sum) {
+        boundary..<range.upperBound ~= $1.photo ? $0 + clamped($1.value) : $0
+      }
+    }
+  }
+
+  private func clamped(_ value: Int) -> Int {
+    min(options.maximumEvidence, max(-options.maximumEvidence, value))
   }
 
   /// The best division for each number of intervals.
   private func divisions() -> [(groups: [[Int]], score: Int)] {
     let most = min(options.maximumIntervals, photoCount / options.minimumPhotos)
     guard most > 0 else { return [] }
-    let limit = options.maximumEvidence
     // By the number of intervals and their end: the score, and the start of the last one.
     let row = [(score: Int?, start: Int)](repeating: (nil, 0), count: photoCount + 1)
     var best = [[(score: Int?, start: Int)]](repeating: row, count: most + 1)
@@ -69,7 +100,7 @@ struct CaptureIntervals {
       for first in stride(from: end - 1, through: 0, by: -1) {
         // `within` is the sum over the pairs of first..<end.
         for other in evidence[first] where other.photo > first && other.photo < end {
-          within += min(limit, max(-limit, other.value))
+          within += clamped(other.value)
         }
         guard end - first >= options.minimumPhotos else { continue }
         for count in 1...most {

@@ -46,6 +46,12 @@ import Testing
     #expect(detection.groups(links, photoCount: 16) == [Array(5...15), Array(0...4)])
   }
 
+  /// What is known is only that the object was moved after photo 9 and before photo 17.
+  @Test func boundaryThatNothingDeterminesIsInTheMiddle() {
+    let links = links(28) { (3...9).contains($0) && $1 == $0 + 14 ? -50 : 0 }
+    #expect(detection.groups(links, photoCount: 28) == [Array(0...13), Array(14...27)])
+  }
+
   // MARK: Contraction
 
   @Test func photosThatMatchAreOneGroup() {

@@ -1,0 +1,90 @@
+import Evaluation
+import Foundation
+import ImageFiles
+import Kernels
+import SceneModel
+import TestLevels
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+/// Photos of an object that is turned over halfway, on a table with more texture than it has: one
+/// model of all sides, compared with the exact cameras and masks.
+@Suite(.endToEnd, .serialized) struct MovedObjectTests {
+  private let capture = CaptureScene(
+    .statue, .flip, .textured, seed: 5, width: 640, photoCount: 24, fineness: 0.5)
+  private let folder: TemporaryFolder
+  private var images: URL { folder.url.appendingPathComponent("images") }
+  private var masks: URL { folder.url.appendingPathComponent("masks") }
+
+  init() throws {
+    folder = try TemporaryFolder()
+    try FileManager.default.createDirectory(at: images, withIntermediateDirectories: true)
+    var exif = ExifFields()
+    let millimeters = 36 * capture.camera.focalLength.x / Double(capture.camera.width)
+    exif.focalLengthIn35mmFilm = Int(millimeters.rounded())
+    let control = KernelControl()
+    for index in capture.views.indices {
+      let photo = try ImageCodec.encodeJPEG(
+        capture.scene(ofPhoto: index).photo(index, control), quality: 0.92)
+      try Data(ExifWriter.jpeg(photo, with: exif))
+        .write(to: images.appendingPathComponent(RenderedScene.name(index)))
+    }
+  }
+
+  private func pipeline(checkpoint: String, threads: Int) -> ReconstructionPipeline {
+    var configuration = PipelineConfiguration()
+    configuration.checkpointDirectory = folder.url.appendingPathComponent(checkpoint)
+    configuration.threadCount = threads
+    configuration.maskOutput = masks
+    return ReconstructionPipeline(.photos(in: images), configuration: configuration)
+  }
+
+  private func model(_ pipeline: ReconstructionPipeline, _ name: String) throws -> Data {
+    let output = folder.url.appendingPathComponent(name)
+    try pipeline.writeModel(DetailSpecification(.preview), to: output)
+    return try Data(contentsOf: output)
+  }
+
+  @Test func allSidesAreOneModel() throws {
+    let first = pipeline(checkpoint: "work", threads: 2)
+    let bytes = try model(first, "first.usdz")
+    let alignment = try #require(first.report.stages.first { $0.name == "imageAlignment" })
+    #expect(alignment.counts["joinedPlacements"] == 2)
+    #expect(first.report.doubts.isEmpty)
+    try checkPoses(first.align())
+    try checkMasks()
+    first.releaseCheckpoint()
+
+    // Any number of threads, and what remains of a run that was stopped, give the same bytes.
+    #expect(try model(pipeline(checkpoint: "other", threads: 1), "other.usdz") == bytes)
+    let work = folder.url.appendingPathComponent("work")
+    for name in ["masks/view_03.png", "mesh/surface.ply"] {
+      try FileManager.default.removeItem(at: work.appendingPathComponent(name))
+    }
+    #expect(try model(pipeline(checkpoint: "work", threads: 2), "resumed.usdz") == bytes)
+  }
+
+  private func checkPoses(_ reconstruction: Reconstruction) throws {
+    let truth = capture.views.enumerated().map { index, view in
+      NamedCamera(
+        name: RenderedScene.name(index), camera: capture.camera,
+        cameraFromWorld: view.cameraFromObject)
+    }
+    let (errors, _) = try PoseErrors.comparing(
+      NamedCamera.cameras(of: reconstruction), with: truth)
+    #expect(errors.registered == capture.views.count)
+    #expect(errors.centerRMSE < 0.002 && errors.rotationMeanDegrees < 0.2)
+  }
+
+  private func checkMasks() throws {
+    let agreement = try capture.views.indices.map { index in
+      let name = RenderedScene.name(index).replacingOccurrences(of: ".jpg", with: ".png")
+      let file = try Data(contentsOf: masks.appendingPathComponent(name))
+      return try MaskImage.decode(Array(file))
+        .intersectionOverUnion(with: capture.scene(ofPhoto: index).mask(index))
+    }
+    #expect(agreement.reduce(0, +) / Double(agreement.count) > 0.95)
+  }
+}
