@@ -39,7 +39,8 @@ struct MaskingEvidence: Sendable {
   /// Each placement decides about the points that it has a point of its own near by, within
   /// `tolerance` footprints. Where a placement has none, its photos may show what is behind the
   /// object. The object is what one placement says it is; points that none knows belong to it if
-  /// all silhouettes contain them.
+  /// all silhouettes contain them, or if photos of two placements show them, between which nothing
+  /// else moves like the object.
   func object(
     in cloud: PointCloud, tolerance: Float, _ control: KernelControl
   ) throws -> LabeledCloud {
@@ -61,7 +62,12 @@ struct MaskingEvidence: Sendable {
     }
     var result = LabeledCloud(
       cloud: cloud,
-      isObject: votes.map { $0.object || (!$0.surroundings && $0.isInside) }, isRigid: false)
+      isObject: votes.indices.map { point in
+        let vote = votes[point]
+        return vote.object
+          || (!vote.surroundings && (vote.isInside || isShownAcrossPlacements(point, of: cloud)))
+      },
+      isRigid: false)
     result.others = try placements.map { placement in
       let around = placement.points.surroundings
       let nearest = try NearestPoints(
@@ -72,6 +78,14 @@ struct MaskingEvidence: Sendable {
       return (placement.photos, around.filtered(by: isApart))
     }
     return result
+  }
+
+  /// Whether two photos of each of at least two placements show a point.
+  private func isShownAcrossPlacements(_ point: Int, of cloud: PointCloud) -> Bool {
+    let photos = cloud.visiblePhotos(of: point)
+    return placements.count { placement in
+      photos.count { placement.photos.contains(Int($0)) } > 1
+    } > 1
   }
 
   /// Draws the features that a photo shows into its labels. `full` is the photo's size; features

@@ -1,4 +1,6 @@
+import Kernels
 import SceneModel
+import TestSupport
 import Testing
 
 @testable import Pipeline
@@ -48,5 +50,43 @@ import Testing
     MaskingEvidence().drawFeatures(
       of: ID(3), full: [2, 1], radius: 1, maximumRadius: 1, into: &labels)
     #expect(labels.pixels == [PointLabel.object, 0])
+  }
+
+  // MARK: An object that was moved
+
+  /// Photos 0 to 3 and 4 to 7 are of two placements. Their masks contain nothing, and no placement
+  /// has a point near by.
+  @Test(
+    arguments: [
+      ([0, 1, 4, 5], true), ([2, 3, 5, 6, 7], true), ([0, 1, 2, 3], false), ([0, 1, 2, 7], false),
+    ] as [([UInt16], Bool)])
+  func pointThatTwoPlacementsShowIsOfTheObject(photos: [UInt16], isObject: Bool) throws {
+    let scene = RenderedScene.statue(photoCount: 8, upperCount: 0, width: 60, height: 45)
+    let image = RasterImage(width: 60, height: 45, channels: 3)
+    let images = ImageStore(
+      images: scene.poses.map { _ in image },
+      masks: scene.poses.map { _ in RasterImage(width: 60, height: 45, channels: 1) })
+    let silhouettes = try #require(try Silhouettes(scene.reconstruction(), images: images))
+    var evidence = MaskingEvidence()
+    evidence.placements = [Set(0...3), Set(4...7)].map { photos in
+      MaskingEvidence.Placement(
+        photos: photos, silhouettes: silhouettes,
+        points: LabeledCloud(cloud: cloud(at: [0, 9, 0], seenBy: []), isObject: [true]))
+    }
+    let labeled = try evidence.object(
+      in: cloud(at: [0, 0.1, 0], seenBy: photos), tolerance: 1, KernelControl())
+    #expect(labeled.isObject == [isObject])
+  }
+
+  private func cloud(at position: SIMD3<Float>, seenBy photos: [UInt16]) -> PointCloud {
+    var cloud = PointCloud()
+    cloud.positions = [position]
+    cloud.normals = [[0, 1, 0]]
+    cloud.colors = [[128, 128, 128]]
+    cloud.consistency = [1]
+    cloud.footprints = [0.01]
+    cloud.photoIndices = photos
+    cloud.photoOffsets.append(UInt32(photos.count))
+    return cloud
   }
 }
