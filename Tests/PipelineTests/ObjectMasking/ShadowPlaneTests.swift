@@ -46,34 +46,6 @@ import Testing
     #expect(object.count { found.isShadow[$0] } < object.count / 20)
   }
 
-  /// The cylinder was turned over between the photos: there is a shadow on the plane of its top,
-  /// too, which faces down and has label 3.
-  @Test func objectThatWasTurnedOverHasTwoPlanes() throws {
-    let turn = RigidTransform(
-      rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [0, 0.5, 0])
-    var (scene, colors, reconstruction) = scene()
-    for index in stride(from: 1, to: reconstruction.poses.count, by: 2) {
-      reconstruction.poses[index] = reconstruction.poses[index].map { $0 * turn }
-    }
-    let centers = reconstruction.poses.compactMap { $0?.center }
-    for turn in 0..<120 {
-      let angle = Double(turn) * 2 * .pi / 120
-      let outward = SIMD3(cos(angle), 0, sin(angle))
-      for step in 1..<9 {
-        scene.add(0.048 * Double(step) * outward, normal: [0, -1, 0], label: 1, centers: centers)
-      }
-      for width in [0.6, 0.62, 0.64] {
-        scene.add(
-          width * outward + [-0.1, 0.5, 0], normal: [0, -1, 0], label: 3, centers: centers)
-      }
-    }
-    colors = scene.labels.map { $0 > 1 ? 0.8 * backdrop : SIMD3<Float>(120, 121, 122) }
-    let found = try #require(
-      ShadowPlane().run(scene.cloud, colors: colors, backdrop: backdrop, reconstruction))
-    #expect(found.plane.normal.y > 0.999 && abs(found.plane.offset) < 0.01)
-    #expect(scene.labels.indices.allSatisfy { found.isShadow[$0] == (scene.labels[$0] > 1) })
-  }
-
   /// The level top of the object has much below it.
   @Test func objectWithoutAShadowHasNoPlane() {
     let (scene, colors, reconstruction) = scene(hasShadow: false)
