@@ -39,8 +39,8 @@ struct MaskingEvidence: Sendable {
   /// Each placement decides about the points that it has a point of its own near by, within
   /// `tolerance` footprints. Where a placement has none, its photos may show what is behind the
   /// object. The object is what one placement says it is; points that none knows belong to it if
-  /// all silhouettes contain them, or if photos of two placements show them, between which nothing
-  /// else moves like the object.
+  /// all silhouettes contain them, or if photos of two placements show them: only the object is at
+  /// the same place in both.
   func object(
     in cloud: PointCloud, tolerance: Float, _ control: KernelControl
   ) throws -> LabeledCloud {

@@ -1,12 +1,16 @@
 import SceneModel
 
 /// The points that one photo shows and another one with nearly the same pose does not, while
-/// nothing around them is there either: those of an object that was moved, and what it hides.
+/// hardly anything around them is there either: those of an object that was moved, and what it
+/// hides.
 ///
 /// All other points, of surroundings that stand still, say nothing about the object.
 struct MovedPoints {
+  /// Indices into the points of the reconstruction.
   private let points: Set<Int32>
 
+  /// Of the points that contradict, those that are present more often than absent were only
+  /// hidden.
   init(_ evidence: [SceneAmbiguityCheck.Evidence]) {
     var balance: [Int32: Int] = [:]
     for one in evidence {

@@ -1,7 +1,8 @@
 import SceneModel
 
 extension SceneAmbiguityCheck {
-  /// Evidence for or against two photos having nearly the same pose.
+  /// Evidence for or against two photos having nearly the same pose. Points are indices into the
+  /// points of the reconstruction.
   package struct Evidence: Hashable, Sendable {
     package var pair: PhotoPair
     /// Points that feature matching found in only one of the photos and whose texture both show.
@@ -10,7 +11,7 @@ extension SceneAmbiguityCheck {
     package var absent: [Int32] = []
     /// The absent points of the cells that contradict.
     package var contradicting: [Int32] = []
-    /// Cells of the photos with absent points and hardly any present ones.
+    /// Number of cells with absent points and fewer than half as many present ones.
     package var contradictingCells = 0
   }
 }

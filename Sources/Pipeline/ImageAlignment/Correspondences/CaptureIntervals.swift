@@ -62,9 +62,9 @@ struct CaptureIntervals {
     for index in starts.indices.dropFirst().dropLast() {
       let (start, end) = (starts[index - 1], starts[index + 1])
       let range = start + options.minimumPhotos...end - options.minimumPhotos
+      let best = across(starts[index], start..<end)
       func isEqual(_ boundary: Int) -> Bool {
-        range.contains(boundary)
-          && across(boundary, start..<end) == across(starts[index], start..<end)
+        range.contains(boundary) && across(boundary, start..<end) == best
       }
       var (first, last) = (starts[index], starts[index])
       while isEqual(first - 1) { first -= 1 }
