@@ -64,7 +64,8 @@ package struct CorrespondenceSearch {
       try matchedPairs.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
     }
     try matchedPairs.guide(calibrated, context.part(from: 0.97, to: 0.99))
-    try matchedPairs.separateMotions(calibrated, context.part(from: 0.99, to: 1))
+    try matchedPairs.separateMotions(calibrated, context.part(from: 0.99, to: 0.995))
+    try matchedPairs.addWeakPairs(calibrated, context.part(from: 0.995, to: 1))
     context.notes.record("candidatePairs", Double(Set(choice.candidates).union(more).count))
     matchedPairs.report(context.notes)
     return (matchedPairs.graph, calibrated)
@@ -128,11 +129,28 @@ private struct MatchedPairs {
         pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
   }
 
-  /// Searches for additional matches of weak pairs along the epipolar lines.
+  /// Searches for additional matches of pairs with few of them along the epipolar lines.
   mutating func guide(_ cameras: [Camera], _ context: StageContext) throws {
     graph = try GuidedMatching(
       options.guidedMatching, verification: PairVerification(verification)
     ).run(graph, features: features, photos: photos, cameras: cameras, context)
+  }
+
+  /// Adds the weak pairs of photos with few partners, unless something moves: a few matches may
+  /// belong to the object or to its surroundings.
+  mutating func addWeakPairs(_ cameras: [Camera], _ context: StageContext) throws {
+    guard graph.motions.isEmpty, graph.placements.isEmpty, !graph.isObjectOnly else { return }
+    var weak = graph
+    weak.pairs = graph.weakPairs(
+      ofPhotosWithFewerPartnersThan: options.expansion.minimumPartners)
+    context.notes.record("weakPairs", Double(weak.pairs.count))
+    // Its own notes: those of the first run stay.
+    weak = try GuidedMatching(
+      options.guidedMatching, verification: PairVerification(verification)
+    ).run(
+      weak, features: features, photos: photos, cameras: cameras,
+      StageContext(control: context.control))
+    graph.add(weak.pairs)
   }
 
   /// Searches for pairs between which an object moved relative to its surroundings; if it did, only

@@ -12,6 +12,10 @@ package struct PairVerification {
     package var minimumInliers = 20
     /// A pair with a smaller fraction of inliers among its matches is dropped.
     package var minimumInlierRatio = 0.15
+    /// A weak pair has fewer inliers, but at least this number and this fraction: too few to rely
+    /// on, and too many for chance.
+    package var weakMinimumInliers = 12
+    package var weakMinimumInlierRatio = 0.5
     /// Probability that RANSAC finds the best model.
     package var confidence = 0.9999
     /// Maximum number of RANSAC iterations.
@@ -72,12 +76,14 @@ package struct PairVerification {
     _ pair: PhotoPair, _ matches: [FeatureMatch],
     points: ([SIMD2<Double>], [SIMD2<Double>]), cameras: (Camera, Camera)
   ) throws -> Verdict {
-    func rejected(_ inliers: Int) -> Verdict {
+    func rejected(_ inliers: Int, weak: VerifiedPair? = nil) -> Verdict {
       let share = Int((options.minimumInlierRatio * Double(matches.count)).rounded(.up))
       let needed = max(options.minimumInliers, share)
-      return .rejected(RejectedPair(pair: pair, matches: inliers, needed: needed))
+      return .rejected(RejectedPair(pair: pair, matches: inliers, needed: needed, weak: weak))
     }
-    guard matches.count >= options.minimumInliers else { return rejected(matches.count) }
+    guard matches.count >= min(options.minimumInliers, options.weakMinimumInliers) else {
+      return rejected(matches.count)
+    }
     let isCalibrated = isCalibrated(cameras)
     var estimation = TwoViewEstimation()
     estimation.isCalibrated = isCalibrated
@@ -90,18 +96,21 @@ package struct PairVerification {
       matches.map { points.0[Int($0.first)] }, matches.map { points.1[Int($0.second)] },
       KernelControl())
     guard let geometry else { return rejected(0) }
-    guard geometry.inliers.count >= options.minimumInliers,
-      Double(geometry.inliers.count) >= options.minimumInlierRatio * Double(matches.count)
-    else { return rejected(geometry.inliers.count) }
     let isPlanar =
       Double(geometry.homographyInlierCount)
       >= options.homographyRatio * Double(geometry.inliers.count)
-    return .verified(
-      VerifiedPair(
-        pair: pair, model: isPlanar ? .homography : isCalibrated ? .essential : .fundamental,
-        secondFromFirst: geometry.secondFromFirst,
-        matches: geometry.inliers.map { matches[$0] }.sorted { $0.first < $1.first },
-        medianAngle: geometry.medianAngle))
+    let estimated = VerifiedPair(
+      pair: pair, model: isPlanar ? .homography : isCalibrated ? .essential : .fundamental,
+      secondFromFirst: geometry.secondFromFirst,
+      matches: geometry.inliers.map { matches[$0] }.sorted { $0.first < $1.first },
+      medianAngle: geometry.medianAngle)
+    func has(_ inliers: Int, _ ratio: Double) -> Bool {
+      geometry.inliers.count >= inliers
+        && Double(geometry.inliers.count) >= ratio * Double(matches.count)
+    }
+    if has(options.minimumInliers, options.minimumInlierRatio) { return .verified(estimated) }
+    let isWeak = has(options.weakMinimumInliers, options.weakMinimumInlierRatio)
+    return rejected(geometry.inliers.count, weak: isWeak ? estimated : nil)
   }
 
   /// Whether the focal lengths are known well enough for an essential matrix.

@@ -93,6 +93,50 @@ import Testing
     #expect(Set(graph.pairs.map(\.pair)).isDisjoint(with: graph.rejected.map(\.pair)))
   }
 
+  /// A photo that shares few matches with others is not left out if these agree, and its weak pairs
+  /// are the only ones that are accepted.
+  @Test(arguments: [16, 9])
+  func weakPairsConnectPhotosWithoutPartners(shared: Int) throws {
+    let scene = Self.scene(noise: 0.2)
+    var features = scene.features
+    let known = Set(scene.pointOfFeature[..<9].joined())
+    let common = scene.pointOfFeature[9].indices
+      .filter { known.contains(scene.pointOfFeature[9][$0]) }
+    features[9] = features[9].selecting(Array(common.prefix(shared)))
+    let graph = try CorrespondenceSearch().run(
+      photos: scene.photos, cameras: [Self.exif(scene)], features: features,
+      ordering: .unordered, StageContext()
+    ).viewGraph
+    let added = graph.pairs.filter { $0.pair.second.index == 9 }
+    #expect(added.isEmpty == (shared < PairVerification.Options().weakMinimumInliers))
+    for pair in added {
+      #expect(pair.matches.count <= shared)
+      for match in pair.matches {
+        let point = scene.pointOfFeature[9][common[Int(match.second)]]
+        #expect(point == scene.pointOfFeature[pair.pair.first.index][Int(match.first)])
+      }
+    }
+    let others = graph.pairs.filter { $0.pair.second.index != 9 }
+    #expect(others.allSatisfy { $0.matches.count >= PairVerification.Options().minimumInliers })
+  }
+
+  /// Weak pairs of photos with enough partners stay rejected.
+  @Test func weakPairsOfConnectedPhotosAreRejected() throws {
+    let scene = Self.scene()
+    var options = CorrespondenceSearch.Options()
+    options.expansion.minimumPartners = 0
+    let counts = try Self.search(scene, camera: Self.exif(scene)).viewGraph.pairs
+      .map(\.matches.count).sorted()
+    options.verification.minimumInliers = counts[counts.count / 2]
+    let graph = try CorrespondenceSearch(options).run(
+      photos: scene.photos, cameras: [Self.exif(scene)], features: scene.features,
+      ordering: .unordered, StageContext()
+    ).viewGraph
+    let weak = graph.rejected.compactMap(\.weak)
+    #expect(!weak.isEmpty && weak.allSatisfy { $0.matches.count >= 12 })
+    #expect(Set(weak.map(\.pair)).isDisjoint(with: graph.pairs.map(\.pair)))
+  }
+
   @Test func threadsDoNotMatter() throws {
     let scene = Self.scene(photos: 8)
     let one = try Self.search(scene, threads: 1)
