@@ -144,7 +144,7 @@ private struct MatchedPairs {
     weak.pairs = graph.weakPairs(
       ofPhotosWithFewerPartnersThan: options.expansion.minimumPartners)
     context.notes.record("weakPairs", Double(weak.pairs.count))
-    // Its own notes: those of the first run stay.
+    // Separate notes: the number of guided matches of the other pairs stays recorded.
     weak = try GuidedMatching(
       options.guidedMatching, verification: PairVerification(verification)
     ).run(

@@ -2,10 +2,10 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// Guided matching: a second matching pass over weak pairs. Once the epipolar geometry of a pair is
-/// known, features are matched only to candidates near their epipolar line, where similar features
-/// elsewhere in the photo can't cause ambiguity. New matches must change scale and orientation
-/// consistently with the known ones.
+/// Guided matching: a second matching pass over pairs with few matches. Once the epipolar geometry
+/// of a pair is known, features are matched only to candidates near their epipolar line, where
+/// similar features elsewhere in the photo can't cause ambiguity. New matches must change scale and
+/// orientation consistently with the known ones.
 package struct GuidedMatching {
   package struct Options: Hashable, Codable, Sendable {
     /// Pairs with at least this number of matches are skipped.
@@ -23,7 +23,7 @@ package struct GuidedMatching {
     (self.options, self.verification) = (options, verification)
   }
 
-  /// Returns the graph with the additional matches of weak pairs of known geometry.
+  /// Returns the graph with the additional matches of pairs with few matches and known geometry.
   package func run(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
     _ context: StageContext

@@ -30,7 +30,7 @@ package struct PairExpansion {
     _ choice: PairSelection.Choice, _ graph: ViewGraph, features: [FeatureSet],
     preemptiveMatching: PreemptiveMatching, _ context: StageContext
   ) throws -> [PhotoPair] {
-    let partners = partners(graph)
+    let partners = graph.partners
     let matched = Set(choice.pairs)
     var chosen = retries(choice, partners).subtracting(matched)
     if !choice.mostSimilar.isEmpty {
@@ -40,16 +40,6 @@ package struct PairExpansion {
       chosen.formUnion(try preemptiveMatching.run(common.sorted(), features: features, context))
     }
     return chosen.sorted()
-  }
-
-  /// The verified partners of each photo, in ascending order.
-  private func partners(_ graph: ViewGraph) -> [[Int]] {
-    var partners = [[Int]](repeating: [], count: graph.photoCount)
-    for pair in graph.pairs {
-      partners[pair.pair.first.index].append(pair.pair.second.index)
-      partners[pair.pair.second.index].append(pair.pair.first.index)
-    }
-    return partners.map { $0.sorted() }
   }
 
   /// All candidates and the most similar photos of photos with few partners or outside the largest

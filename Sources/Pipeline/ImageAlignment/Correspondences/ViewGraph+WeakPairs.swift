@@ -5,13 +5,9 @@ extension ViewGraph {
   /// few matches that agree are better than none. Photos with more partners are registered without
   /// them.
   func weakPairs(ofPhotosWithFewerPartnersThan minimumPartners: Int) -> [VerifiedPair] {
-    var partners = [Int](repeating: 0, count: photoCount)
-    for pair in pairs {
-      partners[pair.pair.first.index] += 1
-      partners[pair.pair.second.index] += 1
-    }
+    let counts = partners.map(\.count)
     return rejected.compactMap(\.weak).filter {
-      min(partners[$0.pair.first.index], partners[$0.pair.second.index]) < minimumPartners
+      min(counts[$0.pair.first.index], counts[$0.pair.second.index]) < minimumPartners
     }
   }
 

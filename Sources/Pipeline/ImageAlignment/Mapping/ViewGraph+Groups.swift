@@ -8,6 +8,16 @@ extension ViewGraph {
     return sets.groups().sorted { ($1.count, $0[0]) < ($0.count, $1[0]) }
   }
 
+  /// The verified partners of each photo, in ascending order.
+  var partners: [[Int]] {
+    var partners = [[Int]](repeating: [], count: photoCount)
+    for pair in pairs {
+      partners[pair.pair.first.index].append(pair.pair.second.index)
+      partners[pair.pair.second.index].append(pair.pair.first.index)
+    }
+    return partners.map { $0.sorted() }
+  }
+
   /// The graph with the pairs of some of the photos only.
   func restricted(to group: [Int]) -> ViewGraph {
     let members = Set(group)

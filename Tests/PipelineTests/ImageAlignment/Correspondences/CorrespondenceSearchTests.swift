@@ -133,7 +133,8 @@ import Testing
       ordering: .unordered, StageContext()
     ).viewGraph
     let weak = graph.rejected.compactMap(\.weak)
-    #expect(!weak.isEmpty && weak.allSatisfy { $0.matches.count >= 12 })
+    let needed = options.verification.weakMinimumInliers
+    #expect(!weak.isEmpty && weak.allSatisfy { $0.matches.count >= needed })
     #expect(Set(weak.map(\.pair)).isDisjoint(with: graph.pairs.map(\.pair)))
   }
 
