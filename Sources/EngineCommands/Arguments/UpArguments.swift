@@ -1,5 +1,4 @@
 import ArgumentParser
-import Pipeline
 
 /// What is up in the model, if the user knows better.
 struct UpArguments: ParsableArguments {
@@ -10,16 +9,4 @@ struct UpArguments: ParsableArguments {
         + "right), or an axis of the model that results without this option (x, -x, y, -y, z, -z).",
       valueName: "direction"))
   var up: UpArgument?
-}
-
-/// A name of `ChosenUp`.
-struct UpArgument: ExpressibleByArgument {
-  static let allValueStrings = ChosenUp.names
-
-  let direction: ChosenUp
-
-  init?(argument: String) {
-    guard let direction = ChosenUp(name: argument) else { return nil }
-    self.direction = direction
-  }
 }

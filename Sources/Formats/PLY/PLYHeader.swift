@@ -128,13 +128,6 @@ extension PLYHeader {
   }
 }
 
-/// What is wrong with a PLY file, as the end of a sentence.
-struct PLYFault: Error {
-  var reason: String
-
-  init(_ reason: String) { self.reason = reason }
-}
-
 extension String {
   func trimmingSuffix(while predicate: (Character) -> Bool) -> String {
     var text = self[...]

@@ -1,11 +1,5 @@
 import Foundation
 
-/// One row of an element; scalars and lists are indexed by property.
-struct PLYRow {
-  var scalars: [Double]
-  var lists: [[Double]]
-}
-
 /// Reads the rows of an ascii or binary PLY file in order.
 struct PLYReader {
   let header: PLYHeader

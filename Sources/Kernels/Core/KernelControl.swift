@@ -1,5 +1,4 @@
 import CKernels
-import Foundation
 import Synchronization
 import SceneModel
 
@@ -80,41 +79,6 @@ private final class UnitProgress: Sendable {
       return state.sum / Double(state.units.count)
     }
   }
-}
-
-/// A one-way flag that cancels a run.
-package final class CancellationFlag: Sendable {
-  private let value = Atomic<Bool>(false)
-
-  package init() {}
-
-  /// Whether the run is canceled.
-  package var isCancelled: Bool { value.load(ordering: .relaxed) }
-
-  /// Cancels the run; can't be undone.
-  package func cancel() { value.store(true, ordering: .relaxed) }
-}
-
-/// Failure of a kernel, with the kernel's message.
-package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
-  /// An argument is out of range, or two arguments contradict each other.
-  case invalidArgument(String)
-  /// The input is valid but does not determine a result.
-  case degenerate(String)
-  /// Any other failure: a damaged file, or an error of a library.
-  case failed(String)
-  /// Memory was insufficient; a later attempt may succeed.
-  case outOfMemory
-
-  package var description: String {
-    switch self {
-    case .invalidArgument(let message): "invalid argument: \(message)"
-    case .degenerate(let message), .failed(let message): message
-    case .outOfMemory: "out of memory"
-    }
-  }
-
-  package var errorDescription: String? { description }
 }
 
 /// Calls a kernel and converts its status to an error.

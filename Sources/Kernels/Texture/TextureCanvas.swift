@@ -1,24 +1,6 @@
 import CKernels
 import SceneModel
 
-/// The weights and color offsets of a view in one triangle.
-package struct FacePaint: Sendable {
-  /// Index of the triangle.
-  package var face: Int32
-  /// At each corner; they sum to 1 over all views.
-  package var weights: SIMD3<Float>
-  /// RGB offsets, 0…255, added to the photo's colors at each corner.
-  package var offsets: (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)
-
-  package init(
-    face: Int32, weights: SIMD3<Float>, offsets: (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>)
-  ) {
-    self.face = face
-    self.weights = weights
-    self.offsets = offsets
-  }
-}
-
 /// A texture atlas that is painted view by view.
 ///
 /// Not thread-safe; kernels use the control's threads internally.
@@ -141,30 +123,5 @@ package final class TextureCanvas {
         }
       }
     }
-  }
-}
-
-/// Input for baking the non-color maps.
-package struct BakeSource: Sendable {
-  /// Maximum distance of the dense surface from the textured one, in world units.
-  package var maximumDistance: Float
-  /// Unit normals of the textured surface, three per triangle.
-  package var cornerNormals: [SIMD3<Float>]
-  /// Unit tangents along u, with the sign of the bitangent; three per triangle.
-  package var cornerTangents: [SIMD4<Float>]
-  /// The surface before simplification.
-  package var dense: RayScene
-  /// The dense surface's unit normals, one per position.
-  package var denseNormals: [SIMD3<Float>]
-
-  package init(
-    maximumDistance: Float, cornerNormals: [SIMD3<Float>], cornerTangents: [SIMD4<Float>],
-    dense: RayScene, denseNormals: [SIMD3<Float>]
-  ) {
-    self.maximumDistance = maximumDistance
-    self.cornerNormals = cornerNormals
-    self.cornerTangents = cornerTangents
-    self.dense = dense
-    self.denseNormals = denseNormals
   }
 }

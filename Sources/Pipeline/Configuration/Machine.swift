@@ -84,19 +84,6 @@ package struct Machine: Hashable, Sendable {
   }
 }
 
-// MARK: - Limits
-
-/// The limits of a run that follow from a machine's memory. They depend on the total memory, not on
-/// the free memory, so that runs do not differ.
-package struct MemoryLimits: Hashable, Sendable {
-  /// Photos beyond this number are rejected.
-  package var maximumPhotos: Int
-  /// Photos with a longer side, in pixels, are rejected.
-  package var maximumPhotoSide: Int
-  /// Bytes that decoded photos may occupy.
-  package var imageMemory: Int
-}
-
 extension Machine {
   /// Memory in GiB from which on a run has the largest limits.
   private static let sufficientGibibytes = 7.5

@@ -1,17 +1,5 @@
 import SceneModel
 
-/// The detail levels of a model, coarse to fine.
-package enum DetailLevel: String, CaseIterable, Codable, Sendable {
-  case preview, reduced, medium, full, raw
-}
-
-/// How texture images are stored.
-package enum TextureFormat: Hashable, Codable, Sendable {
-  case png
-  /// `quality` ranges from 0 to 1 (best).
-  case jpeg(quality: Float)
-}
-
 /// The upper bounds of a model: the budgets of a detail level, or custom ones.
 package struct DetailSpecification: Hashable, Codable, Sendable {
   /// Upper bound of the number of triangles.

@@ -1,23 +1,5 @@
 import SceneModel
 
-/// The views that color each corner of a triangle, with their weights.
-struct CornerWeights: Sendable {
-  struct Share: Hashable, Sendable {
-    /// −1 stands for the color interpolated where no photo sees the surface.
-    var view: Int32
-    var weight: Float
-  }
-
-  /// Shares of corner i: `shares[offsets[i]..<offsets[i + 1]]`, ascending by view; they sum to 1.
-  fileprivate(set) var offsets: [Int32] = [0]
-  fileprivate(set) var shares: [Share] = []
-
-  /// `corner` is three times the triangle plus 0, 1 or 2.
-  func shares(of corner: Int) -> ArraySlice<Share> {
-    shares[Int(offsets[corner])..<Int(offsets[corner + 1])]
-  }
-}
-
 /// Blends between photos: weights of the photos at the corners, interpolated over the triangles.
 ///
 /// A vertex averages the labels of its triangles; a triangle uses only photos that see it.

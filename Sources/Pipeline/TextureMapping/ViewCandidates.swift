@@ -1,5 +1,4 @@
 import Kernels
-import SceneModel
 
 /// The data term: which photos may color a triangle, and how well.
 ///
@@ -84,13 +83,4 @@ struct ViewCandidates: Sendable {
     let exposed = 1 - (1 - options.uncertainFactor) * min(max(excess, 0), 1)
     return entry.isClear && entry.isInterior ? exposed : exposed * options.uncertainFactor
   }
-}
-
-/// Views with exposure-compensated colors that may color each triangle.
-struct RatedViews: Sendable {
-  var views: FaceViews
-  /// By entry of `views`; larger is better, comparable only within a triangle.
-  var qualities: [Float]
-  /// The consensus color of a triangle's views, 0…255; nil if none sees it.
-  var colors: [SIMD3<Float>?]
 }

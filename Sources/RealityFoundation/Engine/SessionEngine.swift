@@ -1,4 +1,3 @@
-import Kernels
 import Pipeline
 
 /// The engine behind a session; used on a single thread.
@@ -25,14 +24,6 @@ protocol SessionEngine: AnyObject {
   func limitResolution(to viewPixels: Int)
   /// The report of the run so far.
   var report: RunReport? { get }
-}
-
-/// One call of `process`, with everything that the engine needs.
-struct EngineTask: Sendable {
-  var input: SessionInput
-  var configuration: PhotogrammetrySession.Configuration
-  var options: EngineOptions
-  var plan: RunPlan
 }
 
 extension SessionEngine {

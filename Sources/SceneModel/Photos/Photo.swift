@@ -49,38 +49,3 @@ extension Photo {
     min(1, Double(sharpPixels ?? pixels) / Double(max(1, pixels)))
   }
 }
-
-/// A GPS position: degrees north and east (WGS 84), meters above sea level if known.
-package struct GeographicPosition: Hashable, Codable, Sendable {
-  package var latitudeDegrees: Double
-  package var longitudeDegrees: Double
-  package var altitude: Double?
-
-  package init(latitudeDegrees: Double, longitudeDegrees: Double, altitude: Double?) {
-    self.latitudeDegrees = latitudeDegrees
-    self.longitudeDegrees = longitudeDegrees
-    self.altitude = altitude
-  }
-}
-
-/// A rejected input file and the reason.
-package struct RejectedPhoto: Hashable, Codable, Sendable {
-  /// The kind of fault.
-  package enum Fault: String, Hashable, Codable, Sendable {
-    case unreadable, unsupportedFormat, tooSmall, tooLarge, blurred, duplicate, tooMany
-    case notRegistered
-  }
-
-  package var sampleID: Int
-  package var name: String
-  package var fault: Fault
-  /// A message for the user with the reason and, if there is one, the remedy.
-  package var reason: String
-
-  package init(sampleID: Int, name: String, fault: Fault, reason: String) {
-    self.sampleID = sampleID
-    self.name = name
-    self.fault = fault
-    self.reason = reason
-  }
-}

@@ -1,5 +1,4 @@
 import ArgumentParser
-import Foundation
 import RealityKit
 
 /// The detail of a model: one of the levels, or custom limits.
@@ -67,55 +66,5 @@ package struct DetailArguments: ParsableArguments {
     if let maps { result.outputTextureMaps = maps.outputs }
     if let textureFormat { result.textureFormat = textureFormat.format }
     return result
-  }
-}
-
-/// The detail levels with fixed limits.
-package enum DetailArgument: String, ExpressibleByArgument, CaseIterable, Sendable {
-  case preview, reduced, medium, full, raw
-
-  /// The level of a session's request.
-  package var requestDetail: PhotogrammetrySession.Request.Detail {
-    switch self {
-    case .preview: .preview
-    case .reduced: .reduced
-    case .medium: .medium
-    case .full: .full
-    case .raw: .raw
-    }
-  }
-}
-
-/// A detail level, or custom limits.
-package enum DetailChoice: ExpressibleByArgument, Equatable, Sendable {
-  case level(DetailArgument)
-  case custom
-
-  /// Parses the name of a level, or `custom`.
-  package init?(argument: String) {
-    if argument == "custom" {
-      self = .custom
-    } else if let level = DetailArgument(rawValue: argument) {
-      self = .level(level)
-    } else {
-      return nil
-    }
-  }
-
-  package static let allValueStrings = DetailArgument.allCases.map(\.rawValue) + ["custom"]
-
-  package var defaultValueDescription: String {
-    switch self {
-    case .level(let level): level.rawValue
-    case .custom: "custom"
-    }
-  }
-
-  /// The level of a session's request.
-  package var requestDetail: PhotogrammetrySession.Request.Detail {
-    switch self {
-    case .level(let level): level.requestDetail
-    case .custom: .custom
-    }
   }
 }

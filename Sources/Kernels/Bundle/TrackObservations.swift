@@ -1,0 +1,38 @@
+import CKernels
+
+/// Observations grouped by track: those of track i are `observations[offsets[i]..<offsets[i + 1]]`.
+package struct TrackObservations: Sendable {
+  /// `count` + 1 ascending offsets.
+  package var offsets: [Int32] = [0]
+  package var observations: [PointObservation] = []
+
+  package init() {}
+
+  /// Number of tracks.
+  package var count: Int { offsets.count - 1 }
+
+  /// The observations of a track.
+  package func range(_ track: Int) -> Range<Int> {
+    Int(offsets[track])..<Int(offsets[track + 1])
+  }
+
+  /// Adds the observations of the next track.
+  package mutating func append(_ track: some Sequence<PointObservation>) {
+    observations.append(contentsOf: track)
+    offsets.append(Int32(observations.count))
+  }
+
+  /// Calls `body` with the C representation, valid only during the call.
+  func withKernelValue<Result>(
+    _ body: (UnsafePointer<ck_tracks>) throws -> Result
+  ) rethrows -> Result {
+    let raw = KernelArray(observations.lazy.map(\.raw))
+    return try withExtendedLifetime(raw) {
+      try offsets.withUnsafeBufferPointer { offsets in
+        var tracks = ck_tracks(
+          offsets: offsets.baseAddress, count: count, observations: raw.base)
+        return try body(&tracks)
+      }
+    }
+  }
+}

@@ -1,0 +1,12 @@
+// MARK: - Limits
+
+/// The limits of a run that follow from a machine's memory. They depend on the total memory, not on
+/// the free memory, so that runs do not differ.
+package struct MemoryLimits: Hashable, Sendable {
+  /// Photos beyond this number are rejected.
+  package var maximumPhotos: Int
+  /// Photos with a longer side, in pixels, are rejected.
+  package var maximumPhotoSide: Int
+  /// Bytes that decoded photos may occupy.
+  package var imageMemory: Int
+}

@@ -1,0 +1,44 @@
+import Foundation
+import ImageFiles
+import SceneModel
+
+/// What is kept of a photo after decoding it once: enough to compare it with the others.
+package struct InspectedPhoto: Sendable {
+  /// Index among all files of the folder.
+  package var sampleID: Int
+  package var url: URL
+  /// Size in pixels, upright.
+  package var width: Int
+  package var height: Int
+  package var metadata: PhotoMetadata
+  /// XXH64 of the file's bytes.
+  package var contentHash: UInt64
+  package var sharpness: SharpnessLadder
+  /// The whole photo, upright and gray, with at most `PhotoInspection.thumbnailSide` pixels per
+  /// side.
+  package var thumbnail: RasterImage
+  /// The mask of the photo, if it has one.
+  var mask: MaskInspection.ValidatedMask?
+  /// The photo's mask if it is unusable.
+  var rejectedMask: RejectedMask?
+}
+
+extension InspectedPhoto {
+  /// Reads the mask from a file, or from the alpha channel of the photo, whose file content is
+  /// `bytes`.
+  mutating func findMask(_ file: URL?, _ bytes: [UInt8]) {
+    let isTurned = metadata.orientation >= 5
+    let stored = MaskInspection.StoredPhoto(
+      name: url.lastPathComponent, width: isTurned ? height : width,
+      height: isTurned ? width : height, orientation: metadata.orientation)
+    do throws(MaskFault) {
+      if let file {
+        mask = try MaskInspection().file(file, of: stored)
+      } else {
+        mask = try MaskInspection().alpha(bytes, of: stored)
+      }
+    } catch {
+      rejectedMask = error.mask
+    }
+  }
+}

@@ -1,0 +1,41 @@
+import Foundation
+import SceneModel
+
+/// The sharpness of a photo at several sizes: see `RasterImage.sharpness()`.
+package struct SharpnessLadder: Equatable, Sendable {
+  /// The largest number of pixels first.
+  package var steps: [(pixels: Double, sharpness: Double)]
+
+  /// Scales between the sizes, and their number.
+  private static let (reduction, count) = (0.5, 4)
+
+  package init(steps: [(pixels: Double, sharpness: Double)]) { self.steps = steps }
+
+  /// Measures a gray image. Throws `KernelError.degenerate` if it has no texture.
+  package init(_ image: RasterImage) throws {
+    steps = [(Double(image.width * image.height), try image.sharpness())]
+    var reduced = image
+    for _ in 1..<Self.count {
+      reduced = try reduced.resized(
+        width: Int(Double(reduced.width) * Self.reduction),
+        height: Int(Double(reduced.height) * Self.reduction))
+      // The reduced image may be too small to be measured.
+      guard let sharpness = try? reduced.sharpness() else { break }
+      steps.append((Double(reduced.width * reduced.height), sharpness))
+    }
+  }
+
+  package var atFullSize: Double { steps.first?.sharpness ?? 0 }
+
+  package static func == (a: Self, b: Self) -> Bool { a.steps.elementsEqual(b.steps, by: ==) }
+
+  /// The largest number of pixels at which the photo has the sharpness, interpolated between the
+  /// logarithms of sizes; nil if it has it at none.
+  func pixels(atSharpness bound: Double) -> Double? {
+    guard let index = steps.firstIndex(where: { $0.sharpness >= bound }) else { return nil }
+    guard index > 0 else { return steps[0].pixels }
+    let (large, small) = (steps[index - 1], steps[index])
+    let share = (bound - large.sharpness) / (small.sharpness - large.sharpness)
+    return exp(log(large.pixels) + share * (log(small.pixels) - log(large.pixels)))
+  }
+}

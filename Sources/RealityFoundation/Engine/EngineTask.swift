@@ -1,0 +1,7 @@
+/// One call of `process`, with everything that the engine needs.
+struct EngineTask: Sendable {
+  var input: SessionInput
+  var configuration: PhotogrammetrySession.Configuration
+  var options: EngineOptions
+  var plan: RunPlan
+}

@@ -1,0 +1,5 @@
+import RealityKit
+
+/// The limits of `--detail custom`.
+package typealias CustomDetail =
+  PhotogrammetrySession.Configuration.CustomDetailSpecification
