@@ -1,6 +1,7 @@
 import Kernels
 import SceneModel
 
+/// Photos without lens distortion, for the stages from the dense one on.
 extension ImageStore {
   /// The camera of `pinholeView` with the same arguments.
   package func pinholeCamera(

@@ -1,5 +1,6 @@
 import SceneModel
 
+/// Medians and quantiles.
 extension PointCloud {
   /// The median of the positive, finite footprints; nil if there are none.
   var medianFootprint: Float? { footprints.filter { $0 > 0 && $0.isFinite }.upperMedian }

@@ -1,5 +1,6 @@
 import SceneModel
 
+/// Corners, centers and areas of triangles.
 extension Mesh {
   /// The three positions of a triangle.
   func corners(of triangle: Triangle) -> (SIMD3<Float>, SIMD3<Float>, SIMD3<Float>) {

@@ -28,6 +28,7 @@ private struct TrackDirections {
   }
 }
 
+/// Global positioning: camera centers and points from viewing directions and known rotations.
 extension GlobalMapping {
   /// Global positioning: registers the photos that have a rotation and creates points for some of
   /// the tracks. Returns false if no track is usable.

@@ -1,6 +1,7 @@
 import Kernels
 import SceneModel
 
+/// Rotation averaging, and the relative rotations that it starts from.
 extension GlobalMapping {
   /// The relative rotations of the pairs; re-estimated for pairs that were verified without focal
   /// lengths.

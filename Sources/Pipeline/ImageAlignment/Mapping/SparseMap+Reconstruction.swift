@@ -1,6 +1,7 @@
 import Kernels
 import SceneModel
 
+/// Conversion between a map and a reconstruction.
 extension SparseMap {
   /// A new observation of a track.
   struct NewObservation: Hashable, Sendable {
