@@ -137,7 +137,6 @@ package struct SecondMotionSearch: Sendable {
     second.options.minimumInlierRatio = options.minimumShareOfRest
     second.options.maximumIterations = options.maximumIterations
     second.options.seed = verification.options.seed &+ 0x9E37_79B9
-    second.options.isUncalibratedWhereAssumed = false
     guard
       case .verified(let other) = try second.verify(
         pair, candidate.rest, points: points, cameras: cameras),
