@@ -31,6 +31,11 @@ package final class KernelControl: Sendable {
   /// Reports progress; throws `CancellationError` if the run is canceled.
   package func step(_ fraction: Double) throws {
     onProgress?(fraction)
+    try checkCancellation()
+  }
+
+  /// Throws `CancellationError` if the run is canceled.
+  package func checkCancellation() throws {
     if isCancelled { throw CancellationError() }
   }
 

@@ -1,15 +1,24 @@
+import Kernels
 import SceneModel
 
 extension PlacementDetection {
-  /// The groups by what photos show of the points that a map predicts, and by pairs that show two
-  /// motions. Photos taken before and after a move have nearly the same pose in a map of the
-  /// surroundings, or in one of the object, but show different things. Photos without a pose are a
-  /// group of their own if they match.
+  /// The groups by what photos show of the points that a map predicts, by pairs that show two
+  /// motions, and by photos whose matches contradict the map.
+  ///
+  /// Photos taken before and after a move have nearly the same pose in a map of the surroundings,
+  /// or in one of the object, but show different things; or they have no pose, although they match
+  /// points of the map. `neededPoints` is the number of points that determine a pose.
   func groups(
-    _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction, _ graph: ViewGraph
-  ) -> [[Int]] {
+    _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction,
+    _ graph: ViewGraph, features: [FeatureSet], neededPoints: Int, _ control: KernelControl
+  ) throws -> Placements {
+    let repetition = RepeatedStructure(reconstruction, features: features)
     // Matches of a moving object do not depend on its surroundings.
-    var links = links(of: graph.isObjectOnly ? [] : graph.motions)
+    let motions = graph.isObjectOnly ? [] : graph.motions
+    var links = links(
+      of: motions.filter { motion in
+        !motion.bodies.contains { repetition.explains($0.matches, of: motion.pair) }
+      })
     let moved = MovedPoints(evidence)
     for one in evidence {
       links[one.pair, default: Link()].evidence +=
@@ -18,10 +27,42 @@ extension PlacementDetection {
     for (pair, count) in moved.sightings(reconstruction) {
       links[pair, default: Link()].evidence += count
     }
+    let contradicting = graph.contradictingMatches(
+      reconstruction, repetition.pointOfFeature, neededPoints: neededPoints)
+    for (pair, count) in contradicting {
+      links[pair, default: Link()].evidence -= count
+    }
     for pair in graph.pairs where reconstruction.isPosedAlike(pair.pair) {
       links[pair.pair, default: Link()].matches += pair.matches.count
     }
-    return groups(links, photoCount: graph.photoCount)
+    return try groups(links, photoCount: graph.photoCount, control)
+  }
+}
+
+extension ViewGraph {
+  /// The number of matches with points of a map, by pair, of the photos that match enough points
+  /// for a pose, but have none: what they show contradicts the map.
+  ///
+  /// Photos that match fewer points merely overlap too little.
+  fileprivate func contradictingMatches(
+    _ reconstruction: Reconstruction, _ pointOf: [[Int32]], neededPoints: Int
+  ) -> [PhotoPair: Int] {
+    var counts: [PhotoPair: Int] = [:]
+    var points = [Set<Int32>](repeating: [], count: photoCount)
+    for pair in pairs where !reconstruction.isPosedAlike(pair.pair) {
+      let isFirstPosed = reconstruction.poses[pair.pair.first.index] != nil
+      let (posed, other) =
+        isFirstPosed ? (pair.pair.first, pair.pair.second) : (pair.pair.second, pair.pair.first)
+      let matched = pair.matches.map {
+        pointOf[posed.index][Int(isFirstPosed ? $0.first : $0.second)]
+      }.filter { $0 >= 0 }
+      counts[pair.pair] = matched.count
+      points[other.index].formUnion(matched)
+    }
+    return counts.filter { pair, count in
+      count > 0
+        && max(points[pair.first.index].count, points[pair.second.index].count) >= neededPoints
+    }
   }
 }
 

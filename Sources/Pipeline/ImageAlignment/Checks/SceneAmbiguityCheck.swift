@@ -20,9 +20,8 @@ package struct SceneAmbiguityCheck: Sendable {
     package var conflicts: [Evidence] = []
     /// Pairs whose matches contradict the reconstruction, sorted.
     package var contradicted: [PhotoPair] = []
-    /// Groups of photos between which the object seems to have been moved, larger ones first; one
-    /// group if it was not moved.
-    package var placements: [[Int]] = []
+    /// Groups of photos between which the object seems to have been moved.
+    var placements = Placements(groups: [], basis: .none)
     package var verdict = Verdict.consistent
   }
 
@@ -40,10 +39,12 @@ package struct SceneAmbiguityCheck: Sendable {
 
   package init(_ options: Options = Options()) { self.options = options }
 
-  /// Checks a reconstruction; `graph` is the view graph that it was estimated from.
+  /// Checks a reconstruction; `graph` is the view graph that it was estimated from, and
+  /// `neededPoints` the number of points that determined a pose.
   package func run(
     _ reconstruction: Reconstruction, _ graph: ViewGraph, features: [FeatureSet],
-    images: ImageStore, _ context: StageContext
+    images: ImageStore, neededPoints: Int = IncrementalMapping.Options().minimumInliers,
+    _ context: StageContext
   ) throws -> Findings {
     let evidence = try evidence(reconstruction, features: features, images: images, context)
     var findings = Findings()
@@ -61,12 +62,16 @@ package struct SceneAmbiguityCheck: Sendable {
       Double(findings.conflicts.count) >= needed,
       findings.contradicted.count >= options.minimumContradicted,
     ]
-    findings.placements = PlacementDetection(options: options.placements)
-      .groups(signs[0] ? evidence : [], reconstruction, graph)
+    findings.placements = try PlacementDetection(options: options.placements)
+      .groups(
+        signs[0] ? evidence : [], reconstruction, graph, features: features,
+        neededPoints: neededPoints,
+        context.control.part(from: 1, to: 1))
     findings.verdict =
       !signs.contains(true) ? .consistent : signs.contains(false) ? .ambiguous : .inconsistent
     context.notes.record("ambiguityConflicts", Double(findings.conflicts.count))
-    context.notes.record("placements", Double(findings.placements.count))
+    context.notes.record("placements", Double(findings.placements.groups.count))
+    findings.placements.explanation.map(context.notes.log)
     context.notes.record("contradictedPairs", Double(findings.contradicted.count))
     return findings
   }

@@ -1,3 +1,4 @@
+import Kernels
 import SceneModel
 
 /// Divides photos in the order of capture into intervals, between which the object was moved.
@@ -46,8 +47,10 @@ struct CaptureIntervals {
   }
 
   /// The division into the fewest intervals that explains the evidence; nil if none does.
-  func division() -> [[Int]]? {
-    let divisions = divisions()
+  func division(_ control: KernelControl = KernelControl()) throws -> [[Int]]? {
+    // Without evidence against one placement, a boundary explains nothing.
+    guard evidence.contains(where: { $0.contains { $0.value < 0 } }) else { return nil }
+    let divisions = try divisions(control)
     guard let whole = divisions.first else { return nil }
     return divisions.dropFirst().first {
       $0.score > whole.score && isExplained(by: $0.groups) && isWitnessed($0.groups)
@@ -62,24 +65,21 @@ struct CaptureIntervals {
     for index in starts.indices.dropFirst().dropLast() {
       let (start, end) = (starts[index - 1], starts[index + 1])
       let range = start + options.minimumPhotos...end - options.minimumPhotos
-      let best = across(starts[index], start..<end)
-      func isEqual(_ boundary: Int) -> Bool {
-        range.contains(boundary) && across(boundary, start..<end) == best
-      }
       var (first, last) = (starts[index], starts[index])
-      while isEqual(first - 1) { first -= 1 }
-      while isEqual(last + 1) { last += 1 }
+      while first > range.lowerBound, balance(first - 1, start..<end) == 0 { first -= 1 }
+      while last < range.upperBound, balance(last, start..<end) == 0 { last += 1 }
       starts[index] = (first + last + 1) / 2
     }
     return zip(starts, starts.dropFirst()).map { Array($0..<$1) }
   }
 
-  /// The evidence between the two parts that a boundary divides a range into.
-  private func across(_ boundary: Int, _ range: Range<Int>) -> Int {
-    (range.lowerBound..<boundary).reduce(0) { sum, photo in
-      evidence[photo].reduce(sum) {
-        boundary..<range.upperBound ~= $1.photo ? $0 + clamped($1.value) : $0
-      }
+  /// How much the evidence between the two sides of a boundary changes if a photo next to it
+  /// changes sides: its evidence with the photos of a range before it, minus that with those after
+  /// it.
+  private func balance(_ photo: Int, _ range: Range<Int>) -> Int {
+    evidence[photo].reduce(0) { sum, other in
+      guard range.contains(other.photo) else { return sum }
+      return sum + (other.photo < photo ? 1 : -1) * clamped(other.value)
     }
   }
 
@@ -87,38 +87,53 @@ struct CaptureIntervals {
     min(options.maximumEvidence, max(-options.maximumEvidence, value))
   }
 
-  /// The best division for each number of intervals.
-  private func divisions() -> [(groups: [[Int]], score: Int)] {
+  /// The best division for each number of intervals, in O(n²) for n photos.
+  private func divisions(_ control: KernelControl) throws -> [(groups: [[Int]], score: Int)] {
     let most = min(options.maximumIntervals, photoCount / options.minimumPhotos)
     guard most > 0 else { return [] }
     // By the number of intervals and their end: the score, and the start of the last one.
-    let row = [(score: Int?, start: Int)](repeating: (nil, 0), count: photoCount + 1)
-    var best = [[(score: Int?, start: Int)]](repeating: row, count: most + 1)
-    best[0][0].score = options.boundaryCost
+    let row = [Int](repeating: .min, count: photoCount + 1)
+    var scores = [[Int]](repeating: row, count: most + 1)
+    var starts = scores
+    scores[0][0] = options.boundaryCost
+    // The evidence within `first..<end`, by `first`.
+    var within = [Int](repeating: 0, count: photoCount)
     for end in stride(from: 1, through: photoCount, by: 1) {
-      var within = 0
-      for first in stride(from: end - 1, through: 0, by: -1) {
-        // `within` is the sum over the pairs of first..<end.
-        for other in evidence[first] where other.photo > first && other.photo < end {
-          within += clamped(other.value)
+      try control.checkCancellation()
+      add(end - 1, to: &within)
+      let last = end - options.minimumPhotos
+      guard last >= 0 else { continue }
+      for count in 1...most {
+        var (best, start) = (Int.min, Int.min)
+        for first in stride(from: last, through: 0, by: -1) where scores[count - 1][first] != .min {
+          let score = scores[count - 1][first] + within[first]
+          if score > best { (best, start) = (score, first) }
         }
-        guard end - first >= options.minimumPhotos else { continue }
-        for count in 1...most {
-          guard let before = best[count - 1][first].score else { continue }
-          let score = before + within - options.boundaryCost
-          if score > best[count][end].score ?? .min { best[count][end] = (score, first) }
-        }
+        guard start != .min else { continue }
+        (scores[count][end], starts[count][end]) = (best - options.boundaryCost, start)
       }
     }
     return (1...most).compactMap { count in
-      guard let score = best[count][photoCount].score else { return nil }
+      let score = scores[count][photoCount]
+      guard score != .min else { return nil }
       var (groups, end) = ([[Int]](), photoCount)
       for count in stride(from: count, to: 0, by: -1) {
-        let start = best[count][end].start
+        let start = starts[count][end]
         groups.append(Array(start..<end))
         end = start
       }
       return (groups.reversed(), score)
+    }
+  }
+
+  /// Adds the evidence between a photo and those before it to the sums from each first photo on.
+  private func add(_ photo: Int, to within: inout [Int]) {
+    let before = evidence[photo].filter { $0.photo < photo }.sorted { $0.photo > $1.photo }
+    var sum = 0
+    for (index, other) in before.enumerated() {
+      sum += clamped(other.value)
+      let next = index + 1 < before.count ? before[index + 1].photo : -1
+      for first in stride(from: other.photo, to: next, by: -1) { within[first] += sum }
     }
   }
 

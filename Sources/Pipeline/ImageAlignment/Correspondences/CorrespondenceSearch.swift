@@ -60,12 +60,13 @@ package struct CorrespondenceSearch {
       .run(
         matchedPairs.graph, features: features, photos: photos, cameras: cameras,
         context.part(from: 0.9, to: 0.95))
+    let known = zip(cameras, calibrated).map { $0 == $1 ? $1 : $1.withKnownFocalLength }
     if calibrated != cameras {
-      try matchedPairs.verifyAgain(calibrated, context.part(from: 0.95, to: 0.97))
+      try matchedPairs.verifyAgain(known, context.part(from: 0.95, to: 0.97))
     }
-    try matchedPairs.guide(calibrated, context.part(from: 0.97, to: 0.99))
-    try matchedPairs.separateMotions(calibrated, context.part(from: 0.99, to: 0.995))
-    try matchedPairs.addWeakPairs(calibrated, context.part(from: 0.995, to: 1))
+    try matchedPairs.guide(known, context.part(from: 0.97, to: 0.99))
+    try matchedPairs.separateMotions(known, context.part(from: 0.99, to: 0.995))
+    try matchedPairs.addWeakPairs(known, context.part(from: 0.995, to: 1))
     context.notes.record("candidatePairs", Double(Set(choice.candidates).union(more).count))
     matchedPairs.report(context.notes)
     return (matchedPairs.graph, calibrated)
@@ -120,10 +121,9 @@ private struct MatchedPairs {
     graph.rejected = (graph.rejected + verified.rejected).sorted { $0.pair < $1.pair }
   }
 
-  /// Verifies all pairs again, now that the focal lengths are known well enough for essential
+  /// Verifies all pairs again, now that more focal lengths are known well enough for essential
   /// matrices.
   mutating func verifyAgain(_ cameras: [Camera], _ context: StageContext) throws {
-    verification.isUncalibratedWhereAssumed = false
     graph = try PairVerification(verification)
       .run(
         pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
@@ -165,8 +165,11 @@ private struct MatchedPairs {
     let surroundings = try MotionLayers(options: options.motionLayers)
       .surroundings(graph, features: features, photos: photos, context)
     guard let surroundings else { return }
-    if let placements = PlacementDetection(options: options.placements).groups(graph) {
-      graph.placements = placements
+    let placements = try PlacementDetection(options: options.placements)
+      .groups(graph, context.control.part(from: 1, to: 1))
+    if let placements {
+      graph.placements = placements.groups
+      placements.explanation.map(context.notes.log)
       return
     }
     let object = try objectPairs(without: surroundings, cameras, context)
@@ -243,5 +246,15 @@ private struct MatchedPairs {
       notes.warn(
         "No two photos show the same surface; take photos that overlap by two thirds.")
     }
+  }
+}
+
+extension Camera {
+  /// The camera, for whose pairs essential matrices are estimated: the matches determined the focal
+  /// length, whatever the metadata say.
+  fileprivate var withKnownFocalLength: Camera {
+    var result = self
+    result.calibration = .exif
+    return result
   }
 }

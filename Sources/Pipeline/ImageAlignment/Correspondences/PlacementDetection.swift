@@ -1,12 +1,16 @@
+import Kernels
 import SceneModel
 
 /// Divides photos into groups between which the object was moved, for instance laid on another
 /// side.
 ///
-/// The evidence is for and against two photos showing the object in the same placement. Photos are
-/// usually in the order of capture, and then placements are intervals, which dynamic programming
-/// finds. Otherwise greedy edge contraction divides the signed graph (Keuper et al., "Efficient
-/// decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
+/// The links between photos are for and against two photos showing the object in the same
+/// placement. Photos are usually in the order of capture, and then placements are intervals, which
+/// dynamic programming finds. Otherwise greedy edge contraction divides the signed graph (Keuper et
+/// al., "Efficient decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
+///
+/// A placement needs evidence against one rigid scene. Photos that are merely not linked to the
+/// others, because they show something else or overlap too little, are none.
 struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var intervals = CaptureIntervals.Options()
@@ -18,20 +22,28 @@ struct PlacementDetection: Sendable {
   }
 
   /// What links two photos or groups of photos.
-  struct Link: Sendable {
+  struct Link: Hashable, Sendable {
     /// Positive if they show the object in the same placement, negative if they don't.
     var evidence = 0
     /// Number of matches.
     var matches = 0
+
+    static func += (sum: inout Link, other: Link) {
+      sum.evidence += other.evidence
+      sum.matches += other.matches
+    }
   }
 
   var options = Options()
 
   /// The groups by the pairs of a graph that show two motions; nil if the object was not moved a
   /// few times only, but between most photos.
-  func groups(_ graph: ViewGraph) -> [[Int]]? {
-    let result = intervals(links(of: graph.motions), photoCount: graph.photoCount)
-    return result.count > 1 ? result : nil
+  func groups(_ graph: ViewGraph, _ control: KernelControl = KernelControl()) throws
+    -> Placements?
+  {
+    try intervals(links(of: graph.motions), photoCount: graph.photoCount, control).map {
+      Placements(groups: $0, basis: .order)
+    }
   }
 
   /// Two motions are evidence against the same placement.
@@ -44,51 +56,59 @@ struct PlacementDetection: Sendable {
   }
 
   /// The groups, each in ascending order, larger ones first; one group if the object did not move.
-  func groups(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
-    let found = intervals(links, photoCount: photoCount)
-    let groups = found.isEmpty ? contracted(links, photoCount: photoCount) : found
-    return groups.sorted { ($1.count, $0[0]) < ($0.count, $1[0]) }
+  func groups(
+    _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl = KernelControl()
+  ) throws -> Placements {
+    guard links.values.contains(where: { $0.evidence < 0 }) else {
+      return Placements(groups: [Array(0..<photoCount)], basis: .none)
+    }
+    if let found = try intervals(links, photoCount: photoCount, control) {
+      return Placements(groups: found, basis: .order)
+    }
+    let found = try contracted(links, photoCount: photoCount, control)
+    return Placements(groups: found, basis: found.count > 1 ? .links : .none)
   }
 
-  /// The division of the order of capture; empty if it does not explain the evidence.
-  private func intervals(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
-    CaptureIntervals(
+  /// The division of the order of capture; nil if it does not explain the evidence.
+  private func intervals(
+    _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl
+  ) throws -> [[Int]]? {
+    try CaptureIntervals(
       links.mapValues(\.evidence), photoCount: photoCount, options: options.intervals
-    ).division() ?? []
+    ).division(control)
   }
-
-  // MARK: Contraction
 
   /// The groups of photos that remain after contracting links: first by evidence, then, between
   /// photos that are nowhere near each other in the map, by matches.
-  private func contracted(_ links: [PhotoPair: Link], photoCount: Int) -> [[Int]] {
-    var links = links
-    var sets = DisjointSets(count: photoCount)
-    if links.values.contains(where: { $0.evidence < 0 }) {
-      contract(&links, &sets) { $0.evidence }
-      contract(&links, &sets) { $0.evidence < 0 ? 0 : $0.matches }
-    } else {
-      for pair in links.keys { sets.join(pair.first.index, pair.second.index) }
-    }
-    return sets.groups().filter { $0.count >= options.intervals.minimumPhotos }
+  private func contracted(
+    _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl
+  ) throws -> [[Int]] {
+    var contraction = LinkContraction(links, photoCount: photoCount)
+    try contraction.run(control) { $0.evidence }
+    try contraction.run(control) { $0.evidence < 0 ? 0 : $0.matches }
+    let groups = contraction.groups.filter { $0.count >= options.intervals.minimumPhotos }
+    let placements = contradicted(groups, links, photoCount: photoCount)
+    guard placements.count < 2 else { return placements }
+    return groups.max { ($0.count, $1[0]) < ($1.count, $0[0]) }.map { [$0] } ?? []
   }
 
-  /// Contracts the link of the highest weight until none is positive; parallel links add up.
-  private func contract(
-    _ links: inout [PhotoPair: Link], _ sets: inout DisjointSets, weight: (Link) -> Int
-  ) {
-    while let best = links.filter({ weight($0.value) > 0 }).max(by: {
-      (weight($0.value), $1.key) < (weight($1.value), $0.key)
-    }) {
-      let (kept, gone) = (best.key.first, best.key.second)
-      sets.join(kept.index, gone.index)
-      links[best.key] = nil
-      for (pair, link) in links where pair.first == gone || pair.second == gone {
-        links[pair] = nil
-        let other = pair.first == gone ? pair.second : pair.first
-        links[PhotoPair(kept, other), default: Link()].evidence += link.evidence
-        links[PhotoPair(kept, other), default: Link()].matches += link.matches
+  /// The groups of which several photos contradict photos of another one.
+  private func contradicted(
+    _ groups: [[Int]], _ links: [PhotoPair: Link], photoCount: Int
+  ) -> [[Int]] {
+    var groupOf = [Int?](repeating: nil, count: photoCount)
+    for (number, group) in groups.enumerated() { for photo in group { groupOf[photo] = number } }
+    var evidence = [Int](repeating: 0, count: photoCount)
+    for (pair, link) in links {
+      let (first, second) = (pair.first.index, pair.second.index)
+      guard let group = groupOf[first], let other = groupOf[second], group != other else {
+        continue
       }
+      evidence[first] += link.evidence
+      evidence[second] += link.evidence
+    }
+    return groups.filter { group in
+      group.count { evidence[$0] < 0 } >= options.intervals.minimumWitnesses
     }
   }
 }

@@ -1,3 +1,4 @@
+import Kernels
 import SceneModel
 import Testing
 
@@ -43,12 +44,14 @@ import Testing
 
   /// However little the photos show of the object, and even if not all of them contradict.
   @Test(arguments: [40, 150], [0..<14, 3..<10])
-  func smallObjectIsDividedWhereItWasMoved(tablePoints: Int, contradicting: Range<Int>) {
+  func smallObjectIsDividedWhereItWasMoved(tablePoints: Int, contradicting: Range<Int>) throws {
     let (evidence, map) = scene(
       objectPoints: 8, tablePoints: tablePoints, contradicting: contradicting)
-    let groups = PlacementDetection().groups(
-      evidence, map, ViewGraph(photoCount: photoCount, pairs: []))
-    #expect(groups == [Array(0..<14), Array(14..<28)])
+    let placements = try PlacementDetection().groups(
+      evidence, map, ViewGraph(photoCount: photoCount, pairs: []),
+      features: (0..<photoCount).map { _ in FeatureSet(positions: [.zero]) }, neededPoints: 30,
+      KernelControl())
+    #expect(placements.groups == [Array(0..<14), Array(14..<28)])
   }
 
   @Test func pointsThatNothingContradictsSayNothing() {
