@@ -12,19 +12,31 @@ struct FocusCheck: Sendable {
     /// its surroundings is larger.
     var radius = 0.12
     var surroundingsFactor = 2.5
-    /// Minimum number of features in the focus of the median photo; fewer say nothing.
-    var minimumFeatures = 20.0
+    /// Minimum number of observations that the focus of all photos should have, as its
+    /// surroundings do; fewer are not informative.
+    var minimumExpected = 50.0
     /// Minimum share of the features in the focus that are observations of points, relative to that
     /// of the surroundings.
     var minimumRatio = 0.25
+    /// Minimum angle between the directions from which the focus is seen, in degrees, as twice
+    /// the deviation from their mean that nine of ten photos are within. From less, there is no model of an object: it was
+    /// turned in front of a camera that stood still, or is seen from one side only. Chosen.
+    var minimumSpreadDegrees = 8.0
   }
 
-  /// The shares of features that are observations of points, in the median photo.
+  /// The shares of features that are observations of points, in all photos together.
   struct Findings: Equatable, Sendable {
     /// The number of features in the focus.
     var features = 0.0
     var focusShare = 0.0
     var surroundingsShare = 0.0
+    /// Twice the angle to the mean direction of the focus that nine of ten photos are within, in
+    /// degrees.
+    var spreadDegrees = 180.0
+
+    /// The number of features in the focus that would be observations if it were like its
+    /// surroundings.
+    var expected: Double { features * surroundingsShare }
   }
 
   var options = Options()
@@ -35,13 +47,21 @@ struct FocusCheck: Sendable {
     notes.record("focusFeatures", findings.features)
     notes.record("focusShare", findings.focusShare)
     notes.record("surroundingsShare", findings.surroundingsShare)
-    guard findings.features >= options.minimumFeatures,
+    notes.record("viewSpreadDegrees", findings.spreadDegrees)
+    if findings.expected >= options.minimumExpected,
       findings.focusShare < options.minimumRatio * findings.surroundingsShare
-    else { return }
-    notes.doubt(
-      "The photos were aligned by the surroundings of what they are aimed at, which hardly matches "
-        + "between photos: it moves, is shiny or transparent. Cover what is around it with a plain "
-        + "cloth, or give masks.")
+    {
+      notes.doubt(
+        "The photos were aligned by the surroundings of what they are aimed at, which hardly "
+          + "matches between photos: it moves, is shiny or transparent. Cover what is around it "
+          + "with a plain cloth, or give masks.")
+    } else if findings.spreadDegrees < options.minimumSpreadDegrees {
+      notes.doubt(
+        "All photos seem to show what they are aimed at from one direction, within "
+          + "\(Int(findings.spreadDegrees.rounded(.up)))°. If it was turned between photos, they "
+          + "were aligned by its surroundings, and it isn't in the model: cover what is around it "
+          + "with a plain cloth, or give masks. If it wasn't, walk around it.")
+    }
   }
 
   /// Nil if the optical axes don't determine a focus.
@@ -60,7 +80,7 @@ struct FocusCheck: Sendable {
     guard let focus = ViewFocus(reconstruction, depths: depths.map(\.upperMedian)) else {
       return nil
     }
-    var (counts, inner, outer): ([Double], [Double], [Double]) = ([], [], [])
+    var (inner, outer) = (Tally(), Tally())
     for photo in reconstruction.registered {
       guard let pose = reconstruction.poses[photo.index], (pose * focus.point).z > 0 else {
         continue
@@ -68,18 +88,40 @@ struct FocusCheck: Sendable {
       let camera = reconstruction.camera(of: photo)
       let center = camera.project(pose * focus.point)
       let radius = options.radius * Double(max(camera.width, camera.height))
-      let (set, isUsed) = (features[photo.index], isObservation[photo.index])
-      let distances = set.positions.map { (SIMD2<Double>($0) - center).length / radius }
-      let near = isUsed.indices.filter { distances[$0] < 1 }
-      let far = isUsed.indices.filter {
-        distances[$0] >= 1 && distances[$0] < options.surroundingsFactor
+      for (position, isUsed) in zip(features[photo.index].positions, isObservation[photo.index]) {
+        let distance = (SIMD2<Double>(position) - center).length / radius
+        if distance < 1 {
+          inner.add(isUsed)
+        } else if distance < options.surroundingsFactor {
+          outer.add(isUsed)
+        }
       }
-      counts.append(Double(near.count))
-      if !near.isEmpty { inner.append(Double(near.count { isUsed[$0] }) / Double(near.count)) }
-      if !far.isEmpty { outer.append(Double(far.count { isUsed[$0] }) / Double(far.count)) }
     }
     return Findings(
-      features: counts.upperMedian ?? 0, focusShare: inner.upperMedian ?? 0,
-      surroundingsShare: outer.upperMedian ?? 0)
+      features: Double(inner.count), focusShare: inner.share, surroundingsShare: outer.share,
+      spreadDegrees: spreadDegrees(of: focus))
+  }
+
+  /// Features, and how many of them are observations.
+  private struct Tally {
+    var count = 0
+    var used = 0
+
+    var share: Double { count == 0 ? 0 : Double(used) / Double(count) }
+
+    mutating func add(_ isUsed: Bool) {
+      count += 1
+      if isUsed { used += 1 }
+    }
+  }
+
+  private func spreadDegrees(of focus: ViewFocus) -> Double {
+    let directions = focus.centers.map { ($0 - focus.point).normalized }
+    let mean = directions.reduce(SIMD3<Double>.zero, +)
+    // Directions all around cancel out.
+    guard mean.length > 0.1 * Double(directions.count) else { return 180 }
+    let axis = mean.normalized
+    let angles = directions.map { acos(min(1, max(-1, $0.dot(axis)))) * 180 / .pi }.sorted()
+    return 2 * angles[min(angles.count - 1, angles.count * 9 / 10)]
   }
 }

@@ -51,4 +51,18 @@ import Testing
   @Test func fewFeaturesSayNothing() {
     #expect(doubts(scene(others: 0) { $0.length > 10 }) == 0)
   }
+
+  /// An object that was turned in front of a camera that stood still: aligned by the table, all
+  /// photos seem to be taken from one place.
+  @Test func photosFromOneDirectionAreADoubt() throws {
+    var (scene, features) = scene(others: 0)
+    let first = try #require(scene.poses[0])
+    for index in scene.poses.indices {
+      let step = Quaternion(angle: 0.002 * Double(index), axis: [0, 1, 0])
+      scene.poses[index] = first * RigidTransform(rotation: step, translation: .zero)
+    }
+    let findings = try #require(FocusCheck().findings(scene, features))
+    #expect(findings.spreadDegrees < 8)
+    #expect(doubts((scene, features)) == 1)
+  }
 }
