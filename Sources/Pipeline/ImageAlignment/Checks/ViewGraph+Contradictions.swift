@@ -4,17 +4,14 @@ extension ViewGraph {
   /// Pairs whose matches don't show the same points in a reconstruction, sorted.
   ///
   /// If a scene has repeated structure, some pairs match the wrong parts and others the correct
-  /// ones, and no reconstruction agrees with all of them.
+  /// ones, and no reconstruction agrees with all of them. Pairs that match instances that the
+  /// reconstruction distinguishes don't count.
   func contradicted(
     by reconstruction: Reconstruction, features: [FeatureSet],
     _ options: SceneAmbiguityCheck.Options = SceneAmbiguityCheck.Options()
   ) -> [PhotoPair] {
-    var pointOf = features.map { [Int32](repeating: -1, count: $0.count) }
-    for (number, point) in reconstruction.points.enumerated() {
-      for observation in point.track where observation.feature >= 0 {
-        pointOf[observation.photo.index][Int(observation.feature)] = Int32(number)
-      }
-    }
+    let repetition = RepeatedStructure(reconstruction, features: features)
+    let pointOf = repetition.pointOfFeature
     /// Whether a point projects to a feature; nil without a point.
     func agrees(_ point: Int32, _ photo: ID<Photo>, _ feature: Int32) -> Bool? {
       guard point >= 0, let pose = reconstruction.poses[photo.index] else { return nil }
@@ -36,6 +33,7 @@ extension ViewGraph {
       let good = verdicts.count { $0 }
       return verdicts.count >= options.minimumPairMatches
         && Double(good) < options.maximumAgreement * Double(verdicts.count)
+        && !repetition.explains(pair.matches, of: pair.pair)
     }.map(\.pair)
   }
 }
