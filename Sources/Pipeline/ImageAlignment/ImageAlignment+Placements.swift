@@ -1,65 +1,115 @@
+import Kernels
 import SceneModel
 
 /// Joining photos between which the object was moved.
 extension ImageAlignment {
-  /// Aligns photos by the object that their masks leave. `whole` has the matches of the whole
-  /// photos: photos of one placement are linked by the surroundings as well. `upright` has the
-  /// poses of one placement's photos in a frame whose +y is up.
-  func run(
-    masked ingested: IngestedPhotos, images: ImageStore, whole: MatchedPhotos,
-    placements: [[Int]], upright: [RigidTransform?], _ context: StageContext
-  ) throws -> Reconstruction {
-    var alignment = self
+  /// The matches of all photos by the object that their masks leave, in addition to all matches
+  /// within a placement, whose photos are linked by the surroundings as well. `features` are those
+  /// of the object; among fewer features, more matches are distinctive.
+  func match(
+    _ object: ObjectFeatures, of matched: MatchedPhotos, placements: [[Int]],
+    _ context: StageContext
+  ) throws -> MatchedPhotos {
+    var search = options.search
     // Two photos without masks would match the surroundings.
+    search.matchesUnmaskedPairs = false
+    search.secondMotions.isEnabled = false
+    let kept = object.indices
+    let (graph, cameras) = try CorrespondenceSearch(search).run(
+      photos: object.photos, cameras: matched.cameras,
+      features: zip(matched.features, kept).map { $0.selecting($1) }, ordering: options.ordering,
+      context)
+    var result = matched
+    (result.photos, result.cameras) = (object.photos, cameras)
+    result.graph = graph.renumbered(kept)
+    result.graph.add(matched.graph, within: placements)
+    result.graph.isObjectOnly = matched.graph.isObjectOnly
+    return result
+  }
+
+  /// The same with features that are extracted again from the masked photos, more of them.
+  func matchSensitively(
+    _ masked: PhotoSet, of matched: MatchedPhotos, placements: [[Int]], _ context: StageContext
+  ) throws -> (photos: MatchedPhotos, object: ObjectFeatures) {
+    var alignment = self
+    alignment.options.features.sensitivity = .high
     alignment.options.correspondences.matchesUnmaskedPairs = false
     alignment.options.correspondences.secondMotions.isEnabled = false
-    let object = try alignment.match(
-      photos: ingested.photos, cameras: whole.cameras, images: images,
-      context.part(from: 0, to: 0.7))
-    var matched = object.adding(whole, within: placements)
-    matched.graph.isObjectOnly = whole.graph.isObjectOnly
-    let map = try alignment.map(matched, images: images, context.part(from: 0.7, to: 0.87))
-    try alignment.throwOrWarn(map, context.notes)
-    return try alignment.finish(
-      map.reconstruction, matched, images, upright: upright, context.part(from: 0.87, to: 1)
-    ) { point in
+    var result = try alignment.match(
+      photos: masked.ingested.photos, cameras: matched.cameras, images: masked.images, context)
+    let counts = result.features.map(\.count)
+    for index in result.features.indices {
+      result.features[index].appendWithoutDescriptors(matched.features[index])
+    }
+    result.graph.add(
+      matched.graph.renumbered(zip(counts, matched.features).map { Array($0..<$0 + $1.count) }),
+      within: placements)
+    result.graph.isObjectOnly = matched.graph.isObjectOnly
+    let isObject = zip(counts, result.features).map { count, set in
+      (0..<set.count).map { $0 < count }
+    }
+    return (result, ObjectFeatures(photos: masked.ingested.photos, isObject: isObject))
+  }
+
+  /// Finishes a map of the object: points of the surroundings are left out. `upright` has the poses
+  /// of one placement's photos in a frame whose +y is up.
+  func finish(
+    _ map: Map, of object: ObjectFeatures, _ matched: MatchedPhotos, _ images: ImageStore,
+    upright: [RigidTransform?], _ context: StageContext
+  ) throws -> Reconstruction {
+    var mapped = map.reconstruction
+    for (index, photo) in object.photos.enumerated() { mapped.photos[index].mask = photo.mask }
+    return try finish(mapped, matched, images, upright: upright, context) { point in
       let features = point.track.filter { $0.feature >= 0 }
-      let own = features.count { Int($0.feature) < object.features[$0.photo.index].count }
+      let own = features.count { object.isObject[$0.photo.index][Int($0.feature)] }
       return 2 * own > features.count
     }
   }
 }
 
-extension ImageAlignment.MatchedPhotos {
-  /// The photos with the matches of other features as well, between photos of the same group.
-  fileprivate func adding(_ other: Self, within groups: [[Int]]) -> Self {
+extension ViewGraph {
+  /// The graph with other numbers of the features: `numbers` has the new one of each, by photo.
+  fileprivate func renumbered(_ numbers: [[Int]]) -> ViewGraph {
     var result = self
-    let offsets = features.map { Int32($0.count) }
-    for (index, set) in other.features.enumerated() { result.features[index].append(set) }
-    var groupOf = [Int?](repeating: nil, count: photos.count)
-    for (number, group) in groups.enumerated() { for photo in group { groupOf[photo] = number } }
-    var known = Dictionary(uniqueKeysWithValues: graph.pairs.map { ($0.pair, $0) })
-    for var pair in other.graph.pairs {
-      let (first, second) = (pair.pair.first.index, pair.pair.second.index)
-      guard let group = groupOf[first], group == groupOf[second] else { continue }
-      pair.matches = pair.matches.map {
-        FeatureMatch(first: $0.first + offsets[first], second: $0.second + offsets[second])
+    for index in pairs.indices {
+      let (first, second) = (pairs[index].pair.first.index, pairs[index].pair.second.index)
+      result.pairs[index].matches = pairs[index].matches.map {
+        FeatureMatch(
+          first: Int32(numbers[first][Int($0.first)]),
+          second: Int32(numbers[second][Int($0.second)]))
       }
-      if let own = known[pair.pair] { pair.matches = own.matches + pair.matches }
+    }
+    // Their features are not needed any more.
+    for index in rejected.indices { result.rejected[index].weak = nil }
+    return result
+  }
+
+  /// Adds the matches of another graph between photos of the same group. A feature that is matched
+  /// already keeps its match.
+  fileprivate mutating func add(_ other: ViewGraph, within groups: [[Int]]) {
+    var groupOf = [Int?](repeating: nil, count: photoCount)
+    for (number, group) in groups.enumerated() { for photo in group { groupOf[photo] = number } }
+    var known = Dictionary(uniqueKeysWithValues: pairs.map { ($0.pair, $0) })
+    for var pair in other.pairs {
+      let group = groupOf[pair.pair.first.index]
+      guard let group, group == groupOf[pair.pair.second.index] else { continue }
+      if let own = known[pair.pair] {
+        let (first, second) = (Set(own.matches.map(\.first)), Set(own.matches.map(\.second)))
+        let more = pair.matches.filter { !first.contains($0.first) && !second.contains($0.second) }
+        pair.matches = (own.matches + more).sorted { $0.first < $1.first }
+      }
       known[pair.pair] = pair
     }
-    result.graph.pairs = known.values.sorted { $0.pair < $1.pair }
-    return result
+    pairs = known.values.sorted { $0.pair < $1.pair }
   }
 }
 
 extension FeatureSet {
-  /// Appends other features of the same photo.
-  fileprivate mutating func append(_ other: FeatureSet) {
+  /// Appends other features of the same photo, which have been matched and need no descriptors.
+  fileprivate mutating func appendWithoutDescriptors(_ other: FeatureSet) {
     positions += other.positions
     scales += other.scales
     orientations += other.orientations
-    descriptors += other.descriptors
     colors += other.colors
   }
 }

@@ -25,7 +25,7 @@ package struct ImageAlignment: Sendable {
     package init() {}
 
     /// The options of the search at the features' sensitivity.
-    fileprivate var search: CorrespondenceSearch.Options {
+    var search: CorrespondenceSearch.Options {
       var search = correspondences
       if features.sensitivity == .high { search.matching.matching.ratio = highSensitivityRatio }
       return search
@@ -119,15 +119,23 @@ package struct ImageAlignment: Sendable {
     return Map(reconstruction: mapped, findings: findings)
   }
 
-  /// The largest reconstruction of some of the photos, refined and in the world frame.
+  /// A reconstruction of some of the photos in the world frame, not refined: their part of a map of
+  /// all photos, if it agrees with the matches between them, or else a map of their own.
   func reconstruction(
-    of group: [Int], _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext
+    of group: [Int], _ matched: MatchedPhotos, _ map: Reconstruction?, _ context: StageContext
   ) throws -> Reconstruction {
+    let graph = matched.graph.restricted(to: group)
+    if let part = map?.restricted(to: group),
+      Double(part.registered.count) >= options.mapping.minimumShare * Double(group.count),
+      graph.contradicted(by: part, features: matched.features, options.sceneAmbiguity).isEmpty
+    {
+      return placed(part, hasMasks: false, context)
+    }
     let mapped = try SparseMapping(options.mapping).run(
-      matched.graph.restricted(to: group), features: matched.features, photos: matched.photos,
-      cameras: matched.cameras, context.part(from: 0, to: 0.5))
+      graph, features: matched.features, photos: matched.photos, cameras: matched.cameras,
+      context.part(from: 0, to: 0.9))
     try check(mapped, context.notes)
-    return try finish(mapped, matched, images, context.part(from: 0.5, to: 1))
+    return placed(mapped, hasMasks: false, context.part(from: 0.9, to: 1))
   }
 
   /// Refines the observations and moves the reconstruction, with some of the points, to the world
@@ -143,15 +151,23 @@ package struct ImageAlignment: Sendable {
         context.part(from: 0, to: 0.85))
     }
     refined.points = refined.points.filter(isKept)
-    var worldAlignment = options.worldAlignment
-    let masks = images.hasMasks ? mapped.photos.count { $0.mask != nil } : 0
-    worldAlignment.findsSupport =
-      worldAlignment.findsSupport && 2 * masks < mapped.photos.count
-    let reconstruction = WorldAlignment(worldAlignment).run(
-      refined, upright: upright, context.part(from: 0.85, to: 1))
+    let reconstruction = placed(
+      refined, upright: upright, hasMasks: images.hasMasks, context.part(from: 0.85, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction
+  }
+
+  /// The reconstruction in the world frame. Masks, if any, exclude the support.
+  private func placed(
+    _ reconstruction: Reconstruction, upright: [RigidTransform?] = [], hasMasks: Bool,
+    _ context: StageContext
+  ) -> Reconstruction {
+    var worldAlignment = options.worldAlignment
+    let masks = hasMasks ? reconstruction.photos.count { $0.mask != nil } : 0
+    worldAlignment.findsSupport =
+      worldAlignment.findsSupport && 2 * masks < reconstruction.photos.count
+    return WorldAlignment(worldAlignment).run(reconstruction, upright: upright, context)
   }
 
   /// The photos, decoded once for features and refinement.
@@ -184,7 +200,8 @@ package struct ImageAlignment: Sendable {
     do {
       return try SceneAmbiguityCheck(options.sceneAmbiguity)
         .run(
-          mapped, matched.graph, features: matched.features, images: decodingOnce(images), context)
+          mapped, matched.graph, features: matched.features, images: decodingOnce(images),
+          neededPoints: options.mapping.incremental.minimumInliers, context)
     } catch let error as KernelError where error != .outOfMemory {
       context.notes.warn("The scene was not checked for repeated structure (\(error)).")
       return nil

@@ -5,14 +5,17 @@ import SceneModel
 /// Aligns photos between which the object was moved, for instance laid on another side to show its
 /// underside.
 ///
-/// What the photos of one placement show is rigid: they are aligned separately, and the object is
-/// masked. All photos are then aligned by the masked object, which joins the placements, and masked
-/// again, now that each side of the object is known from the photos that show it best.
+/// What the photos of one placement show is rigid: the object is masked in their part of the map.
+/// All photos are then aligned by the masked object, which joins the placements, and masked again,
+/// now that each side of the object is known from the photos that show it best.
 struct MovedObjectAlignment {
   struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos that the joined alignment must register, as a share of those of the
     /// largest placement.
     var minimumShare = 0.9
+    /// If the alignment by the object misses more than this share of the photos, it is repeated
+    /// with more features, which takes three to four times as long. Chosen: one photo in thirty.
+    var acceptedLoss = 0.034
 
     init() {}
   }
@@ -23,7 +26,7 @@ struct MovedObjectAlignment {
 
   /// Aligns photos without masks. `folder` receives the masks of an object that was moved.
   func run(_ photos: PhotoSet, folder: URL, _ context: StageContext) throws -> AlignedPhotos {
-    let matched = try alignment.match(
+    var matched = try alignment.match(
       photos: photos.ingested.photos, cameras: photos.ingested.cameras, images: photos.images,
       context.part(from: 0, to: 0.7))
     let rest = context.part(from: 0.87, to: 1)
@@ -33,7 +36,7 @@ struct MovedObjectAlignment {
     if case .failure(let error) = map, !(error is PipelineError) { throw error }
     let placements = placements((try? map.get())?.findings, matched.graph)
     if placements.count > 1 || matched.graph.isObjectOnly,
-      let joined = try join(placements, matched, photos, folder: folder, rest)
+      let joined = try join(placements, &matched, try? map.get(), photos, folder: folder, rest)
     {
       return joined
     }
@@ -51,8 +54,8 @@ struct MovedObjectAlignment {
   private func placements(
     _ findings: SceneAmbiguityCheck.Findings?, _ graph: ViewGraph
   ) -> [[Int]] {
-    if let found = findings?.placements, found.count > 1 || graph.placements.isEmpty {
-      return found
+    if let found = findings?.placements, found.areSeveral || graph.placements.isEmpty {
+      return found.groups
     }
     return graph.placements
   }
@@ -60,21 +63,27 @@ struct MovedObjectAlignment {
   /// All photos, aligned by the object that each placement's photos show; nil if that joins fewer
   /// than two placements. Records nothing but the notes of the last alignment.
   private func join(
-    _ placements: [[Int]], _ matched: ImageAlignment.MatchedPhotos, _ photos: PhotoSet,
-    folder: URL, _ context: StageContext
+    _ placements: [[Int]], _ matched: inout ImageAlignment.MatchedPhotos,
+    _ map: ImageAlignment.Map?, _ photos: PhotoSet, folder: URL, _ context: StageContext
   ) throws -> AlignedPhotos? {
     guard !placements.isEmpty else { return nil }
     let used = try maskedPlacements(
-      placements, matched, photos.images, context.part(from: 0, to: 0.5))
+      placements, matched, map, photos.images, context.part(from: 0, to: 0.4))
     guard isMotionExplained(used.count, matched.graph) else { return nil }
     var first = ObjectMasking.Result(photoCount: matched.photos.count)
     for placement in used { first.complete(with: placement.masks) }
     let masked = photos.masked(
       by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
+    let join = PlacementJoin(
+      options: options, alignment: alignment, masked: masked, masks: first.masks,
+      placements: placements, used: used)
     guard
-      let (joined, notes) = try joinedAlignment(
-        of: masked, used, placements, matched, context.part(from: 0.5, to: 0.8))
-    else { return nil }
+      let (joined, notes) = try join.run(&matched, map, context.part(from: 0.4, to: 0.8))
+    else {
+      // What was written must not pass for masks of the photos.
+      _ = try EstimatedMasks(nil, of: photos.ingested.photos, in: folder)
+      return nil
+    }
     var reconstruction = joined
     context.notes.add(notes)
     report(used.map(\.photos).filter { reconstruction.contains($0) }, context.notes)
@@ -93,48 +102,6 @@ struct MovedObjectAlignment {
       masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
   }
 
-  /// An alignment of all photos by the masked object, with its notes.
-  private typealias Joined = (reconstruction: Reconstruction, notes: StageNotes)
-
-  /// The alignment by the masked object; nil if it joins too little. If photos remain that it can't
-  /// register, it is repeated with more features: the object may be small in the photos.
-  private func joinedAlignment(
-    of masked: PhotoSet, _ used: [MaskedPlacement], _ placements: [[Int]],
-    _ matched: ImageAlignment.MatchedPhotos, _ context: StageContext
-  ) throws -> Joined? {
-    let first = try joined(
-      masked, used, placements, matched, by: alignment, context.part(from: 0, to: 0.5))
-    let count = first?.reconstruction.registered.count ?? 0
-    guard count < matched.photos.count, alignment.options.features.sensitivity != .high else {
-      return first
-    }
-    var sensitive = alignment
-    sensitive.options.features.sensitivity = .high
-    let second = try joined(
-      masked, used, placements, matched, by: sensitive, context.part(from: 0.5, to: 1))
-    return second?.reconstruction.registered.count ?? 0 > count ? second : first
-  }
-
-  private func joined(
-    _ masked: PhotoSet, _ used: [MaskedPlacement], _ placements: [[Int]],
-    _ matched: ImageAlignment.MatchedPhotos, by alignment: ImageAlignment, _ context: StageContext
-  ) throws -> Joined? {
-    let notes = StageNotes()
-    do {
-      let result = try alignment.run(
-        masked: masked.ingested, images: masked.images, whole: matched, placements: placements,
-        upright: upright(used), StageContext(control: context.control, notes: notes))
-      let largest = placements.map(\.count).max() ?? 0
-      let isSufficient =
-        isMotionExplained(used.count { result.contains($0.photos) }, matched.graph)
-        && Double(result.registered.count) >= options.minimumShare * Double(largest)
-      return isSufficient ? (result, notes) : nil
-    } catch let error as PipelineError {
-      context.notes.log("The placements of the object were not joined: \(error)")
-      return nil
-    }
-  }
-
   /// Whether this number of placements explains that the object moves: one does if all photos agree
   /// on it.
   private func isMotionExplained(_ placementCount: Int, _ graph: ViewGraph) -> Bool {
@@ -143,26 +110,18 @@ struct MovedObjectAlignment {
 
   /// The placements whose photos show a separate object.
   private func maskedPlacements(
-    _ placements: [[Int]], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
-    _ context: StageContext
+    _ placements: [[Int]], _ matched: ImageAlignment.MatchedPhotos, _ map: ImageAlignment.Map?,
+    _ images: ImageStore, _ context: StageContext
   ) throws -> [MaskedPlacement] {
     let share = 1 / Double(placements.count)
     return try placements.enumerated().compactMap { number, photos in
       // The notes are those of the alignment of all photos.
       try maskedPlacement(
-        photos, matched, images,
+        photos, matched, map, images,
         StageContext(
           control: context.control.part(
             from: share * Double(number), to: share * Double(number + 1))))
     }
-  }
-
-  /// The poses of the largest placement: the object stands in the model as it stood there.
-  private func upright(_ placements: [MaskedPlacement]) -> [RigidTransform?] {
-    let largest = placements.enumerated().max {
-      ($0.element.photos.count, $1.offset) < ($1.element.photos.count, $0.offset)
-    }
-    return largest?.element.poses ?? []
   }
 
   private func report(_ placements: [[Int]], _ notes: StageNotes) {
@@ -177,8 +136,8 @@ struct MovedObjectAlignment {
 
   /// The photos of one placement with their masks; nil if they show no separate object.
   private func maskedPlacement(
-    _ photos: [Int], _ matched: ImageAlignment.MatchedPhotos, _ images: ImageStore,
-    _ context: StageContext
+    _ photos: [Int], _ matched: ImageAlignment.MatchedPhotos, _ map: ImageAlignment.Map?,
+    _ images: ImageStore, _ context: StageContext
   ) throws -> MaskedPlacement? {
     do {
       var alignment = alignment
@@ -187,7 +146,7 @@ struct MovedObjectAlignment {
         alignment.options.worldAlignment.chosenUp = nil
       }
       let reconstruction = try alignment.reconstruction(
-        of: photos, matched, images, context.part(from: 0, to: 0.4))
+        of: photos, matched, map?.reconstruction, context.part(from: 0, to: 0.4))
       var masking = masking
       masking.options.isolation.isObjectOnly = matched.graph.isObjectOnly
       return try masking.run(
@@ -199,9 +158,4 @@ struct MovedObjectAlignment {
       return nil
     }
   }
-}
-
-extension Reconstruction {
-  /// Whether one of the photos is registered.
-  fileprivate func contains(_ photos: [Int]) -> Bool { photos.contains { poses[$0] != nil } }
 }

@@ -1,0 +1,105 @@
+import Kernels
+import SceneModel
+
+/// The alignment of all photos by the object that their masks leave, which joins the placements.
+struct PlacementJoin {
+  typealias MatchedPhotos = ImageAlignment.MatchedPhotos
+
+  var options: MovedObjectAlignment.Options
+  var alignment: ImageAlignment
+  /// The photos with the masks of their placements.
+  var masked: PhotoSet
+  /// The masks, by photo ID.
+  var masks: [RasterImage?]
+  /// All placements, and those whose photos show a separate object.
+  var placements: [[Int]]
+  var used: [MaskedPlacement]
+
+  /// An alignment of all photos, with its notes.
+  typealias Joined = (reconstruction: Reconstruction, notes: StageNotes)
+
+  /// Returns nil if too little is joined. `map` is that of all photos. If too many photos are
+  /// missing, the features are extracted again, more of them: the object may be small in the
+  /// photos. That releases the descriptors of `matched`.
+  func run(
+    _ matched: inout MatchedPhotos, _ map: ImageAlignment.Map?, _ context: StageContext
+  ) throws -> Joined? {
+    let margin = alignment.options.features.maskMargin
+    let object = try ObjectFeatures(
+      matched.features, photos: masked.ingested.photos, masks: masks, margin: margin,
+      context.control.part(from: 0, to: 0.02))
+    let first = try attempt(context.part(from: 0.02, to: 0.5)) { [matched] context in
+      if let map, isSufficient(map, matched) { return (matched, object, map) }
+      let result = try alignment.match(
+        object, of: matched, placements: placements, context.part(from: 0, to: 0.4))
+      return (result, object, try objectMap(result, context))
+    }
+    let count = first?.reconstruction.registered.count ?? 0
+    guard isIncomplete(count, matched), alignment.options.features.sensitivity != .high else {
+      return first
+    }
+    for index in matched.features.indices { matched.features[index].descriptors = [] }
+    let second = try attempt(context.part(from: 0.5, to: 1)) { [matched] context in
+      let (result, object) = try alignment.matchSensitively(
+        masked, of: matched, placements: placements, context.part(from: 0, to: 0.6))
+      return (result, object, try objectMap(result, context))
+    }
+    return second?.reconstruction.registered.count ?? 0 > count ? second : first
+  }
+
+  private func isIncomplete(_ count: Int, _ matched: MatchedPhotos) -> Bool {
+    let photos = Double(matched.photos.count)
+    return photos - Double(count) > options.acceptedLoss * photos
+  }
+
+  /// Whether the map of all photos joins them by the object: it was made of matches of the object
+  /// only, and all agree on one placement.
+  private func isSufficient(_ map: ImageAlignment.Map, _ matched: MatchedPhotos) -> Bool {
+    matched.graph.isObjectOnly && placements.count == 1
+      && !isIncomplete(map.reconstruction.registered.count, matched)
+  }
+
+  private func objectMap(
+    _ matched: MatchedPhotos, _ context: StageContext
+  ) throws -> ImageAlignment.Map {
+    try alignment.map(matched, images: masked.images, context.part(from: 0.6, to: 0.85))
+  }
+
+  /// Matches and maps the photos by `make`, and finishes the map; nil if that joins too little.
+  private func attempt(
+    _ context: StageContext,
+    _ make: (StageContext) throws -> (MatchedPhotos, ObjectFeatures, ImageAlignment.Map)
+  ) throws -> Joined? {
+    let context = StageContext(control: context.control)
+    do {
+      let (matched, object, map) = try make(context)
+      try alignment.throwOrWarn(map, context.notes)
+      let result = try alignment.finish(
+        map, of: object, matched, masked.images, upright: upright,
+        context.part(from: 0.85, to: 1))
+      return isAccepted(result, matched.graph) ? (result, context.notes) : nil
+    } catch let error as PipelineError {
+      context.notes.log("The placements of the object were not joined: \(error)")
+      return nil
+    }
+  }
+
+  private func isAccepted(_ result: Reconstruction, _ graph: ViewGraph) -> Bool {
+    let largest = placements.map(\.count).max() ?? 0
+    return used.count { result.contains($0.photos) } >= (graph.isObjectOnly ? 1 : 2)
+      && Double(result.registered.count) >= options.minimumShare * Double(largest)
+  }
+
+  /// The poses of the largest placement: the object stands in the model as it stood there.
+  private var upright: [RigidTransform?] {
+    let largest = used.enumerated().max {
+      ($0.element.photos.count, $1.offset) < ($1.element.photos.count, $0.offset)
+    }
+    return largest?.element.poses ?? []
+  }
+}
+
+extension Reconstruction {
+  /// Whether one of the photos is registered.
+  func contains(_ photos: [Int]) -> Bool { photos.contains { poses[$0] != nil } }
+}
