@@ -18,39 +18,37 @@ package enum Capture: String, CaseIterable, Sendable {
 ///
 /// Room: right-handed, +y up, meters; the table is at y = 0.
 struct CaptureMotion {
-  let capture: Capture
-  let object: CaptureObject
   let mesh: Mesh
   let photoCount: Int
+  /// The elevations of the camera in degrees; the photos are divided evenly between them.
+  var elevations = [22.0, 48.0]
+  /// The free space around the object in the photos, in meters at its distance.
+  var margin = 0.035
+  /// The farthest that a hand moves the camera away from its place, in meters.
+  var sway = 0.03
   private var random: SeededGenerator
-  /// The elevations of the camera in degrees.
-  private let elevations = [22.0, 48.0]
 
-  init(
-    _ capture: Capture, of object: CaptureObject, _ mesh: Mesh, photoCount: Int, seed: UInt64
-  ) {
-    self.capture = capture
-    self.object = object
+  init(of mesh: Mesh, photoCount: Int, seed: UInt64) {
     self.mesh = mesh
     self.photoCount = photoCount
     random = SeededGenerator(seed: seed)
   }
 
-  mutating func views() -> [CaptureScene.View] {
+  mutating func views(_ capture: Capture, of object: CaptureObject) -> [CaptureScene.View] {
     switch capture {
     case .walk: walk()
     case .turntable: turntable()
     case .hand: hand()
-    case .flip: flip()
+    case .flip: flip(object.turnedOver)
     }
   }
 
-  private mutating func walk() -> [CaptureScene.View] {
+  mutating func walk() -> [CaptureScene.View] {
     let roomFromObject = rest(.identity, turned: angle(180), at: .zero)
     let target = roomFromObject * middle
-    let count = photoCount / 2
+    let count = photoCount / elevations.count
     return (0..<photoCount).map { index in
-      let ring = min(1, index / max(1, count))
+      let ring = min(elevations.count - 1, index / max(1, count))
       return CaptureScene.View(
         cameraFromRoom: walker(
           Double(index % count) + 0.5 * Double(ring), of: count, elevations[ring], target),
@@ -58,12 +56,12 @@ struct CaptureMotion {
     }
   }
 
-  private mutating func flip() -> [CaptureScene.View] {
+  private mutating func flip(_ turnedOver: Quaternion) -> [CaptureScene.View] {
     let count = photoCount / 2
     let other = place(0.03, around: SIMD2(0.03, -0.04))
     let rests = [
       rest(.identity, turned: angle(180), at: .zero),
-      rest(object.turnedOver, turned: angle(180), at: other),
+      rest(turnedOver, turned: angle(180), at: other),
     ]
     return (0..<photoCount).map { index in
       let roomFromObject = rests[min(1, index / max(1, count))]
@@ -93,8 +91,8 @@ struct CaptureMotion {
     }
   }
 
-  private mutating func hand() -> [CaptureScene.View] {
-    let count = photoCount / 2
+  mutating func hand() -> [CaptureScene.View] {
+    let count = photoCount / elevations.count
     var (turn, place, offset) = (angle(180), SIMD2<Double>.zero, SIMD3<Double>.zero)
     let start = rest(.identity, turned: turn, at: place) * middle
     return (0..<photoCount).map { index in
@@ -103,8 +101,8 @@ struct CaptureMotion {
       place = shortened(place + shift, to: 0.025)
       let step = jitter(1)
       offset += step * ((0.01 + 0.02 * random.uniform()) / max(step.length, 1e-9))
-      offset *= min(1, 0.03 / max(offset.length, 1e-9))
-      let ring = min(1, index / max(1, count))
+      offset *= min(1, sway / max(offset.length, 1e-9))
+      let ring = min(elevations.count - 1, index / max(1, count))
       return CaptureScene.View(
         cameraFromRoom: camera(turn: 0, elevations[ring], start + jitter(0.012), offset),
         roomFromObject: rest(.identity, turned: turn, at: place))
@@ -119,11 +117,10 @@ struct CaptureMotion {
     return (low + high) / 2
   }
 
-  /// The distance at which the object fills about two thirds of the height of the photos; more
-  /// for an object that a hand also shifts.
+  /// The distance at which the object and the margin around it fit into the photos.
   private var distance: Double {
     let (low, high) = mesh.captureBounds
-    return 3 * ((high - low).length / 2 + (capture == .hand ? 0.06 : 0.035))
+    return 3 * ((high - low).length / 2 + margin)
   }
 
   /// The `cameraFromRoom` of a photographer who walks around `target`: photo `number` of `count`.

@@ -1,8 +1,8 @@
 import Foundation
 import SceneModel
 
-/// Photos of an object that moves relative to its surroundings, or doesn't: the object is lit by
-/// the fixed light of a room and has the same texture in all captures of the same seed.
+/// Photos of an object that moves relative to its surroundings, or doesn't, in the fixed light of a
+/// room.
 package struct CaptureScene: Sendable {
   /// What moves from photo to photo.
   package struct View: Sendable {
@@ -15,15 +15,35 @@ package struct CaptureScene: Sendable {
     package var cameraFromObject: RigidTransform { cameraFromRoom * roomFromObject }
   }
 
-  package var object: CaptureObject
-  package var capture: Capture
-  package var surroundings: CaptureSurroundings
   package let seed: UInt64
   package let camera: Camera
   /// The object in its own frame.
   package let mesh: Mesh
+  /// In the frame of the object.
+  let texture: any SurfaceTexture
+  /// What stays in place in the room.
+  let surroundings: [RenderedScene.Surface]
+  let lighting: RenderedScene.Lighting
   package let views: [View]
 
+  /// - Parameter width: width of the photos in pixels; the height is three quarters of it.
+  init(
+    mesh: Mesh, texture: any SurfaceTexture, surroundings: [RenderedScene.Surface],
+    lighting: RenderedScene.Lighting = .room, views: [View], width: Int, seed: UInt64
+  ) {
+    self.seed = seed
+    camera = Camera(
+      width: width, height: width * 3 / 4, focalLength: SIMD2(repeating: 1.15 * Double(width)),
+      calibration: .exif)
+    self.mesh = mesh
+    self.texture = texture
+    self.surroundings = surroundings
+    self.lighting = lighting
+    self.views = views
+  }
+
+  /// One of the objects, which has the same texture in all captures of the same seed.
+  ///
   /// - Parameters:
   ///   - width: width of the photos in pixels; the height is three quarters of it.
   ///   - photoCount: number of photos, half of them from each elevation or of each side.
@@ -32,28 +52,24 @@ package struct CaptureScene: Sendable {
     _ object: CaptureObject, _ capture: Capture, _ surroundings: CaptureSurroundings,
     seed: UInt64 = 1, width: Int = 1000, photoCount: Int = 28, fineness: Double = 1
   ) {
-    self.object = object
-    self.capture = capture
-    self.surroundings = surroundings
-    self.seed = seed
-    camera = Camera(
-      width: width, height: width * 3 / 4, focalLength: SIMD2(repeating: 1.15 * Double(width)),
-      calibration: .exif)
-    mesh = object.mesh(fineness: fineness)
+    let mesh = object.mesh(fineness: fineness)
     let number = UInt64(Capture.allCases.firstIndex(of: capture) ?? 0)
-    var motion = CaptureMotion(
-      capture, of: object, mesh, photoCount: photoCount, seed: seed &* 613 &+ number)
-    views = motion.views()
+    var motion = CaptureMotion(of: mesh, photoCount: photoCount, seed: seed &* 613 &+ number)
+    // A hand also shifts the object.
+    if capture == .hand { motion.margin = 0.06 }
+    self.init(
+      mesh: mesh, texture: object.texture(seed: seed),
+      surroundings: surroundings.surfaces(seed: Self.room(seed) &+ 101),
+      views: motion.views(capture, of: object), width: width, seed: seed)
   }
 
   /// The scene when photo `index` is taken, in the frame of the room: only the photo and the mask
   /// with that index are part of the capture.
   package func scene(ofPhoto index: Int) -> RenderedScene {
     let view = views[index]
-    let room = UInt32(truncatingIfNeeded: seed &* 7919)
-    var surfaces = surroundings.surfaces(seed: room &+ 101)
+    var surfaces = surroundings
     if let roomFromPlate = view.roomFromPlate {
-      surfaces.append(CapturePlate.surface(roomFromPlate, seed: room &+ 211))
+      surfaces.append(CapturePlate.surface(roomFromPlate, seed: Self.room(seed) &+ 211))
     }
     var scene = RenderedScene(
       object: RenderedScene.Surface(
@@ -62,13 +78,18 @@ package struct CaptureScene: Sendable {
       surroundings: surfaces, camera: camera, poses: views.map(\.cameraFromRoom), seed: seed)
     scene.noise = 1.5
     scene.photography = Photography()
-    (scene.lighting.ambient, scene.lighting.sky, scene.lighting.sun) = (0.7, 0.1, 0.2)
+    scene.lighting = lighting
     return scene
   }
 
+  /// The seed of the textures of a room.
+  static func room(_ seed: UInt64) -> UInt32 { UInt32(truncatingIfNeeded: seed &* 7919) }
+}
+
+extension CaptureObject {
   /// Five colors from dark to light.
-  private var texture: SolidTexture {
-    let number = UInt64(CaptureObject.allCases.firstIndex(of: object) ?? 0)
+  func texture(seed: UInt64) -> SolidTexture {
+    let number = UInt64(CaptureObject.allCases.firstIndex(of: self) ?? 0)
     var random = SeededGenerator(seed: seed &* 97 &+ number)
     let palette = [0.04, 0.2, 0.42, 0.16, 0.72].map { lightness in
       let tint = SIMD3(random.uniform(), random.uniform(), random.uniform())
@@ -77,5 +98,14 @@ package struct CaptureScene: Sendable {
     return SolidTexture(
       palette: palette, wavelength: 0.035, octaves: 7,
       seed: UInt32(truncatingIfNeeded: random.next()))
+  }
+}
+
+extension RenderedScene.Lighting {
+  /// Bright from all sides, with weak shadows.
+  static var room: RenderedScene.Lighting {
+    var lighting = RenderedScene.Lighting()
+    (lighting.ambient, lighting.sky, lighting.sun) = (0.7, 0.1, 0.2)
+    return lighting
   }
 }

@@ -10,13 +10,13 @@ package struct RenderedScene: Sendable {
   /// A mesh with vertex normals, and its texture.
   package struct Surface: Sendable {
     package var mesh: Mesh
-    package var texture: SolidTexture
+    package var texture: any SurfaceTexture
     /// Maps a point to where the texture is looked up, so that the texture of a surface that moves
     /// moves with it; nil looks it up at the point itself.
     package var textureFromWorld: RigidTransform?
 
     package init(
-      mesh: Mesh, texture: SolidTexture, textureFromWorld: RigidTransform? = nil
+      mesh: Mesh, texture: any SurfaceTexture, textureFromWorld: RigidTransform? = nil
     ) {
       self.mesh = mesh
       self.texture = texture
@@ -39,6 +39,8 @@ package struct RenderedScene: Sendable {
     package var sky: Float = 0.14
     /// From the direction of the sun, with shadows.
     package var sun: Float = 0.62
+    /// The unit vector to the sun.
+    package var sunDirection = SIMD3<Float>(0.45, 0.8, 0.5).normalized
 
     package init() {}
   }
@@ -64,7 +66,6 @@ package struct RenderedScene: Sendable {
   private let caster: RayCaster
   /// The surface of each of the caster's triangles, and the triangle's index in it.
   private let parts: [(surface: Int, triangle: Int)]
-  private let light = SIMD3<Float>(0.45, 0.8, 0.5).normalized
   let seed: UInt64
 
   /// `object` is the surface to be reconstructed, `surroundings` are the other visible surfaces.
@@ -246,8 +247,9 @@ package struct RenderedScene: Sendable {
     let facing = max(0.2, abs(normal.dot(ray.direction.normalized)))
     let footprint = hit.distance / Float(camera.focalLength.x) / facing
     let albedo = surface.color(at: point, footprint: footprint)
-    let sun = max(0, normal.dot(light))
-    let isLit = sun > 0 && !caster.isBlocked(from: point + normal * 1e-3, along: light)
+    let sun = max(0, normal.dot(lighting.sunDirection))
+    let isLit =
+      sun > 0 && !caster.isBlocked(from: point + normal * 1e-3, along: lighting.sunDirection)
     let ambient = lighting.ambient + lighting.sky * normal.y
     return Sight(
       radiance: albedo * (ambient + (isLit ? lighting.sun * sun : 0)),

@@ -4,7 +4,7 @@ import SceneModel
 /// to a palette.
 ///
 /// Fixed in space, so that photos from all sides agree, and without seams.
-package struct SolidTexture: Sendable {
+package struct SolidTexture: SurfaceTexture {
   /// Symmetry that causes repeated structure.
   package enum Repetition: Sendable {
     case none
@@ -27,6 +27,8 @@ package struct SolidTexture: Sendable {
   /// Wavelength of the regions with hardly any texture; 0 disables them.
   package var plainWavelength: Float = 0
   package var repetition: Repetition
+  /// Factors by which the pattern is longer than `wavelength` along each axis, as grain or fur.
+  package var stretch: SIMD3<Float> = [1, 1, 1]
 
   package init(
     palette: [SIMD3<Float>], wavelength: Float, octaves: Int, seed: UInt32, contrast: Float = 2.2,
@@ -53,7 +55,7 @@ package struct SolidTexture: Sendable {
   /// Linear RGB of a point. Octaves that a pixel of width `footprint` can't resolve are omitted.
   package func color(at point: SIMD3<Float>, footprint: Float) -> SIMD3<Float> {
     var (sum, fine, total, amplitude, length) = (Float(0), Float(0), Float(0), Float(1), wavelength)
-    var p = repeated(point)
+    var p = repeated(point) / stretch
     for octave in 0..<octaves {
       let visible = min(max(length / max(footprint, 1e-12) - 1.5, 0), 1)
       if visible > 0 {
