@@ -45,16 +45,14 @@ extension RasterImage {
 
 /// The sets that a command line names.
 struct CaptureSelection {
-  var seed: UInt64 = 1
-  var objects = CaptureObject.allCases
-  var captures = Capture.allCases
-  var surroundings = CaptureSurroundings.allCases
+  var seed: UInt64
+  var objects: [CaptureObject]
+  var captures: [Capture]
+  var surroundings: [CaptureSurroundings]
 
   /// Parses `[seed] [object,…|all] [capture,…|all] [surroundings,…|all]`.
   init(_ words: [String]) throws {
-    guard let word = words.first else { return }
-    guard let seed = UInt64(word) else { throw UnknownWord(word: word) }
-    self.seed = seed
+    seed = try Self.seed(words.first)
     objects = try Self.cases(words.dropFirst(1).first)
     captures = try Self.cases(words.dropFirst(2).first)
     surroundings = try Self.cases(words.dropFirst(3).first)
@@ -73,8 +71,16 @@ struct CaptureSelection {
     }
   }
 
-  private static func cases<Kind: CaseIterable & RawRepresentable<String>>(
-    _ word: String?
+  /// 1 if there is no word.
+  static func seed(_ word: String?) throws -> UInt64 {
+    guard let word else { return 1 }
+    guard let seed = UInt64(word) else { throw UnknownWord(word: word) }
+    return seed
+  }
+
+  /// All cases if the word is `all`, or missing.
+  static func cases<Kind: CaseIterable & RawRepresentable<String>>(
+    _ word: String?, of kind: Kind.Type = Kind.self
   ) throws -> [Kind] {
     guard let word, word != "all" else { return Array(Kind.allCases) }
     return try word.split(separator: ",").map {

@@ -10,11 +10,16 @@ import TestSupport
 //   render-fixtures <folder> texture [name …]  sets to evaluate the texture, with held-out photos
 //   render-fixtures <folder> ring [count]      a large set of photos, 160 by default
 //   render-fixtures <folder> captures [seed] [object,…|all] [capture,…|all] [surroundings,…|all]
+//   render-fixtures <folder> loudspeaker [seed] [still|hand]
 //
-// The last writes a set `<object>-<capture>-<surroundings>` per combination, with exact masks, to
+// `captures` writes a set `<object>-<capture>-<surroundings>` per combination, with exact masks, to
 // compare kinds of capture: the seed is 1 by default; the other names are the cases of
 // `CaptureObject`, `Capture` and `CaptureSurroundings`. Cameras and surface are in the frame of the
 // object, in which the cameras of all captures are comparable.
+//
+// `loudspeaker` writes sets `loudspeaker-<motion>-<seed>` in the same format: a black object with
+// hardly any texture on a wooden table, whose grain connects the photos although the object is
+// turned; both motions by default.
 //
 // The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
 // is not part of the surface. Those of captures are z-up as well.
@@ -44,8 +49,12 @@ case "ring":
   try write(PhotoSet(scene: scene, quality: 0.92, isZUp: true), "ring")
 case "captures":
   try CaptureSelection(Array(words.dropFirst())).forEach { scene, name in
-    try CaptureSet(scene: scene)
-      .write(to: folder.appendingPathComponent(name, isDirectory: true), control)
+    try write(scene, name)
+  }
+case "loudspeaker":
+  let seed = try CaptureSelection.seed(words.dropFirst().first)
+  for motion in try CaptureSelection.cases(words.dropFirst(2).first, of: LoudspeakerMotion.self) {
+    try write(.loudspeaker(motion, seed: seed), "loudspeaker-\(motion.rawValue)-\(seed)")
   }
 default:
   try write(PhotoSet(scene: .statue(), quality: 0.82), "orbit")
@@ -56,4 +65,9 @@ default:
 
 func write(_ set: PhotoSet, _ name: String) throws {
   try set.write(to: folder.appendingPathComponent(name, isDirectory: true), control)
+}
+
+func write(_ scene: CaptureScene, _ name: String) throws {
+  try CaptureSet(scene: scene)
+    .write(to: folder.appendingPathComponent(name, isDirectory: true), control)
 }

@@ -38,34 +38,14 @@ import Testing
   @Test(arguments: Capture.allCases, CaptureObject.allCases)
   func camerasProjectTheObjectIntoItsMask(_ kind: Capture, _ object: CaptureObject) {
     let capture = Self.tiny(object, kind)
-    for index in [1, 3] {
-      let mask = capture.scene(ofPhoto: index).mask(index)
-      let pose = capture.views[index].cameraFromObject
-      // Within a pixel, because the mask is that of the pixels' centers.
-      let outside = capture.mesh.positions.filter { position in
-        let pixel = capture.camera.project(pose * SIMD3<Double>(position))
-        let (x, y) = (Int(pixel.x), Int(pixel.y))
-        let rows = (y - 1...y + 1).clamped(to: 0...mask.height - 1)
-        let columns = (x - 1...x + 1).clamped(to: 0...mask.width - 1)
-        return !rows.contains { row in
-          columns.contains { mask.pixels[row * mask.width + $0] > 0 }
-        }
-      }
-      #expect(Double(outside.count) < 0.01 * Double(capture.mesh.positions.count))
-    }
+    for index in [1, 3] { #expect(capture.shareOutsideOfMask(ofPhoto: index) < 0.01) }
   }
 
   @Test(arguments: Capture.allCases, CaptureObject.allCases)
   func objectsAreInsideOfTheFrame(_ kind: Capture, _ object: CaptureObject) {
     for seed in UInt64(1)...4 {
       let capture = CaptureScene(object, kind, .plain, seed: seed, fineness: 0.1)
-      let margins = capture.views.flatMap { view in
-        capture.mesh.positions.map { position in
-          let pixel = capture.camera.project(view.cameraFromObject * SIMD3<Double>(position))
-          return min(pixel.x, pixel.y, 1000 - pixel.x, 750 - pixel.y)
-        }
-      }
-      #expect(margins.min() ?? 0 > 15)
+      #expect(capture.smallestMargin > 15)
     }
   }
 

@@ -91,6 +91,21 @@ extension Mesh {
     return mesh
   }
 
+  /// A box around the origin with rounded edges; its cells are denser there.
+  static func roundedBox(halfSize h: SIMD3<Double>, radius: Double, cells: Int) -> Mesh {
+    var mesh = box(center: .zero, halfSize: [1, 1, 1], cells: cells)
+    for (index, position) in mesh.positions.enumerated() {
+      let p = SIMD3<Double>(position)
+      let point = SIMD3(sin(p.x * .pi / 2), sin(p.y * .pi / 2), sin(p.z * .pi / 2)) * h
+      let core = point.clamped(
+        lowerBound: SIMD3(repeating: radius) - h, upperBound: h - SIMD3(repeating: radius))
+      let normal = (point - core).normalized
+      mesh.positions[index] = SIMD3<Float>(core + normal * radius)
+      mesh.normals[index] = SIMD3<Float>(normal)
+    }
+    return mesh
+  }
+
   /// A closed tube with rounded ends and an elliptical cross section along a path over 0…1.
   ///
   /// - Parameters:
