@@ -11,6 +11,7 @@ import TestSupport
 //   render-fixtures <folder> ring [count]      a large set of photos, 160 by default
 //   render-fixtures <folder> captures [seed] [object,…|all] [capture,…|all] [surroundings,…|all]
 //   render-fixtures <folder> loudspeaker [seed] [still|hand]
+//   render-fixtures <folder> wallpaper [seed]
 //
 // `captures` writes a set `<object>-<capture>-<surroundings>` per combination, with exact masks, to
 // compare kinds of capture: the seed is 1 by default; the other names are the cases of
@@ -19,7 +20,8 @@ import TestSupport
 //
 // `loudspeaker` writes sets `loudspeaker-<motion>-<seed>` in the same format: a black object with
 // hardly any texture on a wooden table, whose grain connects the photos although the object is
-// turned; both motions by default.
+// turned; both motions by default. `wallpaper` writes `wallpaper-<seed>`: frames of a video of an
+// object in front of a flower that repeats on a lattice.
 //
 // The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
 // is not part of the surface. Those of captures are z-up as well.
@@ -56,6 +58,9 @@ case "loudspeaker":
   for motion in try CaptureSelection.cases(words.dropFirst(2).first, of: LoudspeakerMotion.self) {
     try write(.loudspeaker(motion, seed: seed), "loudspeaker-\(motion.rawValue)-\(seed)")
   }
+case "wallpaper":
+  let seed = try CaptureSelection.seed(words.dropFirst().first)
+  try write(.wallpaper(seed: seed), "wallpaper-\(seed)")
 default:
   try write(PhotoSet(scene: .statue(), quality: 0.82), "orbit")
   try write(PhotoSet(scene: .relief(), hasMetadata: false, quality: 0.85), "relief")

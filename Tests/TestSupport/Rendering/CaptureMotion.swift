@@ -109,6 +109,24 @@ struct CaptureMotion {
     }
   }
 
+  /// The frames of a video of an object at rest: the camera moves on an arc of `degrees` in front
+  /// of it, and slowly sways.
+  mutating func arc(degrees: Double) -> [CaptureScene.View] {
+    let roomFromObject = rest(.identity, turned: angle(180), at: .zero)
+    let target = roomFromObject * middle
+    let phases = (0..<4).map { _ in 2 * .pi * random.uniform() }
+    return (0..<photoCount).map { index in
+      let step = 0.3 * (random.uniform() - 0.5)
+      let t = (Double(index) + step) / Double(max(1, photoCount - 1))
+      let waves = zip(phases, [2.3, 3.1, 1.7, 1.2]).map { sin(2 * .pi * $1 * t + $0) }
+      let offset = SIMD3(waves[0], waves[1], waves[2]) * 0.01
+      return CaptureScene.View(
+        cameraFromRoom: camera(
+          turn: (t - 0.5) * degrees / 360, elevations[0] + 3 * waves[3], target + jitter(0.006),
+          offset), roomFromObject: roomFromObject)
+    }
+  }
+
   // MARK: Poses
 
   /// The middle of the object's bounding box, in its frame.

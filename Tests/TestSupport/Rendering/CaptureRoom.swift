@@ -24,11 +24,16 @@ struct CaptureRoom {
     RenderedScene.Surface(mesh: wall(turned: 0), texture: texture)
   }
 
-  /// The other three walls.
-  func otherWalls(_ texture: any SurfaceTexture) -> RenderedScene.Surface {
-    let turns = [-Double.pi / 2, .pi / 2, .pi]
-    return RenderedScene.Surface(
-      mesh: turns.reduce(into: Mesh()) { $0.append(wall(turned: $1)) }, texture: texture)
+  /// The walls at both ends of the table.
+  func sideWalls(_ texture: any SurfaceTexture) -> RenderedScene.Surface {
+    var mesh = wall(turned: -.pi / 2)
+    mesh.append(wall(turned: .pi / 2))
+    return RenderedScene.Surface(mesh: mesh, texture: texture)
+  }
+
+  /// The wall on the near side of the table, at +z.
+  func nearWall(_ texture: any SurfaceTexture) -> RenderedScene.Surface {
+    RenderedScene.Surface(mesh: wall(turned: .pi), texture: texture)
   }
 
   func floorSurface(seed: UInt32) -> RenderedScene.Surface {

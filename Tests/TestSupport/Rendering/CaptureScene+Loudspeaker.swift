@@ -32,7 +32,7 @@ extension CaptureScene {
       mesh: mesh, texture: LoudspeakerTexture(seed: seed),
       surroundings: [
         place.tableSurface(WoodTexture(seed: room(seed) &+ 301)), place.farWall(paint),
-        place.otherWalls(paint), place.floorSurface(seed: room(seed) &+ 303),
+        place.sideWalls(paint), place.nearWall(paint), place.floorSurface(seed: room(seed) &+ 303),
       ],
       lighting: CaptureRoom.lighting(seed: seed),
       views: motion == .hand ? poses.hand() : poses.walk(), width: width, seed: seed)
