@@ -26,6 +26,8 @@ struct CaptureMotion {
   var margin = 0.035
   /// The farthest that a hand moves the camera away from its place, in meters.
   var sway = 0.03
+  /// Whether the irregularities of a hand's steps don't add up, so that a full turn is complete.
+  var completesTurn = false
   private var random: SeededGenerator
 
   init(of mesh: Mesh, photoCount: Int, seed: UInt64) {
@@ -95,8 +97,11 @@ struct CaptureMotion {
     let count = photoCount / elevations.count
     var (turn, place, offset) = (angle(180), SIMD2<Double>.zero, SIMD3<Double>.zero)
     let start = rest(.identity, turned: turn, at: place) * middle
+    var excess = 0.0
     return (0..<photoCount).map { index in
-      turn += 2 * .pi / Double(count) + angle(8)
+      let irregularity = angle(completesTurn ? 4 : 8)
+      turn += 2 * .pi / Double(count) + irregularity - excess
+      if completesTurn { excess = irregularity }
       let shift = self.place(0.015)
       place = shortened(place + shift, to: 0.025)
       let step = jitter(1)

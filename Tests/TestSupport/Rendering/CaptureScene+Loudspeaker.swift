@@ -25,7 +25,7 @@ extension CaptureScene {
     let number = UInt64(LoudspeakerMotion.allCases.firstIndex(of: motion) ?? 0)
     var poses = CaptureMotion(of: mesh, photoCount: photoCount, seed: seed &* 617 &+ number)
     poses.elevations = [22.5]
-    (poses.margin, poses.sway) = (0.06, 0.012)
+    (poses.margin, poses.sway, poses.completesTurn) = (0.06, 0.012, true)
     let paint = CaptureRoom.paint(seed: room(seed) &+ 302)
     let place = CaptureRoom()
     return CaptureScene(
