@@ -49,8 +49,8 @@ package enum PipelineEngine: EngineSupport {
     event.triangles = textured?.counts["triangles"].map { Int($0) }
   }
 
-  package static func doubts(about session: PhotogrammetrySession) -> [String] {
-    session.report?.doubts ?? []
+  package static func concerns(about session: PhotogrammetrySession) -> [String] {
+    session.report?.concerns ?? []
   }
 
   package static func dryRun(

@@ -48,8 +48,8 @@ package struct RunReport: Codable, Sendable {
   package var worldFrame: WorldFrame?
   /// The reasons why the run, or a part of it, failed, as sentences.
   package var errors: [String] = []
-  /// The warnings because of which the model may not be what the user wants.
-  package var doubts: [String] = []
+  /// Those of the warnings because of which the model may not be what the user wants.
+  package var concerns: [String] = []
   /// Warnings and additional information of all stages, as sentences.
   package var warnings: [String] = []
   package var details: [String] = []

@@ -151,14 +151,14 @@ extension StageStore {
 /// The notes of a stage in stored form.
 private struct SavedNotes: Codable {
   var counts: [String: Double]
-  /// Without the doubts, which are warnings, too.
+  /// Without the concerns, which are warnings, too.
   var warnings: [String]
-  var doubts: [String]
+  var concerns: [String]
   var details: [String]
 
   init(_ notes: StageNotes) {
-    (counts, doubts, details) = (notes.counts, notes.doubts, notes.details)
-    warnings = notes.warnings.filter { !notes.doubts.contains($0) }
+    (counts, concerns, details) = (notes.counts, notes.concerns, notes.details)
+    warnings = notes.warnings.filter { !notes.concerns.contains($0) }
   }
 
   /// The notes without the counts, which belong to another stage.
@@ -172,7 +172,7 @@ private struct SavedNotes: Codable {
   func replay(to notes: StageNotes) {
     for (name, value) in counts { notes.record(name, value) }
     warnings.forEach(notes.warn)
-    doubts.forEach(notes.doubt)
+    concerns.forEach(notes.flagAsSuspect)
     details.forEach(notes.log)
   }
 }

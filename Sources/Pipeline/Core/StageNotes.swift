@@ -5,7 +5,7 @@ package final class StageNotes: Sendable {
   private struct State {
     var counts: [String: Double] = [:]
     var warnings: [String] = []
-    var doubts: [String] = []
+    var concerns: [String] = []
     var details: [String] = []
   }
 
@@ -23,12 +23,12 @@ package final class StageNotes: Sendable {
     state.withLock { $0.warnings.append(sentence) }
   }
 
-  /// Records a warning, as a sentence, that the model may not be what the user wants: the command
-  /// then fails, although it writes the model.
-  package func doubt(_ sentence: String) {
+  /// Records a concern, which is also a warning: a sentence why the model may not be what the user
+  /// wants. The command then fails, although it writes the model.
+  package func flagAsSuspect(_ sentence: String) {
     state.withLock {
       $0.warnings.append(sentence)
-      $0.doubts.append(sentence)
+      $0.concerns.append(sentence)
     }
   }
 
@@ -43,13 +43,13 @@ package final class StageNotes: Sendable {
     state.withLock { state in
       state.counts.merge(other.counts) { $1 }
       state.warnings += other.warnings
-      state.doubts += other.doubts
+      state.concerns += other.concerns
       state.details += other.details
     }
   }
 
   package var counts: [String: Double] { state.withLock { $0.counts } }
   package var warnings: [String] { state.withLock { $0.warnings } }
-  package var doubts: [String] { state.withLock { $0.doubts } }
+  package var concerns: [String] { state.withLock { $0.concerns } }
   package var details: [String] { state.withLock { $0.details } }
 }

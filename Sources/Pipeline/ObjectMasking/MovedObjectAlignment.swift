@@ -42,7 +42,7 @@ struct MovedObjectAlignment {
     }
     let rigid = try alignment.finish(rigid: try map.get(), matched, photos.images, rest)
     if placements.count > 1 {
-      context.notes.doubt(
+      context.notes.flagAsSuspect(
         "The object was moved between photos (\(placements.count) groups), but its sides could not "
           + "be joined: the model may show parts of it, or its surroundings. Take more photos of "
           + "what both sides share, or fill the frame with the object.")

@@ -77,7 +77,7 @@ final class RunRecorder {
         cpuSeconds: end.cpuSeconds - start.cpuSeconds, peakMemoryBytes: end.peakMemoryBytes,
         counts: notes.counts))
     report.warnings += notes.warnings
-    report.doubts += notes.doubts
+    report.concerns += notes.concerns
     report.details += notes.details
     notes.warnings.forEach { onEvent(.warning($0)) }
     notes.details.forEach { onEvent(.detail($0)) }

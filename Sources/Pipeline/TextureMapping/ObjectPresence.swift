@@ -17,7 +17,7 @@ struct ObjectPresence: Sendable {
 
   var options = Options()
 
-  /// Records how the photos show the surface, and a doubt if most of them don't. The views of
+  /// Records how the photos show the surface, and a concern if most of them don't. The views of
   /// `seen` are numbered as in `views`.
   func run(
     _ mesh: Mesh, seen: FaceViews, views: [ID<Photo>], _ reconstruction: Reconstruction,
@@ -29,7 +29,7 @@ struct ObjectPresence: Sendable {
     notes.record("middleCoverage", Double(coverage.upperMedian ?? 0))
     notes.record("photosShowingModel", Double(showing))
     guard Double(showing) < options.minimumPhotos * Double(views.count) else { return }
-    notes.doubt(
+    notes.flagAsSuspect(
       "Only \(showing) of \(views.count) photos show the model in their middle: it may be a part "
         + "of the surroundings. Fill the frame with the object, cover what is around it with a "
         + "plain cloth, or give masks.")

@@ -44,7 +44,7 @@ package enum AppleEngine: EngineSupport {
 
   package static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent) {}
 
-  package static func doubts(about session: PhotogrammetrySession) -> [String] { [] }
+  package static func concerns(about session: PhotogrammetrySession) -> [String] { [] }
 
   package static func dryRun(
     _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,

@@ -28,7 +28,7 @@ package protocol EngineSupport: Sendable {
   /// Adds the number of photos, registered photos and triangles to the event `complete`.
   static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent)
   /// The reasons why the finished model may not show the object, as sentences.
-  static func doubts(about session: PhotogrammetrySession) -> [String]
+  static func concerns(about session: PhotogrammetrySession) -> [String]
   /// Prints what a run would do; throws a `CommandFailure` if it could not succeed.
   static func dryRun(
     _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,

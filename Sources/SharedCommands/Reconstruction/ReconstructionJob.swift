@@ -17,7 +17,7 @@ struct ReconstructionJob<Engine: EngineSupport> {
     files = try ReconstructionFiles(arguments, formats: Engine.modelFormats)
   }
 
-  /// Runs to the end; throws a `CommandFailure` if a requested result is missing or doubtful.
+  /// Runs to the end; throws a `CommandFailure` if a requested result is missing or suspect.
   func run(_ reporter: RunReporter) async throws {
     guard PhotogrammetrySession.isSupported else { throw Engine.unsupportedMachine }
     if arguments.engine.isDryRun {
@@ -40,8 +40,8 @@ struct ReconstructionJob<Engine: EngineSupport> {
       for sentence in run.failures.dropFirst() { logger.error("\(sentence)") }
       throw CommandFailure.run(failure, isTransient: run.isTransient)
     }
-    if let doubt = Engine.doubts(about: session).last {
-      throw CommandFailure.run("The model was written, but it may not show the object. \(doubt)")
+    if let concern = Engine.concerns(about: session).last {
+      throw CommandFailure.run("The model was written, but it may not show the object. \(concern)")
     }
     reporter.event(
       RunEvent("complete") { event in

@@ -52,7 +52,7 @@ import Testing
     let bytes = try model(first, "first.usdz")
     let alignment = try #require(first.report.stages.first { $0.name == "imageAlignment" })
     #expect(alignment.counts["joinedPlacements"] == 2)
-    #expect(first.report.doubts.isEmpty)
+    #expect(first.report.concerns.isEmpty)
     try checkPoses(first.align())
     try checkMasks()
     first.releaseCheckpoint()

@@ -7,7 +7,7 @@ import Testing
 
 @Suite struct ObjectPresenceTests {
   /// A triangle at a place that all photos see with an area of `area` pixels.
-  private func doubts(at place: SIMD3<Float>, area: Float) -> [String] {
+  private func concerns(at place: SIMD3<Float>, area: Float) -> [String] {
     let scene = SyntheticScene().reconstruction
     let mesh = Mesh(
       positions: [place, place + [0.01, 0, 0], place + [0, 0.01, 0]],
@@ -18,7 +18,7 @@ import Testing
     let seen = FaceViews(
       faceCount: 1, observationsByView: scene.registered.map { _ in [observation] })
     ObjectPresence().run(mesh, seen: seen, views: scene.registered, scene, notes)
-    return notes.doubts
+    return notes.concerns
   }
 
   private var pixels: Float {
@@ -26,15 +26,15 @@ import Testing
     return Float(camera.width * camera.height)
   }
 
-  @Test func aModelInTheMiddleIsNoDoubt() {
-    #expect(doubts(at: .zero, area: 0.1 * pixels).isEmpty)
+  @Test func aModelInTheMiddleIsNoConcern() {
+    #expect(concerns(at: .zero, area: 0.1 * pixels).isEmpty)
   }
 
-  @Test func aSpeckIsADoubt() {
-    #expect(doubts(at: .zero, area: 1e-4 * pixels).count == 1)
+  @Test func aSpeckIsAConcern() {
+    #expect(concerns(at: .zero, area: 1e-4 * pixels).count == 1)
   }
 
-  @Test func aModelBesideTheMiddleIsADoubt() {
-    #expect(doubts(at: [0, 40, 0], area: 0.1 * pixels).count == 1)
+  @Test func aModelBesideTheMiddleIsAConcern() {
+    #expect(concerns(at: [0, 40, 0], area: 0.1 * pixels).count == 1)
   }
 }

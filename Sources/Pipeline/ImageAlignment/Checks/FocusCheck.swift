@@ -41,7 +41,7 @@ struct FocusCheck: Sendable {
 
   var options = Options()
 
-  /// Records the findings, and a doubt if the photos are aligned by the surroundings.
+  /// Records the findings, and a concern if the photos are aligned by the surroundings.
   func run(_ reconstruction: Reconstruction, _ features: [FeatureSet], _ notes: StageNotes) {
     guard let findings = findings(reconstruction, features) else { return }
     notes.record("focusFeatures", findings.features)
@@ -51,12 +51,12 @@ struct FocusCheck: Sendable {
     if findings.expected >= options.minimumExpected,
       findings.focusShare < options.minimumRatio * findings.surroundingsShare
     {
-      notes.doubt(
+      notes.flagAsSuspect(
         "The photos were aligned by the surroundings of what they are aimed at, which hardly "
           + "matches between photos: it moves, is shiny or transparent. Cover what is around it "
           + "with a plain cloth, or give masks.")
     } else if findings.spreadDegrees < options.minimumSpreadDegrees {
-      notes.doubt(
+      notes.flagAsSuspect(
         "All photos seem to show what they are aimed at from one direction, within "
           + "\(Int(findings.spreadDegrees.rounded(.up)))°. If it was turned between photos, they "
           + "were aligned by its surroundings, and it isn't in the model: cover what is around it "

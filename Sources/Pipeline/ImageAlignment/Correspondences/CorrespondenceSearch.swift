@@ -177,7 +177,7 @@ private struct MatchedPairs {
     guard
       Double(connected) >= options.minimumObjectShare * Double(graph.connectedGroups[0].count)
     else {
-      context.notes.doubt(
+      context.notes.flagAsSuspect(
         "An object moves in front of its surroundings, but too few of its features match to align "
           + "the photos by it: the model shows the surroundings. Fill the frame with the object, "
           + "cover what is around it with a plain cloth, or give masks.")

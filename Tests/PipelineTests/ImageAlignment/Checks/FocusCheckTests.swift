@@ -32,29 +32,29 @@ import Testing
     return (scene, features)
   }
 
-  private func doubts(_ scene: (Reconstruction, [FeatureSet])) -> Int {
+  private func concerns(_ scene: (Reconstruction, [FeatureSet])) -> Int {
     let notes = StageNotes()
     FocusCheck().run(scene.0, scene.1, notes)
-    return notes.doubts.count
+    return notes.concerns.count
   }
 
-  @Test func observedFeaturesInTheMiddleAreNoDoubt() {
-    #expect(doubts(scene(others: 0)) == 0)
-    #expect(doubts(scene(others: 10)) == 0)
+  @Test func observedFeaturesInTheMiddleAreNoConcern() {
+    #expect(concerns(scene(others: 0)) == 0)
+    #expect(concerns(scene(others: 10)) == 0)
   }
 
   /// The middle of the photos has many features, but none of a point.
-  @Test func featuresWithoutPointsInTheMiddleAreADoubt() {
-    #expect(doubts(scene(others: 2000)) == 1)
+  @Test func featuresWithoutPointsInTheMiddleAreAConcern() {
+    #expect(concerns(scene(others: 2000)) == 1)
   }
 
   @Test func fewFeaturesSayNothing() {
-    #expect(doubts(scene(others: 0) { $0.length > 10 }) == 0)
+    #expect(concerns(scene(others: 0) { $0.length > 10 }) == 0)
   }
 
   /// An object that was turned in front of a camera that stood still: aligned by the table, all
   /// photos seem to be taken from one place.
-  @Test func photosFromOneDirectionAreADoubt() throws {
+  @Test func photosFromOneDirectionAreAConcern() throws {
     var (scene, features) = scene(others: 0)
     let first = try #require(scene.poses[0])
     for index in scene.poses.indices {
@@ -63,6 +63,6 @@ import Testing
     }
     let findings = try #require(FocusCheck().findings(scene, features))
     #expect(findings.spreadDegrees < 8)
-    #expect(doubts((scene, features)) == 1)
+    #expect(concerns((scene, features)) == 1)
   }
 }
