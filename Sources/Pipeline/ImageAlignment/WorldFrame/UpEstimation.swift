@@ -55,7 +55,7 @@ struct UpEstimation: Sendable {
     let cameras = CameraUp(reconstruction, options.cameraUp)
     let isUpsideDown =
       !cameras.isSignCertain
-      && StandingEnd(options: options.standing).isUpsideDown(object.core, up: cameras.direction)
+      && WiderEndUp(options: options.widerEnd).isUpsideDown(object.core, up: cameras.direction)
     return (isUpsideDown ? -cameras.direction : cameras.direction, .cameras)
   }
 

@@ -11,7 +11,7 @@ extension WorldAlignment {
     var gravity = GravityUp.Options()
     var depthMaps = DepthMapScale.Options()
     var cameraUp = CameraUp.Options()
-    var standing = StandingEnd.Options()
+    var widerEnd = WiderEndUp.Options()
     /// Expected error of a GPS position in meters.
     package var gpsNoise = 5.0
     /// Minimum spread of the positions, as a multiple of their error.

@@ -77,8 +77,8 @@ import Testing
       let (height, angle) = (random.uniform(), 2 * Double.pi * random.uniform())
       return [(1.2 - height) * cos(angle), sign * height, (1.2 - height) * sin(angle)]
     }
-    #expect(StandingEnd().isUpsideDown(cone, up: [0, 1, 0]) == (sign < 0))
-    #expect(StandingEnd().isUpsideDown(cone, up: [0, -1, 0]) == (sign > 0))
+    #expect(WiderEndUp().isUpsideDown(cone, up: [0, 1, 0]) == (sign < 0))
+    #expect(WiderEndUp().isUpsideDown(cone, up: [0, -1, 0]) == (sign > 0))
   }
 
   @Test func equalEndsDecideNothing() {
@@ -87,6 +87,6 @@ import Testing
       let angle = 2 * Double.pi * random.uniform()
       return [cos(angle), random.uniform(), sin(angle)]
     }
-    for up in [1.0, -1] { #expect(!StandingEnd().isUpsideDown(cylinder, up: [0, up, 0])) }
+    for up in [1.0, -1] { #expect(!WiderEndUp().isUpsideDown(cylinder, up: [0, up, 0])) }
   }
 }

@@ -2,7 +2,7 @@ import SceneModel
 
 /// Decides which of two opposite directions is up, where cameras don't determine it: an object
 /// stands on its wider end.
-struct StandingEnd: Sendable {
+struct WiderEndUp: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Share of the height that is an end.
     var endShare = 0.1
