@@ -57,8 +57,8 @@ struct IsolationSamples {
     let outcome = try outcome(on: support, region, context)
     guard options.isForeground, support != nil, case .failure = outcome else { return outcome }
     // The plane may be a face of a flat object.
-    let whole = try self.outcome(on: nil, region, context)
-    if case .object = whole { return whole }
+    let withoutPlane = try self.outcome(on: nil, region, context)
+    if case .object = withoutPlane { return withoutPlane }
     return outcome
   }
 
@@ -99,9 +99,9 @@ struct IsolationSamples {
     guard let found else { return nil }
     let division = detection.divide(positions, normals, by: found, focus: focus, cell: cell)
     if options.isObjectOnly {
-      return detection.surrounds(found, division) && !detection.hasFlanks(division) ? found : nil
+      return detection.surrounds(found, division) && !detection.hasSideFaces(division) ? found : nil
     }
-    return try detection.hasFlanks(division) && isBounded(context) ? nil : found
+    return try detection.hasSideFaces(division) && isBounded(context) ? nil : found
   }
 
   /// Whether all that is seen is one object.
@@ -137,7 +137,7 @@ struct IsolationSamples {
     var isPart = weights.map { $0 > 0 && $0 >= options.secondaryShare * weights[main] }
     isPart[main] = true
     try attach(&isPart, weights, members, indices, context.control)
-    if let support, attachFoot(&isPart, weights, members, indices, support) {
+    if let support, attachBase(&isPart, weights, members, indices, support) {
       try attach(&isPart, weights, members, indices, context.control)
     }
     var isObject = [Bool](repeating: false, count: cloud.count)
@@ -180,8 +180,8 @@ struct IsolationSamples {
   }
 
   /// An object does not float: if its lowest part is high above the support, components below it
-  /// belong to it. Returns whether there are any.
-  private func attachFoot(
+  /// are its base. Returns whether there are any.
+  private func attachBase(
     _ isPart: inout [Bool], _ weights: [Double], _ members: Members, _ indices: [Int],
     _ support: SupportPlane
   ) -> Bool {
@@ -190,7 +190,7 @@ struct IsolationSamples {
     }
     let object = isPart.indices.filter { isPart[$0] }.flatMap(positions)
     guard let bounds = Mesh(positions: object.map { SIMD3<Float>($0) }).bounds,
-      let lowest = object.map(support.height).quantile(options.footQuantile)
+      let lowest = object.map(support.height).quantile(options.baseQuantile)
     else { return false }
     let size = Double((bounds.max - bounds.min).length)
     guard lowest > options.attachmentDistance * size else { return false }
@@ -203,7 +203,7 @@ struct IsolationSamples {
       let isUnder = part.allSatisfy {
         hypot(($0 - middle).dot(u), ($0 - middle).dot(v)) <= reach
       }
-      let top = part.map(support.height).quantile(1 - options.footQuantile) ?? .infinity
+      let top = part.map(support.height).quantile(1 - options.baseQuantile) ?? .infinity
       if isUnder, top <= lowest + options.attachmentDistance * size {
         isPart[component] = true
         isChanged = true

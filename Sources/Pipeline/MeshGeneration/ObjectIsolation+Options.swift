@@ -27,8 +27,8 @@ extension ObjectIsolation {
     var weightDistance = 0.35
     /// Components with fewer samples are noise, however near.
     var minimumComponentSamples = 8
-    /// Share of the samples below the lowest part of an object, and above the highest of its foot.
-    var footQuantile = 0.02
+    /// Share of the samples below the lowest part of an object, and above the highest of its base.
+    var baseQuantile = 0.02
     /// Maximum number of rounds in which components are attached to the object.
     var attachmentRounds = 4
     /// Minimum of the attachment distance, in units of the distance of connected samples.

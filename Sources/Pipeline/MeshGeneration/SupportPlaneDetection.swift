@@ -17,7 +17,8 @@ struct SupportPlaneDetection {
     var tolerance = 0.006
     /// Share of the samples that must lie on the plane.
     var minimumShare = 0.08
-    /// A plane has flanks if there are more samples below it than this share of those on it.
+    /// A plane is the top of a body with side faces if there are more samples below it than this
+    /// share of those on it.
     var maximumBelow = 0.35
     /// A plane surrounds what is above it if it has samples in at least this number of sectors, out
     /// of `sectorCount`.
@@ -159,8 +160,9 @@ extension SupportPlaneDetection {
     return result
   }
 
-  /// Whether much is visible below the plane, which a table would hide: it is the top of a plinth.
-  func hasFlanks(_ division: Division) -> Bool {
+  /// Whether much is visible below the plane, which a table would hide: it is the top of a plinth,
+  /// whose side faces are visible.
+  func hasSideFaces(_ division: Division) -> Bool {
     Double(division.below.count) > options.maximumBelow * Double(division.level.count)
   }
 

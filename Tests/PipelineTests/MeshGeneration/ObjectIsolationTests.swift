@@ -55,7 +55,7 @@ import Testing
   }
 
   /// The underside of the ball hides the stem that it stands on; nothing links the two.
-  @Test func footOfTheObjectBelongsToIt() throws {
+  @Test func baseOfTheObjectBelongsToIt() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()
     let centers = reconstruction.poses.compactMap { $0?.center }

@@ -13,7 +13,7 @@ import Testing
     samples.addWall(radius: 0.2, from: 0, to: 0.8)
     let division = try divide(samples)
     #expect(detection.surrounds(samples.plane, division))
-    #expect(!detection.hasFlanks(division))
+    #expect(!detection.hasSideFaces(division))
   }
 
   @Test(arguments: [0, 0.3]) func samplesAreDivided(tilt: Double) throws {
@@ -37,24 +37,24 @@ import Testing
     #expect(rough.level.count + rough.above.count + rough.below.count == samples.positions.count)
   }
 
-  @Test func thinRimIsNoFlank() throws {
+  @Test func thinRimIsNoSideFace() throws {
     var samples = SurfaceSamples()
     samples.addLevel(radius: 1) { x, z in x * x + z * z > 0.04 }
     samples.addWall(radius: 0.2, from: 0, to: 0.8)
     samples.addWall(radius: 1, from: -0.1, to: 0)
     let division = try divide(samples)
-    #expect(!division.below.isEmpty && !detection.hasFlanks(division))
+    #expect(!division.below.isEmpty && !detection.hasSideFaces(division))
   }
 
-  @Test func visibleSidesOfAPlinthAreFlanks() throws {
+  @Test func visibleSidesOfAPlinthAreSideFaces() throws {
     var samples = SurfaceSamples()
     samples.addLevel(radius: 0.4) { x, z in x * x + z * z > 0.04 }
     samples.addWall(radius: 0.2, from: 0, to: 0.8)
     let fromAbove = try divide(samples)
-    #expect(!detection.hasFlanks(fromAbove))
+    #expect(!detection.hasSideFaces(fromAbove))
     samples.addWall(radius: 0.4, from: -0.8, to: 0)
     let fromAside = try divide(samples)
-    #expect(detection.hasFlanks(fromAside))
+    #expect(detection.hasSideFaces(fromAside))
   }
 
   @Test func planeOnOneSideDoesNotSurround() throws {

@@ -3,7 +3,7 @@ import SceneModel
 
 /// The features observed by one camera of a `GrowthScene`.
 struct GrowthView {
-  private struct Sighting {
+  private struct VisiblePoint {
     var point: Int
     var pixel: SIMD2<Double>
     var scale: Double
@@ -30,7 +30,7 @@ struct GrowthView {
     _ descriptors: GrowthDescriptors, _ random: inout SeededGenerator
   ) -> (features: FeatureSet, points: [Int32]) {
     let targetCount = Int(Double(options.featuresPerPhoto) * (1 - options.clutterRatio))
-    let strongest = sightings(&random).sorted { $0.strength > $1.strength }.prefix(targetCount)
+    let strongest = visiblePoints(&random).sorted { $0.strength > $1.strength }.prefix(targetCount)
     let clutter = clutter(
       Int(Double(strongest.count) * options.clutterRatio / (1 - options.clutterRatio)), &random)
     let all = (strongest + clutter).sorted { $0.scale > $1.scale }
@@ -39,24 +39,24 @@ struct GrowthView {
       orientations: [Float](repeating: 0, count: all.count),
       colors: [SIMD3<UInt8>](repeating: [128, 128, 128], count: all.count))
     set.descriptors.reserveCapacity(all.count * FeatureSet.descriptorLength)
-    for sighting in all {
-      let key = sighting.point < 0 ? random.next() : world.points[sighting.point].key
-      descriptors.append(key, sighting.appearance, to: &set.descriptors, &random)
+    for seen in all {
+      let key = seen.point < 0 ? random.next() : world.points[seen.point].key
+      descriptors.append(key, seen.appearance, to: &set.descriptors, &random)
     }
     return (set, all.map { Int32($0.point) })
   }
 
-  private func sightings(_ random: inout SeededGenerator) -> [Sighting] {
+  private func visiblePoints(_ random: inout SeededGenerator) -> [VisiblePoint] {
     let eye = pose.center
-    var found: [Sighting] = []
+    var found: [VisiblePoint] = []
     for patch in world.patches where mayBeSeen(patch, from: eye) {
       let right = patch.normal.cross(abs(patch.normal.y) < 0.9 ? [0, 1, 0] : [1, 0, 0]).normalized
       let up = right.cross(patch.normal)
       for index in patch.points {
         guard random.uniform() < Self.repeatability,
-          let sighting = sighting(index, patch.normal, right, up, &random)
+          let point = visiblePoint(index, patch.normal, right, up, &random)
         else { continue }
-        found.append(sighting)
+        found.append(point)
       }
     }
     return found
@@ -70,10 +70,10 @@ struct GrowthView {
       && abs(inCamera.x) < inCamera.z + 2 * patch.radius
   }
 
-  private func sighting(
+  private func visiblePoint(
     _ index: Int, _ normal: SIMD3<Double>, _ right: SIMD3<Double>, _ up: SIMD3<Double>,
     _ random: inout SeededGenerator
-  ) -> Sighting? {
+  ) -> VisiblePoint? {
     let (point, camera) = (world.points[index], options.camera)
     let position = SIMD3<Double>(point.position)
     let inCamera = pose * position
@@ -90,17 +90,17 @@ struct GrowthView {
     let view = SIMD3(toEye.dot(right) / distance, toEye.dot(up) / distance, log2(distance))
     // Points have roughly the same strength in every photo.
     let strength = Double(point.key >> 11) * 0x1p-53 + 0.15 * random.normal()
-    return Sighting(
+    return VisiblePoint(
       point: index, pixel: pixel + options.pixelNoise * SIMD2(x, y),
       scale: scale * (1 + 0.05 * random.normal()), appearance: SIMD3<Float>(view),
       strength: strength)
   }
 
   /// Features that no other photo shows.
-  private func clutter(_ count: Int, _ random: inout SeededGenerator) -> [Sighting] {
+  private func clutter(_ count: Int, _ random: inout SeededGenerator) -> [VisiblePoint] {
     (0..<count).map { _ in
       let (x, y) = (random.uniform(), random.uniform())
-      return Sighting(
+      return VisiblePoint(
         point: -1, pixel: [x * Double(options.camera.width), y * Double(options.camera.height)],
         scale: min(Self.scales.upperBound, 1.6 / max(0.05, random.uniform().squareRoot())),
         appearance: .zero, strength: 0)

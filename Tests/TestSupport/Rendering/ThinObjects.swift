@@ -66,13 +66,13 @@ struct ThinObjects {
 
   /// A stalk with leaves 2 mm thick.
   private var plant: [Mesh] {
-    let foot = SIMD3(0.075, 0.01, 0.055)
-    let stalk = rod(from: foot, to: foot + SIMD3(0, 0.17, 0), 0.002)
+    let bottom = SIMD3(0.075, 0.01, 0.055)
+    let stalk = rod(from: bottom, to: bottom + SIMD3(0, 0.17, 0), 0.002)
     return [stalk]
       + (0..<6).map { index in
         let azimuth = 2.4 * Double(index)
         let out = SIMD3(cos(azimuth), 0, sin(azimuth))
-        let start = foot + SIMD3(0, 0.05 + 0.022 * Double(index), 0)
+        let start = bottom + SIMD3(0, 0.05 + 0.022 * Double(index), 0)
         return .tube(
           along: { t in start + out * (0.05 * t) + SIMD3(0, 0.03 * t - 0.025 * t * t, 0) },
           side: [0, 1, 0], halfAxes: [0.014, 0.001], length: 0.055, columns: cells(48),
