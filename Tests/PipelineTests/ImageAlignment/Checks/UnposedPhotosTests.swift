@@ -9,7 +9,7 @@ import Testing
 /// map.
 @Suite struct UnposedPhotosTests {
   private let scene = SyntheticScene()
-  private let posed = 0..<8
+  private let posed = 0..<7
 
   /// A map of the first photos, and a graph in which the other ones match up to `matches` features
   /// of each photo of the map.
