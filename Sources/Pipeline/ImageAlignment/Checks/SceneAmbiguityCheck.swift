@@ -60,7 +60,10 @@ package struct SceneAmbiguityCheck: Sendable {
       Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
     let signs = [
       Double(findings.conflicts.count) >= needed,
-      findings.contradicted.count >= options.minimumContradicted,
+      Double(findings.contradicted.count)
+        >= max(
+          Double(options.minimumContradicted),
+          options.minimumContradictedShare * Double(graph.pairs.count)),
     ]
     findings.placements = try PlacementDetection(options: options.placements)
       .groups(
