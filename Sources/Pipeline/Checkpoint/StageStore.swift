@@ -5,9 +5,9 @@ import SceneModel
 
 /// The results of finished stages, which a later run with the same photos and options reuses.
 ///
-/// Stored as `stages/{alignment,masks,surroundings,surface}` in the checkpoint directory, each
-/// sealed with the fingerprint of everything that it depends on. For the results of the dense
-/// stage, see `PatchWorkspace`.
+/// Stored as `stages/{alignment,masks,surface}` in the checkpoint directory, each sealed with the
+/// fingerprint of everything that it depends on. For the results of the dense stage, see
+/// `PatchWorkspace`.
 struct StageStore {
   let checkpoint: Checkpoint
   let inputs: RunInputs
@@ -17,13 +17,10 @@ struct StageStore {
   }
 
   private func write(_ value: some Encodable, _ name: String, madeFrom inputs: UInt64) throws {
-    try createFolder()
-    try SealedFile.write(try JSONEncoder().encode(value), madeFrom: inputs, to: url(name))
-  }
-
-  private func createFolder() throws {
+    let url = url(name)
     try FileManager.default.createDirectory(
-      at: url("masks").deletingLastPathComponent(), withIntermediateDirectories: true)
+      at: url.deletingLastPathComponent(), withIntermediateDirectories: true)
+    try SealedFile.write(try JSONEncoder().encode(value), madeFrom: inputs, to: url)
   }
 
   private func read<Value: Decodable>(_ name: String, madeFrom inputs: UInt64) -> Value? {
@@ -89,9 +86,6 @@ private struct MaskRecord: Codable {
 extension StageStore {
   /// Saves estimated masks with the notes of their stage.
   func save(_ masks: EstimatedMasks, _ notes: StageNotes) throws {
-    let cloud = Data(masks.surroundings.encoded())
-    try createFolder()
-    try SealedFile.write(cloud, madeFrom: inputs.masks, to: url("surroundings"))
     try write(
       MaskRecord(masks: masks, notes: SavedNotes(notes)), "masks", madeFrom: inputs.masks)
   }
@@ -99,13 +93,10 @@ extension StageStore {
   /// The masks that an earlier run estimated for the same photos; nil if there are none that can be
   /// reused. The notes of their stage are added to `notes`.
   func masks(_ notes: StageNotes) -> EstimatedMasks? {
-    guard let record: MaskRecord = read("masks", madeFrom: inputs.masks), record.masks.areIntact,
-      let cloud = SealedFile.read(url("surroundings"), madeFrom: inputs.masks)
+    guard let record: MaskRecord = read("masks", madeFrom: inputs.masks), record.masks.areIntact
     else { return nil }
-    var masks = record.masks
-    guard masks.surroundings.append(encoded: [UInt8](cloud)[...]) else { return nil }
     record.notes.replay(to: notes)
-    return masks
+    return record.masks
   }
 }
 

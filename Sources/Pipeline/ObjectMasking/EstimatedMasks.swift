@@ -12,12 +12,8 @@ struct EstimatedMasks: Codable, Sendable {
   var agreement: [Double?]
   /// What the object stands on; nil if nothing was found.
   var support: SupportPlane?
-  /// Coarse points of the surroundings; stored separately.
-  var surroundings = PointCloud()
-
-  private enum CodingKeys: CodingKey {
-    case masks, agreement, support
-  }
+  /// Coarse points of the surroundings.
+  var surroundings: PointCloud
 
   /// Writes the masks to a folder, with the names of `MaskFiles.names(forMasksOf:)`; without a
   /// result there are none. Throws `OutputError`.

@@ -1,4 +1,22 @@
+import Foundation
 import SceneModel
+
+/// A cloud is stored in other values as the bytes of `encoded()`.
+extension PointCloud: Codable {
+  package init(from decoder: any Decoder) throws {
+    let container = try decoder.singleValueContainer()
+    self.init()
+    guard append(encoded: [UInt8](try container.decode(Data.self))[...]) else {
+      throw DecodingError.dataCorruptedError(
+        in: container, debugDescription: "The bytes are not a point cloud.")
+    }
+  }
+
+  package func encode(to encoder: any Encoder) throws {
+    var container = encoder.singleValueContainer()
+    try container.encode(Data(encoded()))
+  }
+}
 
 extension PointCloud {
   /// Serializes the cloud: counts of points and of photo indices, then one array after the other.

@@ -124,6 +124,56 @@ import Testing
     }
   }
 
+  @Test func masksOfAlignmentRoundTripBitForBit() throws {
+    let (store, masks) = (try store(), try masks())
+    try store.save(AlignedPhotos(reconstruction: reconstruction, masks: masks), StageNotes())
+    let found = try #require(store.alignment(of: ingested.photos, StageNotes())?.masks)
+    expect(found, equals: masks)
+  }
+
+  @Test func masksRoundTripBitForBit() throws {
+    let (store, masks) = (try store(), try masks())
+    try store.save(masks, StageNotes())
+    expect(try #require(store.masks(StageNotes())), equals: masks)
+  }
+
+  @Test func alignmentWithoutItsMasksIsNotUsed() throws {
+    let (store, masks) = (try store(), try masks())
+    try store.save(AlignedPhotos(reconstruction: reconstruction, masks: masks), StageNotes())
+    let file = try #require(masks.masks[1]?.file)
+    try Data("another mask".utf8).write(to: file)
+    #expect(store.alignment(of: ingested.photos, StageNotes()) == nil)
+  }
+
+  /// Masks of all photos but one, and points of the surroundings.
+  private func masks() throws -> EstimatedMasks {
+    var result = ObjectMasking.Result(photoCount: ingested.photos.count)
+    for index in ingested.photos.indices.dropFirst() {
+      result.masks[index] = RasterImage(
+        width: 4, height: 3, channels: 1,
+        pixels: (0..<12).map { $0 % (index + 1) == 0 ? 255 : 0 })
+      result.agreement[index] = 1 / Double(index + 2)
+    }
+    let around = PointCloud(
+      positions: [[0.1, -1 / 3, 1e-17], [1, 2, 3]], normals: [[0, 1, 0], [1, 0, 0]],
+      colors: [[1, 2, 3], [4, 5, 6]], consistency: [0.7, 1], footprints: [0.01, 1 / 3],
+      photoOffsets: [0, 2, 3], photoIndices: [1, 4, 2])
+    result.points = LabeledCloud(cloud: around, isObject: [false, false])
+    return try EstimatedMasks(
+      result, of: ingested.photos, in: folder.url.appendingPathComponent("masks"))
+  }
+
+  private func expect(_ found: EstimatedMasks, equals masks: EstimatedMasks) {
+    #expect(found.masks == masks.masks && found.agreement == masks.agreement)
+    let (points, expected) = (found.surroundings, masks.surroundings)
+    #expect(points.count == 2)
+    #expect(points.positions == expected.positions && points.normals == expected.normals)
+    #expect(points.colors == expected.colors && points.consistency == expected.consistency)
+    #expect(points.footprints == expected.footprints)
+    #expect(
+      points.photoOffsets == expected.photoOffsets && points.photoIndices == expected.photoIndices)
+  }
+
   @Test func surfaceIsUsedForWhatItWasMadeFrom() throws {
     let mesh = SyntheticMesh.sphere(subdivisions: 2)
     func store(

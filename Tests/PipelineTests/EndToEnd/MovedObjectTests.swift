@@ -59,11 +59,28 @@ import Testing
 
     // Any number of threads, and what remains of a run that was stopped, give the same bytes.
     #expect(try model(pipeline(checkpoint: "other", threads: 1), "other.usdz") == bytes)
+    #expect(try resumed(without: ["mesh/surface.ply"], reusesAlignment: true) == bytes)
+    let lost = ["masks/view_03.png", "mesh/surface.ply"]
+    #expect(try resumed(without: lost, reusesAlignment: false) == bytes)
+  }
+
+  /// The model of a run in the first checkpoint directory without some of its files.
+  private func resumed(without names: [String], reusesAlignment: Bool) throws -> Data {
     let work = folder.url.appendingPathComponent("work")
-    for name in ["masks/view_03.png", "mesh/surface.ply"] {
+    for name in names {
       try FileManager.default.removeItem(at: work.appendingPathComponent(name))
     }
-    #expect(try model(pipeline(checkpoint: "work", threads: 2), "resumed.usdz") == bytes)
+    // Whatever is sealed again is another file.
+    func sealedFile() throws -> NSNumber? {
+      let file = work.appendingPathComponent("stages/alignment")
+      return try FileManager.default.attributesOfItem(atPath: file.path)[.systemFileNumber]
+        as? NSNumber
+    }
+    let (before, resumed) = (try sealedFile(), pipeline(checkpoint: "work", threads: 2))
+    let bytes = try model(resumed, "resumed.usdz")
+    #expect(try (sealedFile() == before) == reusesAlignment)
+    resumed.releaseCheckpoint()
+    return bytes
   }
 
   private func checkPoses(_ reconstruction: Reconstruction) throws {
