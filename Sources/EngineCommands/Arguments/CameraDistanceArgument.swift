@@ -9,8 +9,8 @@ struct CameraDistanceArgument: ExpressibleByArgument {
   init?(argument: String) {
     // File names may contain an equals sign; the length does not.
     guard let equals = argument.lastIndex(of: "="),
-      let meters = Double(argument[argument.index(after: equals)...]), meters > 0,
-      meters.isFinite
+      let meters = Double(argument[argument.index(after: equals)...]),
+      KnownDistance.possibleMeters.contains(meters)
     else { return nil }
     let names = argument[..<equals].split(separator: ",", omittingEmptySubsequences: false)
       .map { $0.trimmingCharacters(in: .whitespaces) }

@@ -25,8 +25,8 @@ struct MeasurementFile {
     }
     guard !entries.isEmpty else { throw failure("it has no distances") }
     for entry in entries {
-      guard entry.meters > 0, entry.meters.isFinite else {
-        throw failure("a distance is not above 0")
+      guard KnownDistance.possibleMeters.contains(entry.meters) else {
+        throw failure("a distance is not \(KnownDistance.possibleMetersText)")
       }
       for picks in [entry.from, entry.to] {
         guard Set(picks.map(\.photo)).count >= 2 else {

@@ -92,11 +92,12 @@ struct DryRun {
 
 extension DetailSpecification {
   /// The maximum size of a model in bytes: barely compressed textures, and vertices with all
-  /// attributes.
+  /// attributes. At most `Int.max`: users may allow any number of triangles.
   func modelBytes(in format: ModelFormat) -> Int {
-    let mesh = maximumTriangles * 60
-    guard format != .ply else { return mesh }
-    return mesh + maximumAtlases * textureSide * textureSide * 3
-      * maps.intersection(format.maps).count
+    let (mesh, isTooLarge) = maximumTriangles.multipliedReportingOverflow(by: 60)
+    let maps = format == .ply ? 0 : maps.intersection(format.maps).count
+    let (sum, isSumTooLarge) = mesh.addingReportingOverflow(
+      maximumAtlases * textureSide * textureSide * 3 * maps)
+    return isTooLarge || isSumTooLarge ? .max : sum
   }
 }

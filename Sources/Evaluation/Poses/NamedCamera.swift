@@ -23,6 +23,8 @@ extension NamedCamera {
   /// Maximum deviation of a rotation matrix from orthonormality, and maximum skew relative to the
   /// focal length: files may contain rounded numbers.
   private static let rounding = 1e-3
+  /// Maximum width and height of a photo in pixels.
+  private static let maximumSide = 1_000_000
 
   /// The registered photos of a reconstruction.
   package static func cameras(of reconstruction: Reconstruction) -> [NamedCamera] {
@@ -39,27 +41,8 @@ extension NamedCamera {
   /// `x_camera = R x_world + t`. Photos marked as held out are skipped.
   ///
   /// If an entry doesn't specify `"width"` and `"height"`, they are assumed to be twice the
-  /// principal point. Throws `EvaluationError.invalidReference`.
+  /// principal point, up to `maximumSide`. Throws `EvaluationError.invalidReference`.
   package static func cameras(json data: Data) throws -> [NamedCamera] {
-    struct Entry: Decodable {
-      var name: String
-      var K: [[Double]]
-      var R: [[Double]]
-      var t: [Double]
-      var holdout: Bool?
-      var width: Int?
-      var height: Int?
-    }
-    func isMatrix(_ rows: [[Double]]) -> Bool {
-      rows.count == 3 && rows.allSatisfy { $0.count == 3 && $0.allSatisfy(\.isFinite) }
-    }
-    func isRotation(_ rows: [[Double]]) -> Bool {
-      let r = rows.map { SIMD3($0[0], $0[1], $0[2]) }
-      let isOrthonormal = (0..<3).allSatisfy { i in
-        (0..<3).allSatisfy { abs(r[i].dot(r[$0]) - (i == $0 ? 1 : 0)) < rounding }
-      }
-      return isOrthonormal && r[0].cross(r[1]).dot(r[2]) > 0
-    }
     let entries: [Entry]
     do {
       entries = try JSONDecoder().decode([Entry].self, from: data)
@@ -67,33 +50,62 @@ extension NamedCamera {
       throw EvaluationError.invalidReference(
         "it is not a list of cameras with name, K, R and t")
     }
-    return try entries.filter { $0.holdout != true }.map { entry in
-      guard isMatrix(entry.K), isMatrix(entry.R), entry.t.count == 3,
-        entry.t.allSatisfy(\.isFinite)
-      else {
-        throw EvaluationError.invalidReference("the matrices of \(entry.name) are not 3 × 3")
-      }
-      guard isRotation(entry.R) else {
-        throw EvaluationError.invalidReference("R of \(entry.name) is not a rotation")
-      }
-      guard entry.K[0][0] > 0, entry.K[1][1] > 0,
-        abs(entry.K[0][1]) < rounding * entry.K[0][0]
-      else {
-        throw EvaluationError.invalidReference(
-          "K of \(entry.name) has skew or a non-positive focal length")
-      }
-      let (k, r) = (entry.K, entry.R.map { SIMD3($0[0], $0[1], $0[2]) })
-      return NamedCamera(
-        name: entry.name,
-        camera: Camera(
-          width: entry.width ?? Int((2 * k[0][2]).rounded()),
-          height: entry.height ?? Int((2 * k[1][2]).rounded()),
-          focalLength: [k[0][0], k[1][1]], principalPoint: [k[0][2], k[1][2]],
-          calibration: .refined),
-        cameraFromWorld: RigidTransform(
-          rotation: Quaternion(Matrix3(rows: r[0], r[1], r[2])),
-          translation: [entry.t[0], entry.t[1], entry.t[2]]),
-        isSizeKnown: (entry.width ?? 0) > 0 && (entry.height ?? 0) > 0)
+    return try entries.filter { $0.holdout != true }.map { try NamedCamera($0) }
+  }
+
+  private struct Entry: Decodable {
+    var name: String
+    var K: [[Double]]
+    var R: [[Double]]
+    var t: [Double]
+    var holdout: Bool?
+    var width: Int?
+    var height: Int?
+  }
+
+  private init(_ entry: Entry) throws {
+    guard Self.isMatrix(entry.K), Self.isMatrix(entry.R), entry.t.count == 3,
+      entry.t.allSatisfy(\.isFinite)
+    else {
+      throw EvaluationError.invalidReference("the matrices of \(entry.name) are not 3 × 3")
     }
+    guard Self.isRotation(entry.R) else {
+      throw EvaluationError.invalidReference("R of \(entry.name) is not a rotation")
+    }
+    guard entry.K[0][0] > 0, entry.K[1][1] > 0,
+      abs(entry.K[0][1]) < Self.rounding * entry.K[0][0]
+    else {
+      throw EvaluationError.invalidReference(
+        "K of \(entry.name) has skew or a non-positive focal length")
+    }
+    let (k, r) = (entry.K, entry.R.map { SIMD3($0[0], $0[1], $0[2]) })
+    let width = entry.width ?? Int(saturating: 2 * k[0][2])
+    let height = entry.height ?? Int(saturating: 2 * k[1][2])
+    guard max(width, height) <= Self.maximumSide else {
+      throw EvaluationError.invalidReference(
+        "\(entry.name) can't have \(width) × \(height) pixels, by its width and height or else "
+          + "by the principal point in K; correct them")
+    }
+    self.init(
+      name: entry.name,
+      camera: Camera(
+        width: width, height: height, focalLength: [k[0][0], k[1][1]],
+        principalPoint: [k[0][2], k[1][2]], calibration: .refined),
+      cameraFromWorld: RigidTransform(
+        rotation: Quaternion(Matrix3(rows: r[0], r[1], r[2])),
+        translation: [entry.t[0], entry.t[1], entry.t[2]]),
+      isSizeKnown: (entry.width ?? 0) > 0 && (entry.height ?? 0) > 0)
+  }
+
+  private static func isMatrix(_ rows: [[Double]]) -> Bool {
+    rows.count == 3 && rows.allSatisfy { $0.count == 3 && $0.allSatisfy(\.isFinite) }
+  }
+
+  private static func isRotation(_ rows: [[Double]]) -> Bool {
+    let r = rows.map { SIMD3($0[0], $0[1], $0[2]) }
+    let isOrthonormal = (0..<3).allSatisfy { i in
+      (0..<3).allSatisfy { abs(r[i].dot(r[$0]) - (i == $0 ? 1 : 0)) < rounding }
+    }
+    return isOrthonormal && r[0].cross(r[1]).dot(r[2]) > 0
   }
 }

@@ -68,10 +68,12 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
     guard let first = centers.first else { return [] }
     let low = centers.reduce(first, pointwiseMin)
     let extent = max((centers.reduce(first, pointwiseMax) - low).max(), .leastNormalMagnitude)
-    // Three coordinates of 21 bits each.
+    // Three coordinates of 21 bits each. The extent of a surface from a file may be infinite.
+    let last = Float((1 << 21) - 1)
+    func number(_ cell: Float) -> UInt64 { cell >= 0 ? spread(UInt64(min(cell, last))) : 0 }
     let keys = centers.map { center -> UInt64 in
-      let cell = (center - low) / extent * Float((1 << 21) - 1)
-      return spread(UInt64(cell.x)) | spread(UInt64(cell.y)) << 1 | spread(UInt64(cell.z)) << 2
+      let cell = (center - low) / extent * last
+      return number(cell.x) | number(cell.y) << 1 | number(cell.z) << 2
     }
     return keys.indices.sorted { (keys[$0], $0) < (keys[$1], $1) }.map { items[$0] }
   }

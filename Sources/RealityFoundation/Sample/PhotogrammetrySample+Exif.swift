@@ -1,3 +1,5 @@
+import SceneModel
+
 extension PhotogrammetrySample {
   /// The metadata that the reconstruction uses, read with ImageIO's keys. Fields are numbered by
   /// their EXIF tags.
@@ -13,7 +15,7 @@ extension PhotogrammetrySample {
     exif.camera[42037] = text(camera[kCGImagePropertyExifLensSerialNumber])
     let lengths = focalLengths(camera)
     exif.camera[37386] = lengths.exact.map { .rationals([$0]) }
-    exif.camera[41989] = lengths.film.map { .short(UInt16(clamping: Int($0.rounded()))) }
+    exif.camera[41989] = lengths.film.map { .short(UInt16(clamping: Int(saturating: $0))) }
     exif.gps = gps(section(kCGImagePropertyGPSDictionary))
     return exif
   }

@@ -139,6 +139,27 @@ import Testing
     }
   }
 
+  @Test(arguments: ["1e300", "-1e300", "7e17"]) func impossibleSizesAreErrors(center: String) {
+    func json(_ size: String) -> Data {
+      Data(
+        """
+        [{"name": "a.jpg", "K": [[100, 0, \(center)], [0, 100, 40], [0, 0, 1]],
+          "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "t": [0, 0, 0]\(size)}]
+        """.utf8)
+    }
+    if center.hasPrefix("-") {
+      #expect(throws: Never.self) { try NamedCamera.cameras(json: json("")) }
+    } else {
+      let error = #expect(throws: EvaluationError.self) {
+        try NamedCamera.cameras(json: json(""))
+      }
+      #expect(error?.errorDescription?.contains("a.jpg can't have") == true)
+    }
+    #expect(throws: EvaluationError.self) {
+      try NamedCamera.cameras(json: json(#", "width": 9000000000000000000, "height": 80"#))
+    }
+  }
+
   @Test func reprojectionErrorsAreMeasured() {
     let camera = Camera(width: 100, height: 100, focalLength: [100, 100])
     let photo = Photo(

@@ -211,6 +211,15 @@ import Testing
     #expect(above.thresholds[0].recall == 1)
   }
 
+  /// The extent of such a surface is not a 32-bit number.
+  @Test func distancesOfHugeSurfacesAreFinite() {
+    let far = Float.greatestFiniteMagnitude
+    let points: [SIMD3<Float>] = [[-far, 0, 0], [far, 1, 0], [0, 0, 1], [.infinity, 0, 0]]
+    var stack = BoundingTree<SIMD3<Float>>.Stack()
+    let distance = BoundingTree(points).distance(to: [0, 0, 1.5], limit: 1, &stack)
+    #expect(distance == 0.5)
+  }
+
   @Test func nothingToCompareIsAnError() {
     #expect(throws: EvaluationError.emptySurface) {
       try Self.compare(Mesh(), with: Self.square(side: 1))

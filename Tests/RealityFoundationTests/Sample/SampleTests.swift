@@ -124,6 +124,16 @@ import Testing
     #expect(read.focalLength == 36 && read.focalLengthIn35mmFilm == 36)
   }
 
+  @Test(arguments: [1e300, -1e300]) func anyMetadataCanBeWritten(number: Double) throws {
+    var sample = try sample(1)
+    sample.metadata = ["{Exif}": ["FocalLength": number, "FocalLenIn35mmFilm": number]]
+    #expect(!sample.exif.bytes.isEmpty)
+    sample.camera = .init(
+      id: 0, intrinsics: simd_float3x3(diagonal: [Float.greatestFiniteMagnitude, 1, 1]),
+      transform: .init(1))
+    #expect(!sample.exif.bytes.isEmpty)
+  }
+
   @Test func samplesAreLoadedFromFiles() throws {
     try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("IMG_0042.png")

@@ -130,11 +130,20 @@ private struct AssignmentBuilder {
       let size =
         isSizeKnown
         ? "is for \(camera.width) × \(camera.height) pixels"
-        : "has its principal point at (\(Int(center.x)), \(Int(center.y)))"
+        : "has its principal point at (\(Int(saturating: center.x)), "
+          + "\(Int(saturating: center.y)))"
       return leaveOut(
         photo,
         because: "its camera \(size), but the photo has \(photo.width) × \(photo.height) pixels, "
           + "upright")
+    }
+    guard fit.isPossible else {
+      let (focal, center) = (camera.focalLength, camera.principalPoint)
+      return leaveOut(
+        photo,
+        because: "no photo of \(photo.width) × \(photo.height) pixels has the focal length "
+          + "\(focal.x), \(focal.y) and the principal point \(center.x), \(center.y) of its "
+          + "camera, in pixels; correct the camera")
     }
     if fit.isScaled { scaled.append(photo.name) }
     if fit.quarterTurns > 0 { turned.append(photo.name) }

@@ -6,6 +6,10 @@ struct CameraFit: Hashable {
   /// Maximum distance of the principal point from the center, as a fraction of the photo's width or
   /// height, for a camera of unknown size.
   private static let maximumOffset = 0.2
+  /// Focal lengths as multiples of the photo's longer side that no lens exceeds, and the maximum
+  /// coordinate of a principal point, which may be outside a cropped photo.
+  private static let possibleFocalLengths = 1e-3...1e4
+  private static let maximumCenter = 100.0
   /// Clockwise quarter turns to the upright photo, by EXIF orientation.
   private static let quarterTurnsOfOrientation = [6: 1, 8: 3]
 
@@ -59,6 +63,15 @@ struct CameraFit: Hashable {
     let (w, h) = (Double(camera.width), Double(camera.height))
     let (width, height) = (Double(photo.width), Double(photo.height))
     return abs(w * height - h * width) <= max(w, width, h, height)
+  }
+
+  /// Whether a photo may have this focal length and principal point; the numbers come from a file.
+  var isPossible: Bool {
+    let (focal, center) = (camera.focalLength, camera.principalPoint)
+    let side = camera.longerSide
+    return min(focal.x, focal.y) >= Self.possibleFocalLengths.lowerBound * side
+      && max(focal.x, focal.y) <= Self.possibleFocalLengths.upperBound * side
+      && max(abs(center.x), abs(center.y)) <= Self.maximumCenter * side
   }
 
   /// Whether the photo differs in size from the photo that the camera was estimated for.

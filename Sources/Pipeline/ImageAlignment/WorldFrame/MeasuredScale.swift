@@ -26,7 +26,10 @@ struct MeasuredScale: Sendable {
       do throws(UnusableDistance) {
         let a = try position(of: distance.from, in: reconstruction, &problems)
         let b = try position(of: distance.to, in: reconstruction, &problems)
-        guard (a - b).length > 0, distance.meters > 0 else {
+        guard KnownDistance.possibleMeters.contains(distance.meters) else {
+          throw UnusableDistance(reason: "it must be \(KnownDistance.possibleMetersText)")
+        }
+        guard (a - b).length > 0 else {
           throw UnusableDistance(reason: "its ends are the same place")
         }
         used.append(((a - b).length, distance.meters))
@@ -42,8 +45,8 @@ struct MeasuredScale: Sendable {
     let deviations = used.map { scale * $0.length / $0.meters - 1 }
     if let worst = deviations.map({ abs($0) }).max(), worst > maximumDeviation {
       problems.append(
-        "The known distances disagree by up to \(Int((100 * worst).rounded())) %; check them and "
-          + "their end points.")
+        "The known distances disagree by up to \(Int(saturating: 100 * worst)) %; check them "
+          + "and their end points.")
     }
     return (MeasuredScale(metersPerUnit: scale, deviations: deviations), problems)
   }
@@ -98,7 +101,7 @@ struct MeasuredScale: Sendable {
       let error = (view.camera.project(inCamera) - [view.pick.x, view.pick.y]).length
       if error > maximumPickError * view.camera.longerSide {
         problems.append(
-          "A pick in \(view.pick.photo) is \(Int(error.rounded())) pixels away from the point "
+          "A pick in \(view.pick.photo) is \(Int(saturating: error)) pixels away from the point "
             + "picked in the other photos; check that all picks show the same point.")
       }
     }

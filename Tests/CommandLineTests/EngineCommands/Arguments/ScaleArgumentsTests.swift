@@ -32,7 +32,10 @@ import Testing
     #expect(failure?.exitCode == 2 && failure?.sentence.contains("c.jpg") == true)
   }
 
-  @Test(arguments: ["a.jpg=1", "a.jpg,b.jpg", "a.jpg,b.jpg=0", "a.jpg,a.jpg=1", "a.jpg,b.jpg=x"])
+  @Test(arguments: [
+    "a.jpg=1", "a.jpg,b.jpg", "a.jpg,b.jpg=0", "a.jpg,a.jpg=1", "a.jpg,b.jpg=x",
+    "a.jpg,b.jpg=1e300", "a.jpg,b.jpg=1e-300",
+  ])
   func invalidCameraDistancesAreRejected(_ argument: String) {
     #expect(throws: (any Error).self) {
       try ScaleArguments.parse(["--camera-distance", argument])
@@ -42,6 +45,10 @@ import Testing
   @Test(arguments: [
     "", "{}", "[]", #"[{"meters": 0, "from": [], "to": []}]"#,
     #"[{"meters": 1, "from": [{"photo": "a", "x": 1, "y": 1}], "to": []}]"#,
+    """
+    [{"meters": 1e300, "from": [{"photo": "a", "x": 1, "y": 2}, {"photo": "b", "x": 3, "y": 4}],
+      "to": [{"photo": "a", "x": 5, "y": 6}, {"photo": "b", "x": 7, "y": 8}]}]
+    """,
   ])
   func invalidMeasurementsAreRejected(_ text: String) throws {
     let file = try temporary.write(text, as: "m.json")

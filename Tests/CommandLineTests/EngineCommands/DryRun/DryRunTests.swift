@@ -63,4 +63,12 @@ import Testing
     let full = DetailSpecification(.full)
     #expect(full.modelBytes(in: .glb) < full.modelBytes(in: .usdz))
   }
+
+  @Test(arguments: ["400000000000000000", "9223372036854775807", "153722867280912930"])
+  func anyNumberOfTrianglesCanBeAllowed(count: String) throws {
+    let plan = try plan(["-d", "custom", "--max-polygons", count])
+    #expect(plan.lines.contains { $0.contains("at most \(count) triangles") })
+    #expect(plan.space.needed > 1 << 62)
+    #expect(plan.faults.contains { $0.contains("Free some space") })
+  }
 }

@@ -54,6 +54,38 @@ import Testing
     #expect((fit.pixel([310.5, 70.5]) - expected).length < 1e-9)
   }
 
+  /// Cameras of damaged files; photos without a possible camera are left out.
+  @Test(
+    arguments: [
+      ([1e-300, 480], [190, 1e10]), ([500, 480], [1e300, 160]), ([1e300, 480], [190, 160]),
+    ]
+      as [(SIMD2<Double>, SIMD2<Double>)], [true, false])
+  func impossibleCamerasAreLeftOut(
+    _ intrinsics: (focal: SIMD2<Double>, center: SIMD2<Double>), isSizeKnown: Bool
+  ) throws {
+    var camera = camera
+    (camera.focalLength, camera.principalPoint) = intrinsics
+    let photos = (0..<4).map { index in
+      var photo = photo(400, 300)
+      (photo.id, photo.sampleID, photo.name) = (ID(index), index, "\(index).jpg")
+      return photo
+    }
+    var known = Reconstruction(
+      cameras: [self.camera], photos: photos, poses: photos.map { _ in .identity }, points: [])
+    known.cameras.append(camera)
+    known.photos[3].camera = ID(1)
+    let ingested = IngestedPhotos(
+      photos: photos, cameras: [self.camera], rejected: [], files: photos.map(\.url),
+      rejectedMasks: [], contentHashes: [0, 1, 2, 3], processingPixels: 120_000,
+      isDownsampled: false)
+    let result = try CameraAssignment().run(
+      KnownCameras(known, photosOfUnknownSize: isSizeKnown ? [] : [ID(3)]), to: ingested,
+      StageContext())
+    #expect(result.reconstruction.registered == [ID(0), ID(1), ID(2)])
+    let reasons = result.reconstruction.unregistered.map(\.reason)
+    #expect(reasons.count == 1 && reasons[0].contains("principal point"), "\(reasons)")
+  }
+
   @Test func sizesMayBeRounded() throws {
     // 400 × 300 reduced to a width of 255 is 191.25 high.
     for height in [191, 192] {

@@ -384,6 +384,24 @@ import Testing
     }
   }
 
+  /// Numbers of files and options that no photos have.
+  @Test func impossibleDistancesAreReported() throws {
+    func distance(_ meters: Double, _ name: String = "photo003.jpg") -> KnownDistance {
+      KnownDistance(from: .camera("photo000.jpg"), to: .camera(name), meters: meters)
+    }
+    var options = WorldAlignment.Options()
+    options.knownDistances = [
+      distance(1e300), distance(.nan), distance(-1), distance(1e6), distance(1e-6, "photo001.jpg"),
+      try picked(0.25, pixelError: 1e120),
+    ]
+    let notes = StageNotes()
+    let aligned = WorldAlignment(options).run(scene(table: true), StageContext(notes: notes))
+    #expect(aligned.worldFrame.scale == .knownDistance)
+    #expect(notes.warnings.count { $0.contains("must be from 0.000001 to 1000000 m") } == 3)
+    #expect(notes.warnings.contains { $0.contains("disagree") })
+    #expect(aligned.points.allSatisfy { $0.position.length.isFinite })
+  }
+
   @Test func residualOfGPSIsItsNoise() throws {
     let notes = StageNotes()
     _ = WorldAlignment().run(located(20, noise: 1.5), StageContext(notes: notes))
