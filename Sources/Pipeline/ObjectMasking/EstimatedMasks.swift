@@ -22,25 +22,32 @@ struct EstimatedMasks: Codable, Sendable {
     agreement = result?.agreement ?? Array(repeating: nil, count: photos.count)
     support = result?.support
     surroundings = result?.points.surroundings ?? PointCloud()
+    try Self.removeFiles(of: photos, in: folder)
     guard let result else { return }
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
-    let names = MaskFiles.names(forMasksOf: photos.map(\.name))
+    let files = Self.files(of: photos, in: folder)
     for (index, image) in result.masks.enumerated() {
-      let file = folder.appendingPathComponent(names[index])
-      guard let image else {
-        // What an earlier attempt wrote must not pass for a mask.
-        if FileManager.default.fileExists(atPath: file.path) {
-          try FileManager.default.removeItem(at: file)
-        }
-        continue
-      }
+      guard let image else { continue }
       let bytes = try ImageCodec.encodePNG(image)
-      try AtomicFile.write(Data(bytes), to: file)
+      try AtomicFile.write(Data(bytes), to: files[index])
       let marked = image.pixels.count { $0 != 0 }
       masks[index] = PhotoMask(
-        file: file, orientation: 1, contentHash: XXHash64.hash(bytes),
+        file: files[index], orientation: 1, contentHash: XXHash64.hash(bytes),
         coverage: Double(marked) / Double(image.pixels.count))
     }
+  }
+
+  /// Removes what an earlier attempt wrote for these photos: it must not pass for a mask.
+  static func removeFiles(of photos: [Photo], in folder: URL) throws {
+    for file in files(of: photos, in: folder)
+    where FileManager.default.fileExists(atPath: file.path) {
+      try FileManager.default.removeItem(at: file)
+    }
+  }
+
+  /// The file of each photo's mask.
+  private static func files(of photos: [Photo], in folder: URL) -> [URL] {
+    MaskFiles.names(forMasksOf: photos.map(\.name)).map(folder.appendingPathComponent)
   }
 
   /// Whether all files are present and unchanged.

@@ -60,10 +60,17 @@ extension RunSource {
         reconstruction: try MaskedAlignment(alignment)
           .run(photos.ingested, images: photos.images, context))
     }
-    return try MovedObjectAlignment(
-      options: configuration.movedObjects, alignment: alignment,
-      masking: ObjectMasking(options: configuration.objectMasking)
-    ).run(photos, folder: maskFolder, context)
+    let aligned = Result {
+      try MovedObjectAlignment(
+        options: configuration.movedObjects, alignment: alignment,
+        masking: ObjectMasking(options: configuration.objectMasking)
+      ).run(photos, folder: maskFolder, context)
+    }
+    // The masks of placements that could not be joined have been written.
+    if (try? aligned.get())?.masks == nil {
+      try EstimatedMasks.removeFiles(of: photos.ingested.photos, in: maskFolder)
+    }
+    return try aligned.get()
   }
 
   /// Assigns given cameras to the photos, and triangulates sparse points if none were given. Also
