@@ -44,13 +44,19 @@ struct LabeledCloud: Sendable {
   /// The cloud in another frame.
   func transformed(by transform: SimilarityTransform) -> LabeledCloud {
     var result = self
-    result.cloud.positions = cloud.positions.map {
-      SIMD3<Float>(transform * SIMD3<Double>($0))
-    }
-    result.cloud.footprints = cloud.footprints.map { Float(transform.scale) * $0 }
-    result.cloud.normals = cloud.normals.map {
-      SIMD3<Float>(transform.rotation * SIMD3<Double>($0))
-    }
+    result.cloud = cloud.transformed(by: transform)
+    result.others = others.map { ($0.photos, $0.cloud.transformed(by: transform)) }
+    return result
+  }
+}
+
+extension PointCloud {
+  /// The cloud in another frame.
+  fileprivate func transformed(by transform: SimilarityTransform) -> PointCloud {
+    var result = self
+    result.positions = positions.map { SIMD3<Float>(transform * SIMD3<Double>($0)) }
+    result.footprints = footprints.map { Float(transform.scale) * $0 }
+    result.normals = normals.map { SIMD3<Float>(transform.rotation * SIMD3<Double>($0)) }
     return result
   }
 }
