@@ -64,7 +64,7 @@ final class PatchWorkspace: Sendable {
 
   /// Opens or creates the folder; nil creates a temporary one in `temporaryParent`, which `close`
   /// removes. Throws `WorkspaceError.notWritable`.
-  init(folder: URL?, temporaryParent: URL = PatchWorkspace.temporaryParent) throws {
+  init(folder: URL?, temporaryParent: URL = TemporaryStorage.parent) throws {
     self.folder =
       folder ?? temporaryParent.appendingPathComponent("photogrammetry-\(UUID().uuidString)")
     isTemporary = folder == nil
@@ -136,15 +136,6 @@ final class PatchWorkspace: Sendable {
     let number = String(key.photo.index)
     let padding = String(repeating: "0", count: max(0, 4 - number.count))
     return folder.appendingPathComponent("\(padding)\(number).\(key.step.rawValue)")
-  }
-
-  /// `TMPDIR` if set, else `/var/tmp`, the folder for large temporary files: `/tmp` is often in
-  /// memory.
-  static var temporaryParent: URL {
-    let large = "/var/tmp"
-    let isChosen = ProcessInfo.processInfo.environment["TMPDIR"]?.isEmpty == false
-    return !isChosen && FileManager.default.isWritableFile(atPath: large)
-      ? URL(fileURLWithPath: large, isDirectory: true) : FileManager.default.temporaryDirectory
   }
 }
 

@@ -14,7 +14,7 @@ import SceneModel
 package struct PointCloudGeneration {
   package var options: Options
   /// Parent of the temporary folder.
-  var temporaryParent = PatchWorkspace.temporaryParent
+  var temporaryParent = TemporaryStorage.parent
 
   package init(options: Options = Options()) {
     self.options = options

@@ -141,7 +141,7 @@ extension StageCache {
   /// The folder of estimated masks.
   func maskFolder() -> URL {
     if let folder = checkpoint?.masks ?? temporaryMasks { return folder }
-    let folder = PatchWorkspace.temporaryParent
+    let folder = TemporaryStorage.parent
       .appendingPathComponent("photogrammetry-masks-\(UUID().uuidString)")
     temporaryMasks = folder
     return folder

@@ -125,7 +125,7 @@ final class SampleFolder: @unchecked Sendable {
 
   private func makeFolder() throws -> URL {
     if let folder { return folder }
-    let url = FileManager.default.temporaryDirectory
+    let url = TemporaryStorage.parent
       .appendingPathComponent("photogrammetry-\(UUID().uuidString)", isDirectory: true)
     try FileManager.default.createDirectory(at: url, withIntermediateDirectories: true)
     folder = url
