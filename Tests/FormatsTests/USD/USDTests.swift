@@ -129,7 +129,7 @@ import Testing
   @Test func crateHasHeaderAndSections() throws {
     let bytes = USDCrate.encode(USDModelLayer().layer(Sample.model(rings: 8)))
     #expect(Array(bytes.prefix(8)) == Array("PXR-USDC".utf8))
-    #expect(Array(bytes[8..<16]) == [0, 7, 0, 0, 0, 0, 0, 0])
+    #expect(Array(bytes[8..<16]) == [0, 8, 0, 0, 0, 0, 0, 0])
     var reader = ByteCursor(bytes, from: 16)
     reader = ByteCursor(bytes, from: Int(try reader.unsigned(8)))
     var names: [String] = []

@@ -1,4 +1,4 @@
-/// Writes a layer in USD's binary format, crate (.usdc), version 0.7.0.
+/// Writes a layer in USD's binary format, crate (.usdc).
 ///
 /// A crate consists of a header, the values, sections with tables of tokens, strings, fields, paths
 /// and specs, and a table of contents. Reference: USDC File Format Specification, Pixar.
@@ -19,7 +19,10 @@ private struct CrateWriter {
     var type: CrateSpecType
   }
 
-  private static let version: [UInt8] = [0, 7, 0, 0, 0, 0, 0, 0]
+  /// 0.8.0, which OpenUSD 20.11 to 26.11 writes by default. Older versions are deprecated there;
+  /// those after 0.9.0 are newer than macOS 12, which has to read the files. What is written does
+  /// not depend on it: 0.8.0 adds payloads with offsets, 0.9.0 time codes, and layers have neither.
+  private static let version: [UInt8] = [0, 8, 0, 0, 0, 0, 0, 0]
   private static let headerSize = 88
   /// Offset in the header of the position of the table of contents.
   private static let contentsOffset = 16
