@@ -54,7 +54,8 @@ private struct Reading {
 
   init(imageFolder: URL) { self.imageFolder = imageFolder }
 
-  /// Calls `line` for each line of a file, except comments; adds file and line number to errors.
+  /// Calls `line` for each line of a file, except comments, without the blanks around it: COLMAP
+  /// ends its lists of keypoints with one. Adds file and line number to errors.
   mutating func parse(
     _ folder: URL, _ name: String, keepsEmptyLines: Bool = false,
     _ line: (inout Reading, Substring) throws -> Void
@@ -64,6 +65,7 @@ private struct Reading {
     for (number, content) in text.split(
       omittingEmptySubsequences: false, whereSeparator: \.isNewline
     ).enumerated() {
+      let content = content.trimmingBlanks
       if content.first == "#" || (content.isEmpty && !keepsEmptyLines) { continue }
       do {
         try line(&self, content)
@@ -216,5 +218,14 @@ private struct Reading {
     }
     return Reconstruction(
       cameras: cameras.map(\.camera), photos: photos, poses: images.map(\.pose), points: points)
+  }
+}
+
+extension Substring {
+  /// The text without spaces and tabs at its ends.
+  fileprivate var trimmingBlanks: Substring {
+    let rest = drop { $0 == " " || $0 == "\t" }
+    guard let last = rest.lastIndex(where: { $0 != " " && $0 != "\t" }) else { return "" }
+    return rest[...last]
   }
 }

@@ -130,6 +130,52 @@ import Testing
     }
   }
 
+  /// The files of pycolmap 4.2.1: its lines of keypoints end with a blank, and that of a photo
+  /// without keypoints is empty.
+  @Test(arguments: ["", " ", "\t"]) func filesOfPycolmapAreRead(emptyLine: String) throws {
+    try withTemporaryFolder { folder in
+      try write(
+        folder,
+        cameras: """
+          # Camera list with one line of data per camera:
+          #   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
+          # Number of cameras: 1
+          1 SIMPLE_RADIAL 640 480 500 320 240 0.10000000000000001
+
+          """,
+        images: """
+          # Image list with two lines of data per image:
+          #   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
+          #   POINTS2D[] as (X, Y, POINT3D_ID)
+          # Number of images: 3, mean observations per image: 0.66666666666666663
+          1 1 0 0 0.10000000000000001 0 0 1 1 view 1.jpg
+          1.5 2.25 1 2.5 2.3500000000000001 -1 3.5 2.4500000000000002 -1 4.5 2.55 -1\u{20}
+          2 1 0 0 0.20000000000000001 0 0 2 1 view 2.jpg
+          \(emptyLine)
+          3 1 0 0 0.30000000000000004 0 0 3 1 view 3.jpg
+          4.5 2.25 -1 5.5 2.3500000000000001 -1 6.5 2.4500000000000002 -1 7.5 2.5 1\u{20}
+
+          """,
+        points: """
+          # 3D point list with one line of data per point:
+          #   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
+          # Number of points: 1, mean track length: 2
+          1 0 0 5 1 2 3 -1 1 0 3 3
+
+          """)
+      try Data("# Rig calib list with one line of data per calib:\n1 1 CAMERA 1\n".utf8)
+        .write(to: folder.appendingPathComponent("rigs.txt"))
+      try Data("1 1 1 0 0 0.10000000000000001 0 0 1 1 CAMERA 1 1\n".utf8)
+        .write(to: folder.appendingPathComponent("frames.txt"))
+      let read = try COLMAPText.read(folder)
+      #expect(read.photos.map(\.name) == ["view 1.jpg", "view 2.jpg", "view 3.jpg"])
+      #expect(read.poses.map { $0?.translation.z } == [1, 2, 3])
+      let pixels: [SIMD2<Double>] = [[1.5, 2.25], [7.5, 2.5]]
+      #expect(read.points.count == 1 && read.points[0].track.map(\.pixel) == pixels)
+      #expect(read.points[0].track.map(\.photo) == [ID(0), ID(2)])
+    }
+  }
+
   @Test func danglingReferencesAreDropped() throws {
     try withTemporaryFolder { folder in
       try write(
