@@ -13,7 +13,8 @@ struct Inspect: ParsableCommand {
     discussion: """
       Reads and checks all photos and masks as 'reconstruct' does, without reconstructing. With \
       --overlap it also lists which photos show the same parts and which overlap with none, so \
-      that you know where to take more photos; this takes as long as the first half of alignment.
+      that you know where to take more photos; this takes as long as the first half of alignment. \
+      Masks, -o and -f affect the overlap as they affect a run.
 
       EXAMPLES
         photogrammetry-cli inspect photos/
@@ -33,6 +34,8 @@ struct Inspect: ParsableCommand {
   @Flag(name: .long, help: "Print one JSON object instead of a table.")
   var json = false
 
+  @OptionGroup var alignment: AlignmentArguments
+
   @OptionGroup var threading: ThreadArguments
 
   @OptionGroup var masking: MaskArguments
@@ -45,6 +48,7 @@ struct Inspect: ParsableCommand {
     var configuration = PipelineConfiguration()
     threading.apply(to: &configuration)
     try masking.apply(to: &configuration)
+    alignment.apply(to: &configuration)
     let reporter = ProgressBox(RunReporter(logging.style()))
     let control = KernelControl(threadCount: configuration.threadCount) { reporter.update($0) }
     let ingested = try PhotoIngestion(configuration.ingestion).run(
@@ -54,7 +58,7 @@ struct Inspect: ParsableCommand {
       let images = ImageStore(
         photos: ingested.photos, byteBudget: configuration.imageMemory,
         processingPixels: ingested.processingPixels)
-      let survey = try OverlapSurvey().run(
+      let survey = try OverlapSurvey(configuration.alignmentOptions(for: images)).run(
         photos: ingested.photos, cameras: ingested.cameras, images: images,
         StageContext(control: control))
       report.overlap = OverlapReport(survey, ingested.photos)

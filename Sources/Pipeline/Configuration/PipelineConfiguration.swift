@@ -54,6 +54,17 @@ extension PipelineConfiguration {
     }
   }
 
+  /// Whether alignment has to find the object: masks are to be estimated, and none are given.
+  func findsObject(in photos: ImageStore) -> Bool { objectMasking.isEnabled && !photos.hasMasks }
+
+  /// The options of alignment for some photos.
+  package func alignmentOptions(for photos: ImageStore) -> ImageAlignment.Options {
+    var options = alignment
+    // Given masks exclude the surroundings; without masking, these are as good as the object.
+    options.correspondences.secondMotions.isEnabled = findsObject(in: photos)
+    return options
+  }
+
   /// Bytes that decoded photos may occupy, in the image store and while one is processed.
   package var imageMemory: Int { ingestion.memoryBudget }
 

@@ -81,6 +81,17 @@ package struct ImageAlignment: Sendable {
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> MatchedPhotos {
     try PipelineError.checkCount(photos.count, needed: options.minimumPhotos)
+    let matched = try viewGraph(photos: photos, cameras: cameras, images: images, context)
+    guard !matched.graph.pairs.isEmpty else {
+      throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
+    }
+    return matched
+  }
+
+  /// Extracts and matches features; the graph may have no pairs.
+  func viewGraph(
+    photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
+  ) throws -> MatchedPhotos {
     let features = try timed("featureSeconds", context) {
       try FeatureExtraction(options.features).run(
         photos, images: decodingOnce(images), context.part(from: 0, to: 0.55))
@@ -89,9 +100,6 @@ package struct ImageAlignment: Sendable {
       try CorrespondenceSearch(options.search).run(
         photos: photos, cameras: cameras, features: features, ordering: options.ordering,
         context.part(from: 0.55, to: 1))
-    }
-    guard !graph.pairs.isEmpty else {
-      throw PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
     }
     return MatchedPhotos(photos: photos, cameras: calibrated, features: features, graph: graph)
   }

@@ -49,13 +49,9 @@ extension RunSource {
     _ photos: PhotoSet, _ configuration: PipelineConfiguration, maskFolder: URL,
     _ context: StageContext
   ) throws -> AlignedPhotos {
-    var options = configuration.alignment
-    options.worldAlignment.readings = photos.readings
-    let findsObject = configuration.objectMasking.isEnabled && !photos.images.hasMasks
-    // Given masks exclude the surroundings; without masking, these are as good as the object.
-    options.correspondences.secondMotions.isEnabled = findsObject
-    let alignment = ImageAlignment(options)
-    guard findsObject else {
+    var alignment = ImageAlignment(configuration.alignmentOptions(for: photos.images))
+    alignment.options.worldAlignment.readings = photos.readings
+    guard configuration.findsObject(in: photos.images) else {
       return AlignedPhotos(
         reconstruction: try MaskedAlignment(alignment)
           .run(photos.ingested, images: photos.images, context))

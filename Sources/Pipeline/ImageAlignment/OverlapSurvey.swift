@@ -1,15 +1,8 @@
 import SceneModel
 
-/// Determines which photos overlap, without aligning them.
+/// Determines which photos overlap, without aligning them: the view graph that alignment with the
+/// same options starts from.
 package struct OverlapSurvey: Sendable {
-  package struct Options: Hashable, Codable, Sendable {
-    package var ordering = SampleOrdering.unordered
-    package var features = FeatureExtraction.Options()
-    package var correspondences = CorrespondenceSearch.Options()
-
-    package init() {}
-  }
-
   /// The overlaps of one photo.
   package struct Overlap: Hashable, Sendable {
     /// Another photo and the number of matches with it.
@@ -35,20 +28,18 @@ package struct OverlapSurvey: Sendable {
     package var groups: [[ID<Photo>]]
   }
 
-  package var options: Options
+  package var options: ImageAlignment.Options
 
-  package init(_ options: Options = Options()) { self.options = options }
+  /// `options` are those of the alignment of the same photos.
+  package init(_ options: ImageAlignment.Options) { self.options = options }
 
   /// Extracts and matches features; no poses are estimated.
   package func run(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> Result {
-    let features = try FeatureExtraction(options.features)
-      .run(photos, images: images, context.part(from: 0, to: 0.7))
-    let (graph, _) = try CorrespondenceSearch(options.correspondences).run(
-      photos: photos, cameras: cameras, features: features, ordering: options.ordering,
-      context.part(from: 0.7, to: 1))
-    return Result(graph, featureCounts: photos.map { features[$0.id.index].count })
+    let matched = try ImageAlignment(options)
+      .viewGraph(photos: photos, cameras: cameras, images: images, context)
+    return Result(matched.graph, featureCounts: photos.map { matched.features[$0.id.index].count })
   }
 }
 
