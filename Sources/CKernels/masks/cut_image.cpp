@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc/detail/gcgraph.hpp>
@@ -60,7 +61,7 @@ class ImageCut {
   }
 
   void add_terminal(int node, bool is_object, double weight) {
-    const int value = static_cast<int>(std::lround(kUnit * weight));
+    const int64_t value = std::lround(kUnit * weight);
     graph_.addTermWeights(node, is_object ? value : 0, is_object ? 0 : value);
   }
 
@@ -70,7 +71,7 @@ class ImageCut {
       const double weight =
           options_.smoothness / length * std::exp(-squared / (2 * contrast_ + 1e-6));
       if (nodes_[a] >= 0 && nodes_[b] >= 0) {
-        const int value = static_cast<int>(std::lround(kUnit * weight));
+        const int64_t value = std::lround(kUnit * weight);
         graph_.addEdges(nodes_[a], nodes_[b], value, value);
       } else {
         const size_t certain = nodes_[a] < 0 ? a : b;
@@ -119,7 +120,9 @@ class ImageCut {
   double contrast_ = 0;
   /// The node of each pixel, −1 if it is certain.
   std::vector<int> nodes_;
-  cv::detail::GCGraph<int> graph_;
+  /// With 64 bits: the flow is the sum of the weights of all cut edges, which exceeds 32 bits for
+  /// large images.
+  cv::detail::GCGraph<int64_t> graph_;
 };
 
 }  // namespace
@@ -131,7 +134,7 @@ ck_status ck_cut_image(const ck_pixels* image, const float* log_odds, const ck_c
     ck::require(image->channels == 3 && mask->channels == 1 && image->width == mask->width &&
                     image->height == mask->height && image->width > 0 && image->height > 0,
                 "an RGB image and a gray mask of the same size are needed");
-    // 64 megapixels keep the sums of all weights of a node, and the numbers of nodes, in range.
+    // 64 megapixels keep the numbers of nodes and edges in range.
     ck::require(static_cast<int64_t>(image->width) * image->height < (int64_t{1} << 26),
                 "the image is too large");
     ck::require(options->smoothness >= 0 && options->smoothness < 1000 && options->certainty > 0 &&
