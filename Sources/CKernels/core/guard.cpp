@@ -1,15 +1,26 @@
 #include "core/guard.h"
 
+#include <algorithm>
+#include <array>
+#include <cstring>
 #include <new>
 #include <opencv2/core.hpp>
 #include <system_error>
 
 namespace ck {
 namespace {
-thread_local std::string last_error;
-}
+/// The messages of libraries have a few lines.
+constexpr size_t kMaximumLength = 2000;
 
-void set_last_error(const std::string& message) { last_error = message; }
+/// Zero-terminated. It has no constructor that could allocate memory.
+thread_local std::array<char, kMaximumLength + 1> last_error = {};
+}  // namespace
+
+void set_last_error(const char* message) noexcept {
+  const size_t length = std::min(std::strlen(message), kMaximumLength);
+  std::memcpy(last_error.data(), message, length);
+  last_error[length] = 0;
+}
 
 bool is_out_of_memory(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error)) return true;
@@ -22,4 +33,4 @@ bool is_out_of_memory(const std::exception& error) {
 
 }  // namespace ck
 
-const char* ck_last_error(void) { return ck::last_error.c_str(); }
+const char* ck_last_error(void) { return ck::last_error.data(); }

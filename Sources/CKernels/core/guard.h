@@ -2,7 +2,6 @@
 
 #include <exception>
 #include <stdexcept>
-#include <string>
 
 #include "ck_core.h"
 
@@ -16,8 +15,9 @@ struct Degenerate : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Stores the message that `ck_last_error` returns on this thread.
-void set_last_error(const std::string& message);
+/// Stores the message that `ck_last_error` returns on this thread, up to a fixed length: an error
+/// must be reported even if no memory is left.
+void set_last_error(const char* message) noexcept;
 
 /// Whether an exception of the standard library or of OpenCV reports a failed allocation.
 bool is_out_of_memory(const std::exception& error);

@@ -18,6 +18,12 @@ extern "C" {
 ck_status ck_test_parallel_for(size_t count, size_t available_threads, size_t failing,
                                const ck_control* control, int32_t* visits, size_t* created_threads);
 
+/// Runs a kernel that fails with an exception while the process can't allocate memory.
+///
+/// `message` is that of the exception. Takes all of the process's free memory meanwhile and limits
+/// its address space for good: to be called in a process of its own.
+ck_status ck_test_failure_without_memory(const char* message);
+
 /// Whether `std::cerr` has a stream buffer and glog and OpenCV log at their default levels: false
 /// after `ck_silence_libraries`.
 bool ck_test_is_logging(void);
