@@ -28,7 +28,7 @@ typedef struct {
 /// The solver runs on a thread of its own, and only on that one, because results of several threads
 /// differ between runs. It cannot be interrupted: a canceled call returns at once, but
 /// its solver runs to the end in the background. Until then it occupies a processor core, and the
-/// memory of the solver and of a copy of the points; another call may start meanwhile. The arrays
+/// memory of the solver and of a copy of the points; later calls wait for its end first. The arrays
 /// of the caller are not used after the call.
 ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
                      const ck_control* control, ck_surface** surface);

@@ -31,8 +31,51 @@ struct Job {
   ck_surface surface;
   std::exception_ptr error;
   bool done = false;
+  /// Whether the caller was canceled and no longer waits.
+  bool is_abandoned = false;
   std::mutex mutex;
   std::condition_variable finished;
+};
+
+/// Interval at which progress is reported and cancellation takes effect.
+constexpr std::chrono::milliseconds kPollingInterval(50);
+
+/// The abandoned solvers of the process. Each still occupies memory and a processor core, which are
+/// not available to the next one.
+class AbandonedSolvers {
+ public:
+  /// Never destroyed: a solver may outlive static objects.
+  static AbandonedSolvers& shared() {
+    static auto& solvers = *new AbandonedSolvers;
+    return solvers;
+  }
+
+  void add() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    ++count_;
+  }
+
+  void remove() {
+    std::lock_guard<std::mutex> lock(mutex_);
+    --count_;
+    ended_.notify_all();
+  }
+
+  /// Waits until there are none; throws `Canceled` when the caller cancels.
+  void await_end(const ck_control* control) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    while (count_ > 0) {
+      ended_.wait_for(lock, kPollingInterval);
+      lock.unlock();
+      ck::step(control, 0);
+      lock.lock();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  int count_ = 0;
 };
 
 void solve(Job& job) {
@@ -58,14 +101,16 @@ void run(const std::shared_ptr<Job>& job) {
   job->error = error;
   job->done = true;
   job->finished.notify_all();
+  if (!job->is_abandoned) return;
+  job->cloud.Clear();
+  job->surface = ck_surface();
+  AbandonedSolvers::shared().remove();
 }
 
 /// Model of the solver's duration: seconds for 100,000 points at this octree depth, the factor per
 /// further level, and the exponent of the number of points. Results do not depend on it.
 constexpr double kReferenceSeconds = 3.4, kFactorPerLevel = 2.4, kPointExponent = 0.25;
 constexpr int kReferenceDepth = 8;
-/// Interval at which progress is reported and cancellation takes effect.
-constexpr std::chrono::milliseconds kPollingInterval(50);
 
 /// Estimated progress of the solver, which reports none: linear in the expected duration up to 80
 /// %, then asymptotically approaching 1.
@@ -79,7 +124,8 @@ double fraction(double seconds, int depth, size_t points) {
 /// Waits for the job and reports progress.
 ///
 /// On cancellation detaches the worker: Open3D's solver has no callback in which it could be
-/// stopped. The job keeps the points and the solver's memory until the worker ends.
+/// stopped. The job keeps the points and the solver's memory until the worker ends; later jobs
+/// start after that.
 void await(Job& job, std::thread& worker, const ck_control* control) {
   const auto start = std::chrono::steady_clock::now();
   std::unique_lock<std::mutex> lock(job.mutex);
@@ -89,6 +135,8 @@ void await(Job& job, std::thread& worker, const ck_control* control) {
     try {
       ck::step(control, fraction(elapsed.count(), job.options.depth, job.cloud.points_.size()));
     } catch (...) {
+      job.is_abandoned = !job.done;
+      if (job.is_abandoned) AbandonedSolvers::shared().add();
       worker.detach();
       throw;
     }
@@ -117,6 +165,7 @@ ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_option
       job->cloud.normals_.push_back(normal.normalized());
     }
     if (job->cloud.points_.size() < 4) throw ck::Degenerate("fewer than four oriented points");
+    AbandonedSolvers::shared().await_end(control);
     ck::step(control, 0);
     std::thread worker([job] { run(job); });
     await(*job, worker, control);

@@ -23,7 +23,8 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
   /// ignored.
   ///
   /// A canceled call returns at once, but its solver can't be interrupted: it occupies a processor
-  /// core and its memory until it ends.
+  /// core and its memory until it ends. Later calls wait for that, so that together they don't
+  /// exceed the limits of the machine.
   package func surface(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], _ control: KernelControl
   ) throws -> Surface {
