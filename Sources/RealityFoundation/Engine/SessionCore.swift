@@ -49,6 +49,7 @@ final class SessionCore: SessionWorker {
   ) throws {
     try RequestValidation(input: input, configuration: configuration, options: options)
       .check(requests)
+    EngineBuild.warnOnce
     try begin(
       EngineTask(
         input: input, configuration: configuration, options: options,
