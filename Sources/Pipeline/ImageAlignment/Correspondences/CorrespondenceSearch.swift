@@ -183,8 +183,8 @@ private struct MatchedPairs {
           + "cover what is around it with a plain cloth, or give masks.")
       return
     }
-    (matches, graph.pairs, graph.rejected) = (
-      object.matches, object.graph.pairs, object.graph.rejected
+    (pairs, matches, graph.pairs, graph.rejected) = (
+      object.pairs, object.matches, object.graph.pairs, object.graph.rejected
     )
     graph.isObjectOnly = true
     graph.surroundings = surroundings.hasFeature
@@ -194,7 +194,8 @@ private struct MatchedPairs {
   }
 
   /// The pairs matched again without the features of the surroundings: among fewer features, more
-  /// matches are distinctive.
+  /// matches are distinctive. Pairs with less than half of the matches that are needed are not:
+  /// they don't become twice as many.
   private func objectPairs(
     without surroundings: MotionLayers.Surroundings, _ cameras: [Camera], _ context: StageContext
   ) throws -> MatchedPairs {
@@ -208,8 +209,14 @@ private struct MatchedPairs {
     }
     var object = self
     object.features = zip(features, kept).map { $0.selecting($1) }
+    let promising = zip(pairs, matches).filter { pair, matches in
+      2 * matches.count { !surroundings.contain($0, of: pair) }
+        >= verification.minimumInliers
+    }
+    object.pairs = promising.map(\.0)
     object.matches = zip(
-      pairs, try FeatureMatching(options.matching).run(pairs, features: object.features, context)
+      object.pairs,
+      try FeatureMatching(options.matching).run(object.pairs, features: object.features, context)
     ).map { pair, matches in
       matches.filter { match in
         let match = original(match, pair)
@@ -220,7 +227,7 @@ private struct MatchedPairs {
     try object.verifyAgain(cameras, context)
     try object.guide(cameras, context)
     object.features = features
-    object.matches = zip(pairs, object.matches).map { pair, matches in
+    object.matches = zip(object.pairs, object.matches).map { pair, matches in
       matches.map { original($0, pair) }
     }
     for index in object.graph.pairs.indices {
