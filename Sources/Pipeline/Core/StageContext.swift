@@ -4,10 +4,16 @@ import Kernels
 package struct StageContext: Sendable {
   package let control: KernelControl
   package let notes: StageNotes
+  /// Receives the factor by which the work of the stage grows.
+  private let onExtension: @Sendable (Double) -> Void
 
-  package init(control: KernelControl = KernelControl(), notes: StageNotes = StageNotes()) {
+  package init(
+    control: KernelControl = KernelControl(), notes: StageNotes = StageNotes(),
+    onExtension: @escaping @Sendable (Double) -> Void = { _ in }
+  ) {
     self.control = control
     self.notes = notes
+    self.onExtension = onExtension
   }
 
   /// Reports that unit `index` of `count` begins; throws `CancellationError` if the run was
@@ -18,6 +24,15 @@ package struct StageContext: Sendable {
 
   /// The context of a part of the stage that runs from `start` to `end` of its progress.
   package func part(from start: Double, to end: Double) -> StageContext {
-    StageContext(control: control.part(from: start, to: end), notes: notes)
+    StageContext(
+      control: control.part(from: start, to: end), notes: notes, onExtension: onExtension)
+  }
+
+  /// Reports that the stage takes `factor` times as long as was expected, and returns the context
+  /// of the rest after `done`, the fraction of the expected work. Only for the context of a whole
+  /// stage.
+  func extended(by factor: Double, after done: Double) -> StageContext {
+    onExtension(factor)
+    return part(from: done / factor, to: 1)
   }
 }

@@ -63,7 +63,10 @@ final class RunRecorder {
       add(stage, notes, since: start)
     }
     return try recordingErrors {
-      let value = try body(StageContext(control: control, notes: notes))
+      let context = StageContext(control: control, notes: notes) { [onEvent] factor in
+        onEvent(.extended(stage, by: factor))
+      }
+      let value = try body(context)
       try control.step(1)
       return value
     }

@@ -163,6 +163,7 @@ final class SessionCore: SessionWorker {
     switch event {
     case .progress(let stage, let fraction):
       emit { $0.progressed(stage, fraction: fraction, at: now()) }
+    case .extended(let stage, let factor): emit { $0.extended(stage, by: factor) }
     case .rejected(let photo): emit { $0.rejected(photo) }
     case .downsampled: emit { $0.downsampled() }
     case .stitchingIncomplete: emit { $0.stitchingIncomplete() }
@@ -191,7 +192,7 @@ private func log(_ event: PipelineEvent) {
     sessionLogger.warning("\(sentence)")
   case .detail(let sentence):
     sessionLogger.debug("\(sentence)")
-  case .progress, .ingested:
+  case .progress, .extended, .ingested:
     break
   }
 }

@@ -107,6 +107,14 @@ struct SessionState: Sendable {
     return entries(needing: unit).flatMap { progress(of: $0, in: stage) }
   }
 
+  /// A stage of the current request has more work than was expected.
+  mutating func extended(_ stage: PipelineStage, by factor: Double) -> [Output] {
+    guard isWorking else { return [] }
+    estimator?.extend(
+      WorkUnit(stage: stage, specification: specification ?? plan?.finest), by: factor)
+    return []
+  }
+
   /// A request was completed.
   mutating func completed(
     _ entry: RunPlan.Entry, _ result: PhotogrammetrySession.Result, at time: Double

@@ -18,6 +18,7 @@ import Testing
   private static func name(_ event: PipelineEvent) -> String {
     switch event {
     case .progress(let stage, let fraction): "\(stage.rawValue) \(fraction)"
+    case .extended(let stage, let factor): "\(stage.rawValue) x \(factor)"
     case .ingested(let photos): "ingested \(photos.count)"
     case .rejected(let photo): "refused \(photo.name)"
     case .downsampled: "downsampled"
@@ -25,6 +26,19 @@ import Testing
     case .warning(let sentence): "warning \(sentence)"
     case .detail(let sentence): "detail \(sentence)"
     }
+  }
+
+  @Test func aStageThatGrowsSaysSo() throws {
+    let recorder = recorder()
+    try recorder.run(.imageAlignment) { context in
+      try context.part(from: 0, to: 0.8).control.step(1)
+      try context.extended(by: 2, after: 0.8).control.step(0.5)
+    }
+    #expect(
+      events.withLock { $0 } == [
+        "imageAlignment 0.0", "imageAlignment 0.8", "imageAlignment x 2.0", "imageAlignment 0.7",
+        "imageAlignment 1.0",
+      ])
   }
 
   @Test func aStageSendsProgressThenItsNotes() throws {

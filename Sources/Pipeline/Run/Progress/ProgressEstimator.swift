@@ -48,6 +48,16 @@ package struct ProgressEstimator: Sendable {
     lastTime = max(lastTime, time)
   }
 
+  /// Records that a unit has `factor` times as much work as was expected: what is done is a smaller
+  /// fraction of it.
+  package mutating func extend(_ unit: WorkUnit, by factor: Double) {
+    guard let index = steps.firstIndex(where: { $0.unit == unit }), factor > 1, factor.isFinite,
+      !steps[index].isDone
+    else { return }
+    steps[index].prior *= factor
+    steps[index].fraction /= factor
+  }
+
   /// Removes units that are no longer needed.
   package mutating func remove(_ isObsolete: (WorkUnit) -> Bool) {
     steps.removeAll { isObsolete($0.unit) }

@@ -35,6 +35,9 @@ package struct RunProgressTracker: Sendable {
       return Progress(
         stage: stage, fraction: estimator.fraction(of: units),
         remainingSeconds: estimator.remainingSeconds(of: units))
+    case .extended(let stage, let factor):
+      estimator.extend(WorkUnit(stage: stage), by: factor)
+      return nil
     case .rejected, .downsampled, .stitchingIncomplete, .warning, .detail:
       return nil
     }

@@ -37,6 +37,19 @@ import Testing
     }
   }
 
+  /// After 30 of 60 seconds it turns out that alignment takes 120.
+  @Test func workThatTurnsUpIsExpected() throws {
+    let unit = WorkUnit(stage: .imageAlignment)
+    var estimator = ProgressEstimator(units: [unit], at: 0) { _ in 60 }
+    estimator.advance(unit, to: 0.5, at: 30)
+    estimator.extend(unit, by: 2)
+    #expect(abs(estimator.fraction(of: [unit]) - 0.25) < 1e-9)
+    #expect(abs(try #require(estimator.remainingSeconds(of: [unit])) - 90) < 1)
+    estimator.advance(unit, to: 1, at: 120)
+    estimator.extend(unit, by: 2)
+    #expect(estimator.fraction(of: [unit]) == 1)
+  }
+
   @Test func unevenStagesAreEstimatedWithinHalfAfterTheFirstThird() throws {
     let factors: [PipelineStage: Double] = [
       .preProcessing: 2, .imageAlignment: 1.6, .pointCloudGeneration: 0.8, .meshGeneration: 1.5,
