@@ -4,8 +4,8 @@ import SceneModel
 package enum PipelineEvent: Sendable {
   /// The completed fraction of a stage, 0…1.
   case progress(PipelineStage, fraction: Double)
-  /// A stage has more work than was expected, this many times as much in all. Its completed fraction
-  /// decreases accordingly.
+  /// A stage has more work than was expected, this many times as much in all. Its completed
+  /// fraction decreases accordingly.
   case extended(PipelineStage, by: Double)
   /// Validation has ended; these photos are used.
   case ingested(PhotoTotals)

@@ -10,12 +10,7 @@ import SceneModel
 /// now that each side of the object is known from the photos that show it best.
 struct MovedObjectAlignment {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum number of photos that the joined alignment must register, as a share of those of the
-    /// largest placement.
-    var minimumShare = 0.9
-    /// If the alignment by the object misses more than this share of the photos, it is repeated
-    /// with more features, which takes three to four times as long. Chosen: one photo in thirty.
-    var acceptedLoss = 0.034
+    var join = PlacementJoin.Options()
     /// Duration of the alignment of an object that moves, relative to that of a scene that stands
     /// still. Measured: 1.7 for MicroPasts' axe, 1.7 for a flower pot on a turntable.
     var relativeDuration = 1.7
@@ -83,7 +78,7 @@ struct MovedObjectAlignment {
     let masked = photos.masked(
       by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
     let join = PlacementJoin(
-      options: options, alignment: alignment, masked: masked, masks: first.masks,
+      options: options.join, alignment: alignment, masked: masked, masks: first.masks,
       placements: placements, used: used)
     guard
       let (joined, notes) = try join.run(&matched, map, context.part(from: 0.4, to: 0.8))

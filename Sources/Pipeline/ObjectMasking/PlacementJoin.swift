@@ -5,7 +5,18 @@ import SceneModel
 struct PlacementJoin {
   typealias MatchedPhotos = ImageAlignment.MatchedPhotos
 
-  var options: MovedObjectAlignment.Options
+  struct Options: Hashable, Codable, Sendable {
+    /// Minimum number of photos that the joined alignment must register, as a share of those of the
+    /// largest placement.
+    var minimumShare = 0.9
+    /// If the alignment by the object misses more than this share of the photos, it is repeated
+    /// with more features, which takes three to four times as long. Chosen: one photo in thirty.
+    var acceptedLoss = 0.034
+
+    init() {}
+  }
+
+  var options = Options()
   var alignment: ImageAlignment
   /// The photos with the masks of their placements.
   var masked: PhotoSet

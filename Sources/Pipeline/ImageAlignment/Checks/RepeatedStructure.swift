@@ -1,6 +1,6 @@
 import SceneModel
 
-/// Recognizes matches between different instances of a repeated structure, which a map has resolved.
+/// Recognizes matches between different instances of a repeated structure that a map has resolved.
 ///
 /// Two points that one photo shows at once are different points, however similar they look (the
 /// uniqueness constraint; Zach et al., "Disambiguating visual relations using loop constraints",

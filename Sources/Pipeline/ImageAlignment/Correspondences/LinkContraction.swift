@@ -7,7 +7,7 @@ import SceneModel
 /// Links wait in a heap, in which those that have changed since are skipped, and the smaller of two
 /// adjacency lists is merged into the larger one: O(n log² n) for n links.
 struct LinkContraction {
-  typealias Link = PlacementDetection.Link
+  typealias Link = PlacementLink
 
   private struct Entry {
     var weight: Int

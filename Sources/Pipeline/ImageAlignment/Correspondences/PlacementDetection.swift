@@ -21,18 +21,7 @@ struct PlacementDetection: Sendable {
     init() {}
   }
 
-  /// What links two photos or groups of photos.
-  struct Link: Hashable, Sendable {
-    /// Positive if they show the object in the same placement, negative if they don't.
-    var evidence = 0
-    /// Number of matches.
-    var matches = 0
-
-    static func += (sum: inout Link, other: Link) {
-      sum.evidence += other.evidence
-      sum.matches += other.matches
-    }
-  }
+  typealias Link = PlacementLink
 
   var options = Options()
 

@@ -31,8 +31,8 @@ struct Placements: Hashable, Sendable {
       "The photos show \(groups.count) placements of the object (\(counts) photos), divided by the "
         + "order of their names."
     case .links:
-      "The photos show \(groups.count) placements of the object (\(counts) photos), divided by what "
-        + "pairs of them show: the order of their names does not explain it."
+      "The photos show \(groups.count) placements of the object (\(counts) photos), divided by "
+        + "what pairs of them show: the order of their names does not explain it."
     }
   }
 }
