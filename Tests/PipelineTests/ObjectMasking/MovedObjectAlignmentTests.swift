@@ -84,8 +84,8 @@ import Testing
         .statue, .flip, .textured, seed: 5, width: 480, photoCount: 20, fineness: 0.3))
     var configuration = PipelineConfiguration()
     configuration.checkpointDirectory = folder.url.appendingPathComponent("work")
-    configuration.movedObjects.minimumShare = 3
-    configuration.movedObjects.acceptedLoss = 1
+    configuration.movedObjects.join.minimumShare = 3
+    configuration.movedObjects.join.acceptedLoss = 1
     configuration.alignment.sceneAmbiguity.minimumContradicted = .max
     let pipeline = pipeline(configuration)
     let result = try pipeline.align()

@@ -1,5 +1,6 @@
 import Kernels
 import SceneModel
+import TestLevels
 import TestSupport
 import Testing
 
@@ -131,6 +132,24 @@ import Testing
       try other.run(KernelControl()) { $0.evidence }
       #expect(other.groups == contraction.groups)
     }
+  }
+
+  /// 10,000 photos, each linked to the 20 after it: two placements, the second half or every other
+  /// photo. `scripts/test --filter largeSets` prints the time.
+  @Test(.endToEnd, arguments: [true, false]) func largeSetsAreDivided(areIntervals: Bool) throws {
+    let count = 10_000
+    func group(_ photo: Int) -> Int { areIntervals ? 2 * photo / count : photo % 2 }
+    var links: [PhotoPair: PlacementDetection.Link] = [:]
+    for first in 0..<count {
+      for second in first + 1..<min(count, first + 21) {
+        links[PhotoPair(ID(first), ID(second))] = PlacementDetection.Link(
+          evidence: group(first) == group(second) ? 10 : -30)
+      }
+    }
+    let found = try detection.groups(links, photoCount: count)
+    #expect(found.basis == (areIntervals ? .order : .links))
+    #expect(found.groups.map { Set($0.map(group)) }.allSatisfy { $0.count == 1 })
+    #expect(found.groups.map(\.count) == [count / 2, count / 2])
   }
 
   @Test func detectionStopsWhenCanceled() {
