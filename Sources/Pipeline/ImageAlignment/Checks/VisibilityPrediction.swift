@@ -2,28 +2,6 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// A point of one photo that another photo is expected to show.
-struct ExpectedPoint: Sendable {
-  /// The track of the point.
-  var track: Int32
-  /// The point and its template in the first photo.
-  var reference: TrackReference
-  /// The expected position in the other photo, in pixels, and the local affine warp of the
-  /// template.
-  var pixel: SIMD2<Double>
-  var warp: SIMD4<Double>
-}
-
-/// A visibility hypothesis: the points of photo `other` that `photo` should show if both poses are
-/// correct, and the points that it demonstrably shows.
-struct VisibilityHypothesis: Sendable {
-  var other: Int
-  var photo: Int
-  var points: [ExpectedPoint] = []
-  /// Pixels in `photo` of points that are matched features of both photos.
-  var confirmedPixels: [SIMD2<Double>] = []
-}
-
 /// Predicts which points a photo should show, from its pose and the points it observes.
 struct VisibilityPrediction {
   let photo: Int
