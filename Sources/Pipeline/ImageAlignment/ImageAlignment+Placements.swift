@@ -4,8 +4,8 @@ import SceneModel
 /// Joining photos between which the object was moved.
 extension ImageAlignment {
   /// The matches of all photos by the object that their masks leave, in addition to all matches
-  /// within a placement, whose photos are linked by the surroundings as well. `features` are those
-  /// of the object; among fewer features, more matches are distinctive.
+  /// within a placement, whose photos are linked by the surroundings as well. Among the features of
+  /// the object alone, more matches are distinctive.
   func match(
     _ object: ObjectFeatures, of matched: MatchedPhotos, placements: [[Int]],
     _ context: StageContext
@@ -51,19 +51,22 @@ extension ImageAlignment {
     return (result, ObjectFeatures(photos: masked.ingested.photos, isObject: isObject))
   }
 
-  /// Finishes a map of the object: points of the surroundings are left out. `upright` has the poses
-  /// of one placement's photos in a frame whose +y is up.
+  /// Finishes a map of the object, and checks it: points of the surroundings are left out.
+  /// `upright` has the poses of one placement's photos in a frame whose +y is up.
   func finish(
     _ map: Map, of object: ObjectFeatures, _ matched: MatchedPhotos, _ images: ImageStore,
     upright: [RigidTransform?], _ context: StageContext
   ) throws -> Reconstruction {
     var mapped = map.reconstruction
     for (index, photo) in object.photos.enumerated() { mapped.photos[index].mask = photo.mask }
-    return try finish(mapped, matched, images, upright: upright, context) { point in
+    let result = try finish(mapped, matched, images, upright: upright, context) { point in
       let features = point.track.filter { $0.feature >= 0 }
       let own = features.count { object.isObject[$0.photo.index][Int($0.feature)] }
       return 2 * own > features.count
     }
+    // What was taken for the object may be the surroundings.
+    checkFocus(of: result, matched, context.notes)
+    return result
   }
 }
 

@@ -53,10 +53,16 @@ package struct ImageAlignment: Sendable {
   ) throws -> Reconstruction {
     try throwOrWarn(map, context.notes)
     let result = try finish(map.reconstruction, matched, images, context)
-    if let focus = options.focus {
-      FocusCheck(options: focus).run(result, matched.features, context.notes)
-    }
+    checkFocus(of: result, matched, context.notes)
     return result
+  }
+
+  /// Records a concern if the photos were aligned by something else than what they are aimed at.
+  func checkFocus(
+    of reconstruction: Reconstruction, _ matched: MatchedPhotos, _ notes: StageNotes
+  ) {
+    guard let focus = options.focus else { return }
+    FocusCheck(options: focus).run(reconstruction, matched.features, notes)
   }
 
   /// Photos with their features and verified pairs.

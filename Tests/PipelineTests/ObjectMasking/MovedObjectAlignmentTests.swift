@@ -67,8 +67,11 @@ import Testing
 
   /// An object without texture, turned by hand: the table connects the photos, the object doesn't.
   /// Either alignment fails, or the result is flagged.
-  @Test func anObjectThatCannotBeAlignedIsReported() throws {
-    try write(CaptureScene.loudspeaker(.hand, width: 480, photoCount: 14, fineness: 0.3))
+  @Test(arguments: [UInt64(1), 2, 3]) func anObjectThatCannotBeAlignedIsReported(seed: UInt64)
+    throws
+  {
+    try write(
+      CaptureScene.loudspeaker(.hand, seed: seed, width: 480, photoCount: 14, fineness: 0.3))
     let pipeline = pipeline()
     do {
       _ = try pipeline.align()
