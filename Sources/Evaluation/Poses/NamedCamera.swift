@@ -23,7 +23,8 @@ extension NamedCamera {
   /// Maximum deviation of a rotation matrix from orthonormality, and maximum skew relative to the
   /// focal length: files may contain rounded numbers.
   private static let rounding = 1e-3
-  /// Maximum width and height of a photo in pixels.
+  /// Maximum width and height of a photo in pixels. Chosen: JPEG ends at 65,535, and sizes in files
+  /// may be of stitched photos.
   private static let maximumSide = 1_000_000
 
   /// The registered photos of a reconstruction.

@@ -194,8 +194,8 @@ private struct MatchedPairs {
   }
 
   /// The pairs matched again without the features of the surroundings: among fewer features, more
-  /// matches are distinctive. Pairs with less than half of the matches that are needed are not:
-  /// they don't become twice as many.
+  /// matches are distinctive. Pairs with less than half of the matches that are needed are left out
+  /// (chosen; the poses of a flower pot on a turntable are the same without them).
   private func objectPairs(
     without surroundings: MotionLayers.Surroundings, _ cameras: [Camera], _ context: StageContext
   ) throws -> MatchedPairs {

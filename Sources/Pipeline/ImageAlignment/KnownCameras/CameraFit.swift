@@ -7,7 +7,8 @@ struct CameraFit: Hashable {
   /// height, for a camera of unknown size.
   private static let maximumOffset = 0.2
   /// Focal lengths as multiples of the photo's longer side that no lens exceeds, and the maximum
-  /// coordinate of a principal point, which may be outside a cropped photo.
+  /// coordinate of a principal point, which may be outside a cropped photo. Chosen: only numbers
+  /// that would overflow later are to be excluded.
   private static let possibleFocalLengths = 1e-3...1e4
   private static let maximumCenter = 100.0
   /// Clockwise quarter turns to the upright photo, by EXIF orientation.
