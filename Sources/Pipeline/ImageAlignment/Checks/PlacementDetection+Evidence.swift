@@ -10,9 +10,9 @@ extension PlacementDetection {
   /// points of the map. `neededPoints` is the number of points that determine a pose.
   func groups(
     _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction,
-    _ graph: ViewGraph, features: [FeatureSet], neededPoints: Int, _ control: KernelControl
+    _ graph: ViewGraph, _ repetition: RepeatedStructure, neededPoints: Int,
+    _ control: KernelControl
   ) throws -> Placements {
-    let repetition = RepeatedStructure(reconstruction, features: features)
     // Matches of a moving object do not depend on its surroundings.
     let motions = graph.isObjectOnly ? [] : graph.motions
     var links = links(

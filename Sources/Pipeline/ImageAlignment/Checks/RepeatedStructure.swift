@@ -15,8 +15,8 @@ struct RepeatedStructure {
   /// shows at once. Chosen: of points that are one and the same in the world it is zero, up to
   /// wrong tracks; of instances it falls short of one because tracks are incomplete.
   private static let minimumShare = 0.2
-  /// Minimum number of matches of different points, as for the weakest pairs that are verified.
-  private static let minimumMatches = 12
+  /// Minimum number of matches of different points: fewer may agree by chance.
+  private static let minimumMatches = PairVerification.Options().weakMinimumInliers
 
   /// The point of each feature, by photo; −1 without one.
   let pointOfFeature: [[Int32]]

@@ -47,6 +47,7 @@ package struct SceneAmbiguityCheck: Sendable {
     _ context: StageContext
   ) throws -> Findings {
     let evidence = try evidence(reconstruction, features: features, images: images, context)
+    let repetition = RepeatedStructure(reconstruction, features: features)
     var findings = Findings()
     findings.compared = evidence.count
     findings.conflicts = evidence.filter(isConflict).sorted {
@@ -55,20 +56,21 @@ package struct SceneAmbiguityCheck: Sendable {
     // What stands still contradicts a map of an object that moves, where it is still matched.
     findings.contradicted =
       graph.isObjectOnly
-      ? [] : graph.contradicted(by: reconstruction, features: features, options)
-    let needed = max(
-      Double(options.minimumConflicts), options.minimumConflictShare * Double(evidence.count))
+      ? [] : graph.contradicted(by: reconstruction, features: features, repetition, options)
+    func isSign(_ count: Int, of all: Int, minimum: Int, share: Double) -> Bool {
+      count >= minimum && Double(count) >= share * Double(all)
+    }
     let signs = [
-      Double(findings.conflicts.count) >= needed,
-      Double(findings.contradicted.count)
-        >= max(
-          Double(options.minimumContradicted),
-          options.minimumContradictedShare * Double(graph.pairs.count)),
+      isSign(
+        findings.conflicts.count, of: evidence.count, minimum: options.minimumConflicts,
+        share: options.minimumConflictShare),
+      isSign(
+        findings.contradicted.count, of: graph.pairs.count, minimum: options.minimumContradicted,
+        share: options.minimumContradictedShare),
     ]
     findings.placements = try PlacementDetection(options: options.placements)
       .groups(
-        signs[0] ? evidence : [], reconstruction, graph, features: features,
-        neededPoints: neededPoints,
+        signs[0] ? evidence : [], reconstruction, graph, repetition, neededPoints: neededPoints,
         context.control.part(from: 1, to: 1))
     findings.verdict =
       !signs.contains(true) ? .consistent : signs.contains(false) ? .ambiguous : .inconsistent

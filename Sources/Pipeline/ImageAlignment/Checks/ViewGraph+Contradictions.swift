@@ -10,7 +10,16 @@ extension ViewGraph {
     by reconstruction: Reconstruction, features: [FeatureSet],
     _ options: SceneAmbiguityCheck.Options = SceneAmbiguityCheck.Options()
   ) -> [PhotoPair] {
-    let repetition = RepeatedStructure(reconstruction, features: features)
+    contradicted(
+      by: reconstruction, features: features,
+      RepeatedStructure(reconstruction, features: features), options)
+  }
+
+  /// The same, with the points of the features at hand.
+  func contradicted(
+    by reconstruction: Reconstruction, features: [FeatureSet], _ repetition: RepeatedStructure,
+    _ options: SceneAmbiguityCheck.Options
+  ) -> [PhotoPair] {
     let pointOf = repetition.pointOfFeature
     /// Whether a point projects to a feature; nil without a point.
     func agrees(_ point: Int32, _ photo: ID<Photo>, _ feature: Int32) -> Bool? {

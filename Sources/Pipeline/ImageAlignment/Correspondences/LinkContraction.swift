@@ -18,10 +18,8 @@ struct LinkContraction {
   /// The links of each remaining node, by the node at the other end.
   private var links: [[Int: Link]]
   private var sets: DisjointSets
-  private let photoCount: Int
 
   init(_ links: [PhotoPair: Link], photoCount: Int) {
-    self.photoCount = photoCount
     self.links = Array(repeating: [:], count: photoCount)
     sets = DisjointSets(count: photoCount)
     for (pair, link) in links {

@@ -22,8 +22,6 @@ package struct PairVerification {
     package var maximumIterations = 1000
     /// Fraction of inliers explained by a homography from which on the pair counts as planar.
     package var homographyRatio = 0.8
-    /// Estimates fundamental matrices if the focal length is only assumed.
-    package var isUncalibratedWhereAssumed = true
     /// Combined with the photos' IDs for the random samples of each pair.
     package var seed: UInt64 = 0
 
@@ -115,8 +113,7 @@ package struct PairVerification {
 
   /// Whether the focal lengths are known well enough for an essential matrix.
   func isCalibrated(_ cameras: (Camera, Camera)) -> Bool {
-    !options.isUncalibratedWhereAssumed
-      || (cameras.0.calibration != .assumed && cameras.1.calibration != .assumed)
+    cameras.0.calibration != .assumed && cameras.1.calibration != .assumed
   }
 
   /// The error limit in normalized image coordinates (depth 1), the mean over both photos.

@@ -47,10 +47,10 @@ import Testing
   func smallObjectIsDividedWhereItWasMoved(tablePoints: Int, contradicting: Range<Int>) throws {
     let (evidence, map) = scene(
       objectPoints: 8, tablePoints: tablePoints, contradicting: contradicting)
+    let features = (0..<photoCount).map { _ in FeatureSet(positions: [.zero]) }
     let placements = try PlacementDetection().groups(
       evidence, map, ViewGraph(photoCount: photoCount, pairs: []),
-      features: (0..<photoCount).map { _ in FeatureSet(positions: [.zero]) }, neededPoints: 30,
-      KernelControl())
+      RepeatedStructure(map, features: features), neededPoints: 30, KernelControl())
     #expect(placements.groups == [Array(0..<14), Array(14..<28)])
   }
 

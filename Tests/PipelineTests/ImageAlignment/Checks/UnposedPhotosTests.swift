@@ -26,7 +26,8 @@ import Testing
     }
     graph.pairs.removeAll { $0.matches.isEmpty }
     return try PlacementDetection().groups(
-      [], map, graph, features: scene.features, neededPoints: 30, KernelControl())
+      [], map, graph, RepeatedStructure(map, features: scene.features), neededPoints: 30,
+      KernelControl())
   }
 
   @Test func photosThatContradictTheMapAreAPlacement() throws {
