@@ -10,8 +10,8 @@ struct PlacementJoin {
     /// largest placement.
     var minimumShare = 0.9
     /// If the alignment by the object misses more than this share of the photos, it is repeated
-    /// with more features, which takes three to four times as long. Chosen: one photo in thirty.
-    var acceptedLoss = 0.034
+    /// with more features, which takes three to four times as long. Chosen.
+    var acceptedLoss = 1.0 / 30
 
     init() {}
   }
@@ -42,7 +42,7 @@ struct PlacementJoin {
     let first = try attempt(context.part(from: 0.02, to: 0.5)) { [matched] context in
       if let map, isSufficient(map, matched) { return (matched, object, map) }
       let result = try alignment.match(
-        object, of: matched, placements: placements, context.part(from: 0, to: 0.4))
+        object, of: matched, placements: placements, context.part(from: 0, to: 0.6))
       return (result, object, try objectMap(result, context))
     }
     let count = first?.reconstruction.registered.count ?? 0
@@ -97,7 +97,7 @@ struct PlacementJoin {
 
   private func isAccepted(_ result: Reconstruction, _ graph: ViewGraph) -> Bool {
     let largest = placements.map(\.count).max() ?? 0
-    return used.count { result.contains($0.photos) } >= (graph.isObjectOnly ? 1 : 2)
+    return graph.isMotionExplained(by: used.count { result.contains($0.photos) })
       && Double(result.registered.count) >= options.minimumShare * Double(largest)
   }
 
@@ -107,6 +107,14 @@ struct PlacementJoin {
       ($0.element.photos.count, $1.offset) < ($1.element.photos.count, $0.offset)
     }
     return largest?.element.poses ?? []
+  }
+}
+
+extension ViewGraph {
+  /// Whether this number of placements explains that the object moves: one does if all photos agree
+  /// on it.
+  func isMotionExplained(by placementCount: Int) -> Bool {
+    placementCount >= (isObjectOnly ? 1 : 2)
   }
 }
 
