@@ -23,7 +23,7 @@ extension ImageAlignment {
     (result.photos, result.cameras) = (object.photos, cameras)
     result.graph = graph.renumbered(kept)
     result.graph.add(matched.graph, within: placements)
-    result.graph.isObjectOnly = matched.graph.isObjectOnly
+    result.graph.omitsSurroundings = matched.graph.omitsSurroundings
     return result
   }
 
@@ -44,7 +44,7 @@ extension ImageAlignment {
     result.graph.add(
       matched.graph.renumbered(zip(counts, matched.features).map { Array($0..<$0 + $1.count) }),
       within: placements)
-    result.graph.isObjectOnly = matched.graph.isObjectOnly
+    result.graph.omitsSurroundings = matched.graph.omitsSurroundings
     let isObject = zip(counts, result.features).map { count, set in
       (0..<set.count).map { $0 < count }
     }
@@ -52,17 +52,18 @@ extension ImageAlignment {
   }
 
   /// Finishes a map of the object, and checks it: points of the surroundings are left out.
-  /// `upright` has the poses of one placement's photos in a frame whose +y is up.
+  /// `posesInUpFrame` has the poses of one placement's photos in a frame whose +y is up.
   func finish(
     _ map: Map, of object: ObjectFeatures, _ matched: MatchedPhotos, _ images: ImageStore,
-    upright: [RigidTransform?], _ context: StageContext
+    posesInUpFrame: [RigidTransform?], _ context: StageContext
   ) throws -> Reconstruction {
     var mapped = map.reconstruction
     for (index, photo) in object.photos.enumerated() { mapped.photos[index].mask = photo.mask }
-    let result = try finish(mapped, matched, images, upright: upright, context) { point in
+    let result = try finish(mapped, matched, images, posesInUpFrame: posesInUpFrame, context) {
+      point in
       let features = point.track.filter { $0.feature >= 0 }
-      let own = features.count { object.isObject[$0.photo.index][Int($0.feature)] }
-      return 2 * own > features.count
+      let onObject = features.count { object.isObject[$0.photo.index][Int($0.feature)] }
+      return 2 * onObject > features.count
     }
     // What was taken for the object may be the surroundings.
     checkFocus(of: result, matched, context.notes)
@@ -96,10 +97,12 @@ extension ViewGraph {
     for var pair in other.pairs {
       let group = groupOf[pair.pair.first.index]
       guard let group, group == groupOf[pair.pair.second.index] else { continue }
-      if let own = known[pair.pair] {
-        let (first, second) = (Set(own.matches.map(\.first)), Set(own.matches.map(\.second)))
+      if let objectPair = known[pair.pair] {
+        let (first, second) = (
+          Set(objectPair.matches.map(\.first)), Set(objectPair.matches.map(\.second))
+        )
         let more = pair.matches.filter { !first.contains($0.first) && !second.contains($0.second) }
-        pair.matches = (own.matches + more).sorted { $0.first < $1.first }
+        pair.matches = (objectPair.matches + more).sorted { $0.first < $1.first }
       }
       known[pair.pair] = pair
     }

@@ -153,10 +153,10 @@ package struct ImageAlignment: Sendable {
   }
 
   /// Refines the observations and moves the reconstruction, with some of the points, to the world
-  /// frame. `upright` has poses of photos in a frame whose +y is up.
+  /// frame. `posesInUpFrame` has poses of photos in a frame whose +y is up.
   func finish(
     _ mapped: Reconstruction, _ matched: MatchedPhotos, _ images: ImageStore,
-    upright: [RigidTransform?] = [], _ context: StageContext,
+    posesInUpFrame: [RigidTransform?] = [], _ context: StageContext,
     keeping isKept: (ScenePoint) -> Bool = { _ in true }
   ) throws -> Reconstruction {
     var refined = try timed("refinementSeconds", context) {
@@ -166,7 +166,8 @@ package struct ImageAlignment: Sendable {
     }
     refined.points = refined.points.filter(isKept)
     let reconstruction = placed(
-      refined, upright: upright, hasMasks: images.hasMasks, context.part(from: 0.85, to: 1))
+      refined, posesInUpFrame: posesInUpFrame, hasMasks: images.hasMasks,
+      context.part(from: 0.85, to: 1))
     report(reconstruction, context.notes)
     try context.control.step(1)
     return reconstruction
@@ -174,14 +175,15 @@ package struct ImageAlignment: Sendable {
 
   /// The reconstruction in the world frame. Masks, if any, exclude the support.
   private func placed(
-    _ reconstruction: Reconstruction, upright: [RigidTransform?] = [], hasMasks: Bool,
+    _ reconstruction: Reconstruction, posesInUpFrame: [RigidTransform?] = [], hasMasks: Bool,
     _ context: StageContext
   ) -> Reconstruction {
     var worldAlignment = options.worldAlignment
     let masks = hasMasks ? reconstruction.photos.count { $0.mask != nil } : 0
     worldAlignment.findsSupport =
       worldAlignment.findsSupport && 2 * masks < reconstruction.photos.count
-    return WorldAlignment(worldAlignment).run(reconstruction, upright: upright, context)
+    return WorldAlignment(worldAlignment).run(
+      reconstruction, posesInUpFrame: posesInUpFrame, context)
   }
 
   /// The photos, decoded once for features and refinement.

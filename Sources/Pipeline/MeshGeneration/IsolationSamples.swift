@@ -98,7 +98,7 @@ struct IsolationSamples {
       cell: cell)
     guard let found else { return nil }
     let division = detection.divide(positions, normals, by: found, focus: focus, cell: cell)
-    if options.isObjectOnly {
+    if options.showsOnlyObject {
       return detection.surrounds(found, division) && !detection.hasSideFaces(division) ? found : nil
     }
     return try detection.hasSideFaces(division) && isBounded(context) ? nil : found

@@ -40,7 +40,7 @@ extension ObjectIsolation {
     var maximumTruncation = 0.25
     /// Whether the points are of a moving object and what carries it only, without anything that
     /// stands still.
-    var isObjectOnly = false
+    var showsOnlyObject = false
     /// Whether the points are of what stands in front of a plain backdrop, which may hide the
     /// support.
     var isForeground = false

@@ -9,7 +9,7 @@ struct LabeledCloud: Sendable {
   /// of the surroundings that it agrees on.
   var isRigid = true
   /// Surroundings that only some photos show.
-  var others: [(photos: Set<Int>, cloud: PointCloud)] = []
+  var partialSurroundings: [(photos: Set<Int>, cloud: PointCloud)] = []
 
   var object: PointCloud { cloud.filtered(by: isObject) }
 
@@ -33,7 +33,7 @@ struct LabeledCloud: Sendable {
       discs.radii.append(radius * cloud.footprints[point])
       discs.labels.append(isObject[point] ? PointLabel.object : PointLabel.surroundings)
     }
-    for other in others where other.photos.contains(photo.index) {
+    for other in partialSurroundings where other.photos.contains(photo.index) {
       discs.positions += other.cloud.positions
       discs.radii += other.cloud.footprints.map { radius * $0 }
       discs.labels += other.cloud.positions.map { _ in PointLabel.surroundings }
@@ -45,7 +45,9 @@ struct LabeledCloud: Sendable {
   func transformed(by transform: SimilarityTransform) -> LabeledCloud {
     var result = self
     result.cloud = cloud.transformed(by: transform)
-    result.others = others.map { ($0.photos, $0.cloud.transformed(by: transform)) }
+    result.partialSurroundings = partialSurroundings.map {
+      ($0.photos, $0.cloud.transformed(by: transform))
+    }
     return result
   }
 }

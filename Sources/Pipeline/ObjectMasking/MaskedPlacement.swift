@@ -9,9 +9,9 @@ struct MaskedPlacement: Sendable {
 
   /// What the photos say about the object in a reconstruction of all placements; nil if it does not
   /// contain enough of them.
-  func evidence(
+  func prior(
     in joined: Reconstruction, _ images: ImageStore
-  ) throws -> MaskingEvidence.Placement? {
+  ) throws -> MaskPrior.Placement? {
     var part = joined
     for index in part.poses.indices where !photos.contains(index) { part.poses[index] = nil }
     let pairs = photos.compactMap { photo in
@@ -20,7 +20,7 @@ struct MaskedPlacement: Sendable {
     guard let silhouettes = try Silhouettes(part, images: images),
       let toJoined = SimilarityTransform.fitting(pairs.map(\.0), to: pairs.map(\.1))
     else { return nil }
-    return MaskingEvidence.Placement(
+    return MaskPrior.Placement(
       photos: Set(photos), silhouettes: silhouettes, points: masks.points.transformed(by: toJoined))
   }
 }

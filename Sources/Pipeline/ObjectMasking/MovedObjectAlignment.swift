@@ -33,18 +33,18 @@ struct MovedObjectAlignment {
     }
     if case .failure(let error) = map, !(error is PipelineError) { throw error }
     let placements = placements((try? map.get())?.findings, matched.graph)
-    var rest = context.part(from: 0.87, to: 1)
-    if placements.count > 1 || matched.graph.isObjectOnly {
-      rest = context.extended(by: options.relativeDuration, after: 0.87)
-      let share = rest.part(from: 0, to: 0.9)
+    var joiningContext = context.part(from: 0.87, to: 1)
+    if placements.count > 1 || matched.graph.omitsSurroundings {
+      joiningContext = context.extended(by: options.relativeDuration, after: 0.87)
+      let share = joiningContext.part(from: 0, to: 0.9)
       if let joined = try join(
         placements, &matched, try? map.get(), photos, folder: folder, share)
       {
         return joined
       }
-      rest = rest.part(from: 0.9, to: 1)
+      joiningContext = joiningContext.part(from: 0.9, to: 1)
     }
-    let rigid = try alignment.finish(rigid: try map.get(), matched, photos.images, rest)
+    let rigid = try alignment.finish(rigid: try map.get(), matched, photos.images, joiningContext)
     if placements.count > 1 {
       context.notes.flagAsSuspect(
         "The object was moved between photos (\(placements.count) groups), but its sides could not "
@@ -71,28 +71,28 @@ struct MovedObjectAlignment {
     _ map: ImageAlignment.Map?, _ photos: PhotoSet, folder: URL, _ context: StageContext
   ) throws -> AlignedPhotos? {
     guard !placements.isEmpty else { return nil }
-    let used = try maskedPlacements(
+    let maskedPlacements = try maskedPlacements(
       placements, matched, map, photos.images, context.part(from: 0, to: 0.4))
-    guard matched.graph.isMotionExplained(by: used.count) else { return nil }
+    guard matched.graph.isMotionExplained(by: maskedPlacements.count) else { return nil }
     var first = ObjectMasking.Result(photoCount: matched.photos.count)
-    for placement in used { first.complete(with: placement.masks) }
+    for placement in maskedPlacements { first.complete(with: placement.masks) }
     let masked = photos.masked(
       by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
     let join = PlacementJoin(
       options: options.join, alignment: alignment, masked: masked, masks: first.masks,
-      placements: placements, used: used)
+      placements: placements, maskedPlacements: maskedPlacements)
     guard let (joined, notes) = try join.run(&matched, map, context.part(from: 0.4, to: 0.8))
     else { return nil }
     var reconstruction = joined
     context.notes.add(notes)
-    report(used.map(\.photos).filter { reconstruction.contains($0) }, context.notes)
-    var evidence = MaskingEvidence(matched.graph, features: matched.features)
-    evidence.placements = try used.compactMap {
-      try $0.evidence(in: reconstruction, masked.images)
+    report(maskedPlacements.map(\.photos).filter { reconstruction.contains($0) }, context.notes)
+    var prior = MaskPrior(matched.graph, features: matched.features)
+    prior.placements = try maskedPlacements.compactMap {
+      try $0.prior(in: reconstruction, masked.images)
     }
     for index in reconstruction.photos.indices { reconstruction.photos[index].mask = nil }
     let last = try masking.run(
-      reconstruction, images: photos.images, evidence: evidence,
+      reconstruction, images: photos.images, prior: prior,
       StageContext(control: context.control.part(from: 0.8, to: 1)))
     var masks = last ?? first
     masks.complete(with: first)
@@ -141,10 +141,10 @@ struct MovedObjectAlignment {
       let reconstruction = try alignment.reconstruction(
         of: photos, matched, map?.reconstruction, context.part(from: 0, to: 0.4))
       var masking = masking
-      masking.options.isolation.isObjectOnly = matched.graph.isObjectOnly
+      masking.options.isolation.showsOnlyObject = matched.graph.omitsSurroundings
       return try masking.run(
         reconstruction, images: images,
-        evidence: MaskingEvidence(matched.graph, features: matched.features),
+        prior: MaskPrior(matched.graph, features: matched.features),
         context.part(from: 0.4, to: 1)
       ).map { MaskedPlacement(photos: photos, poses: reconstruction.poses, masks: $0) }
     } catch is PipelineError {

@@ -68,11 +68,11 @@ struct ObjectMasking {
 
   var options = Options()
 
-  /// Returns nil if the photos show no separate object. If the evidence says what the object is,
+  /// Returns nil if the photos show no separate object. If the prior says what the object is,
   /// its surroundings may have moved.
   func run(
     _ reconstruction: Reconstruction, images: ImageStore,
-    evidence: MaskingEvidence = MaskingEvidence(), _ context: StageContext
+    prior: MaskPrior = MaskPrior(), _ context: StageContext
   ) throws -> Result? {
     let cloud: PointCloud
     do {
@@ -86,16 +86,16 @@ struct ObjectMasking {
       of: reconstruction, images, context.part(from: 0.6, to: 0.65).control)
     let isolationContext = context.part(from: 0.65, to: 0.7)
     var isolated: ObjectIsolation.Result?
-    if evidence.placements.isEmpty {
+    if prior.placements.isEmpty {
       isolated = try isolate(cloud, photos, backdrop, reconstruction, isolationContext)
       guard isolated?.failure == nil else { return nil }
     }
     let points =
       try isolated.map { LabeledCloud(cloud: cloud, isObject: $0.isKept) }
-      ?? evidence.object(
+      ?? prior.object(
         in: cloud, tolerance: options.neighborFootprints, isolationContext.control)
     let views = try views(
-      of: photos, points, evidence, reconstruction, context.part(from: 0.7, to: 0.75).control)
+      of: photos, points, prior, reconstruction, context.part(from: 0.7, to: 0.75).control)
     let estimated = try MaskEstimation(options: options.estimation)
       .run(views, points: points.object.positions, context.part(from: 0.75, to: 1))
     var result = Result(photoCount: reconstruction.photos.count)
@@ -150,7 +150,7 @@ struct ObjectMasking {
 
   /// The photos with the points drawn into them.
   private func views(
-    of photos: [ReducedPhoto], _ points: LabeledCloud, _ evidence: MaskingEvidence,
+    of photos: [ReducedPhoto], _ points: LabeledCloud, _ prior: MaskPrior,
     _ reconstruction: Reconstruction, _ control: KernelControl
   ) throws -> [MaskingView] {
     let coarsePixels = Double(options.coarse.maximumPixelsPerView) / 4
@@ -161,7 +161,7 @@ struct ObjectMasking {
       var labels = try (all ?? points.discs(in: photo.id, radius: options.discRadius))
         .drawn(by: photo.camera, at: photo.cameraFromWorld, KernelControl())
       let full = reconstruction.photos[photo.id.index]
-      evidence.drawFeatures(
+      prior.drawFeatures(
         of: photo.id, full: SIMD2(Float(full.width), Float(full.height)),
         radius: options.featureRadius, maximumRadius: options.maximumFeatureRadius, into: &labels)
       return try MaskingView(

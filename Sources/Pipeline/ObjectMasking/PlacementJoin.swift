@@ -24,7 +24,7 @@ struct PlacementJoin {
   var masks: [RasterImage?]
   /// All placements, and those whose photos show a separate object.
   var placements: [[Int]]
-  var used: [MaskedPlacement]
+  var maskedPlacements: [MaskedPlacement]
 
   /// An alignment of all photos, with its notes.
   typealias Joined = (reconstruction: Reconstruction, notes: StageNotes)
@@ -66,7 +66,7 @@ struct PlacementJoin {
   /// Whether the map of all photos joins them by the object: it was made of matches of the object
   /// only, and all agree on one placement.
   private func isSufficient(_ map: ImageAlignment.Map, _ matched: MatchedPhotos) -> Bool {
-    matched.graph.isObjectOnly && placements.count == 1
+    matched.graph.omitsSurroundings && placements.count == 1
       && !isIncomplete(map.reconstruction.registered.count, matched)
   }
 
@@ -86,7 +86,7 @@ struct PlacementJoin {
       let (matched, object, map) = try make(context)
       try alignment.throwOrWarn(map, context.notes)
       let result = try alignment.finish(
-        map, of: object, matched, masked.images, upright: upright,
+        map, of: object, matched, masked.images, posesInUpFrame: posesInUpFrame,
         context.part(from: 0.85, to: 1))
       return isAccepted(result, matched.graph) ? (result, context.notes) : nil
     } catch let error as PipelineError {
@@ -97,13 +97,13 @@ struct PlacementJoin {
 
   private func isAccepted(_ result: Reconstruction, _ graph: ViewGraph) -> Bool {
     let largest = placements.map(\.count).max() ?? 0
-    return graph.isMotionExplained(by: used.count { result.contains($0.photos) })
+    return graph.isMotionExplained(by: maskedPlacements.count { result.contains($0.photos) })
       && Double(result.registered.count) >= options.minimumShare * Double(largest)
   }
 
   /// The poses of the largest placement: the object stands in the model as it stood there.
-  private var upright: [RigidTransform?] {
-    let largest = used.enumerated().max {
+  private var posesInUpFrame: [RigidTransform?] {
+    let largest = maskedPlacements.enumerated().max {
       ($0.element.photos.count, $1.offset) < ($1.element.photos.count, $0.offset)
     }
     return largest?.element.poses ?? []
@@ -114,7 +114,7 @@ extension ViewGraph {
   /// Whether this number of placements explains that the object moves: one does if all photos agree
   /// on it.
   func isMotionExplained(by placementCount: Int) -> Bool {
-    placementCount >= (isObjectOnly ? 1 : 2)
+    placementCount >= (omitsSurroundings ? 1 : 2)
   }
 }
 

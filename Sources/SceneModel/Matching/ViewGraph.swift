@@ -7,7 +7,7 @@ package struct ViewGraph: Sendable {
   /// Pairs between which two bodies moved differently, sorted by pair; empty if the scene is rigid.
   package var motions: [TwoMotions] = []
   /// Whether the object moves in front of its surroundings, whose matches are left out.
-  package var isObjectOnly = false
+  package var omitsSurroundings = false
   /// If so, whether each feature belongs to the surroundings, by photo.
   package var surroundings: [[Bool]] = []
   /// Groups of photos between which the object was moved; empty if it was not, or between most

@@ -50,40 +50,40 @@ import Testing
 
   @Test func pointsAreTransformedIntoTheJoinedFrame() throws {
     let photos = [0, 2, 3, 5, 6]
-    let evidence = try #require(
-      try placement(of: photos).evidence(
+    let prior = try #require(
+      try placement(of: photos).prior(
         in: joined(without: [4, 6]), images(maskedIn: photos)))
-    #expect(evidence.photos == Set(photos))
-    #expect(evidence.points.isObject == [true, true, false])
-    for (found, point) in zip(evidence.points.cloud.positions, points) {
+    #expect(prior.photos == Set(photos))
+    #expect(prior.points.isObject == [true, true, false])
+    for (found, point) in zip(prior.points.cloud.positions, points) {
       #expect((found - point).length < 1e-5)
     }
-    #expect(evidence.points.cloud.footprints.allSatisfy { abs($0 - 0.2) < 1e-6 })
+    #expect(prior.points.cloud.footprints.allSatisfy { abs($0 - 0.2) < 1e-6 })
   }
 
   /// Masks of other placements don't count, although photos 1 and 7 have some.
   @Test func silhouettesAreThoseOfItsPhotos() throws {
     let photos = [0, 2, 3, 5, 6]
-    let evidence = try #require(
-      try placement(of: photos).evidence(
+    let prior = try #require(
+      try placement(of: photos).prior(
         in: joined(without: []), images(maskedIn: [0, 1, 2, 3, 7])))
-    #expect(evidence.silhouettes.share == 0.6)
-    #expect(evidence.silhouettes.isInside([0, 0.9, 0]))
-    #expect(!evidence.silhouettes.isInside([0, 1.25, 0]))
+    #expect(prior.silhouettes.share == 0.6)
+    #expect(prior.silhouettes.isInside([0, 0.9, 0]))
+    #expect(!prior.silhouettes.isInside([0, 1.25, 0]))
   }
 
   /// Two photos don't determine how the placement stands in the joined frame.
   @Test(arguments: [([6], true), ([0, 6], true), ([0, 5, 6], false), (Array(0..<8), false)])
   func enoughPhotosMustBeJoined(missing: [Int], isEnough: Bool) throws {
     let photos = [0, 2, 3, 5, 6]
-    let evidence = try placement(of: photos).evidence(
+    let prior = try placement(of: photos).prior(
       in: joined(without: missing), images(maskedIn: photos))
-    #expect((evidence != nil) == isEnough)
+    #expect((prior != nil) == isEnough)
   }
 
-  @Test func withoutMasksThereIsNoEvidence() throws {
+  @Test func withoutMasksThereIsNoPrior() throws {
     let photos = [0, 2, 3, 5, 6]
     #expect(
-      try placement(of: photos).evidence(in: joined(without: []), images(maskedIn: [1, 4])) == nil)
+      try placement(of: photos).prior(in: joined(without: []), images(maskedIn: [1, 4])) == nil)
   }
 }

@@ -73,9 +73,9 @@ package struct WallpaperTexture: SurfaceTexture {
   /// Its parts from back to front: stem, leaves, petals, core and buds.
   private static func flower(_ random: inout SeededGenerator) -> [Ellipse] {
     let middle = SIMD2<Float>(spread(&random, 0.011), 0.01 + spread(&random, 0.006))
-    let foot = SIMD2<Float>(spread(&random, 0.03), -0.072)
+    let start = SIMD2<Float>(spread(&random, 0.03), -0.072)
     let green = SIMD3<Float>([0.05, 0.13, 0.05] + 0.06 * random.uniform())
-    var parts = stem(from: foot, to: middle, bend: spread(&random, 0.02), green)
+    var parts = stem(from: start, to: middle, bend: spread(&random, 0.02), green)
     for side in [-1, 1, random.uniform() < 0.5 ? -1 : 1] as [Float] {
       let t = Float(0.2 + 0.5 * random.uniform())
       let angle = side * Float(0.4 + 0.9 * random.uniform())
@@ -83,7 +83,7 @@ package struct WallpaperTexture: SurfaceTexture {
       let half = SIMD2(0.022, 0.008) * Float(0.8 + 0.6 * random.uniform())
       parts.append(
         Ellipse(
-          center: foot + (middle - foot) * t + direction * half.x, direction: direction,
+          center: start + (middle - start) * t + direction * half.x, direction: direction,
           halfAxes: half, color: green * Float(0.7 + 1.3 * random.uniform())))
     }
     let color = SIMD3<Float>(
@@ -105,11 +105,11 @@ package struct WallpaperTexture: SurfaceTexture {
   }
 
   private static func stem(
-    from foot: SIMD2<Float>, to end: SIMD2<Float>, bend: Float, _ color: SIMD3<Float>
+    from start: SIMD2<Float>, to end: SIMD2<Float>, bend: Float, _ color: SIMD3<Float>
   ) -> [Ellipse] {
     (0..<20).map { index in
       let t = (Float(index) + 0.5) / 20
-      let center = foot + (end - foot) * t + SIMD2(bend * sin(.pi * t), 0)
+      let center = start + (end - start) * t + SIMD2(bend * sin(.pi * t), 0)
       return dot(at: center, radius: 0.0032 - 0.0012 * t, color)
     }
   }

@@ -4,29 +4,29 @@ import SceneModel
 /// hardly anything around them is there either: those of an object that was moved, and what it
 /// hides.
 ///
-/// All other points, of surroundings that stand still, say nothing about the object.
+/// All other points, of surroundings that stand still, are not informative about the object.
 struct MovedPoints {
   /// Indices into the points of the reconstruction.
   private let points: Set<Int32>
 
   /// Of the points that contradict, those that are present more often than absent were only
   /// hidden.
-  init(_ evidence: [SceneAmbiguityCheck.Evidence]) {
+  init(_ comparisons: [SceneAmbiguityCheck.Comparison]) {
     var balance: [Int32: Int] = [:]
-    for one in evidence {
-      for point in one.present { balance[point, default: 0] -= 1 }
-      for point in one.absent { balance[point, default: 0] += 1 }
+    for comparison in comparisons {
+      for point in comparison.present { balance[point, default: 0] -= 1 }
+      for point in comparison.absent { balance[point, default: 0] += 1 }
     }
-    points = Set(evidence.flatMap(\.contradicting)).filter { balance[$0] ?? 0 >= 0 }
+    points = Set(comparisons.flatMap(\.contradicting)).filter { balance[$0] ?? 0 >= 0 }
   }
 
   /// How many of some points were moved.
   func count(_ points: [Int32]) -> Int { points.count { self.points.contains($0) } }
 
   /// The number of moved points that two photos observe one after the other, in the order of
-  /// capture. Each point links the photos that observe it in one chain, so that it speaks once
+  /// capture. Each point links the photos that observe it in one chain, so that it counts once
   /// against each boundary between them.
-  func sightings(_ reconstruction: Reconstruction) -> [PhotoPair: Int] {
+  func covisibility(_ reconstruction: Reconstruction) -> [PhotoPair: Int] {
     var result: [PhotoPair: Int] = [:]
     for point in points {
       let photos = Set(reconstruction.points[Int(point)].track.map(\.photo)).sorted()

@@ -12,12 +12,12 @@ import SceneModel
 /// in sparse 3D reconstruction", ECCV 2014). A missing feature alone proves nothing, so the texture
 /// itself is searched for.
 package struct SceneAmbiguityCheck: Sendable {
-  /// The evidence against a reconstruction.
+  /// The signs that a reconstruction is wrong.
   package struct Findings: Hashable, Sendable {
     /// Number of pairs of nearby photos that could be compared.
     package var compared = 0
     /// The pairs in conflict, the strongest conflict first.
-    package var conflicts: [Evidence] = []
+    package var conflicts: [Comparison] = []
     /// Pairs whose matches contradict the reconstruction, sorted.
     package var contradicted: [PhotoPair] = []
     /// Groups of photos between which the object seems to have been moved.
@@ -46,23 +46,23 @@ package struct SceneAmbiguityCheck: Sendable {
     images: ImageStore, neededPoints: Int = IncrementalMapping.Options().minimumInliers,
     _ context: StageContext
   ) throws -> Findings {
-    let evidence = try evidence(reconstruction, features: features, images: images, context)
+    let comparisons = try comparisons(reconstruction, features: features, images: images, context)
     let repetition = RepeatedStructure(reconstruction, features: features)
     var findings = Findings()
-    findings.compared = evidence.count
-    findings.conflicts = evidence.filter(isConflict).sorted {
+    findings.compared = comparisons.count
+    findings.conflicts = comparisons.filter(isConflict).sorted {
       ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
     }
     // What stands still contradicts a map of an object that moves, where it is still matched.
     findings.contradicted =
-      graph.isObjectOnly
+      graph.omitsSurroundings
       ? [] : graph.contradicted(by: reconstruction, features: features, repetition, options)
     func isSign(_ count: Int, of all: Int, minimum: Int, share: Double) -> Bool {
       count >= minimum && Double(count) >= share * Double(all)
     }
     let signs = [
       isSign(
-        findings.conflicts.count, of: evidence.count, minimum: options.minimumConflicts,
+        findings.conflicts.count, of: comparisons.count, minimum: options.minimumConflicts,
         share: options.minimumConflictShare),
       isSign(
         findings.contradicted.count, of: graph.pairs.count, minimum: options.minimumContradicted,
@@ -70,7 +70,7 @@ package struct SceneAmbiguityCheck: Sendable {
     ]
     findings.placements = try PlacementDetection(options: options.placements)
       .groups(
-        signs[0] ? evidence : [], reconstruction, graph, repetition, neededPoints: neededPoints,
+        signs[0] ? comparisons : [], reconstruction, graph, repetition, neededPoints: neededPoints,
         context.control.part(from: 1, to: 1))
     findings.verdict =
       !signs.contains(true) ? .consistent : signs.contains(false) ? .ambiguous : .inconsistent
@@ -81,18 +81,18 @@ package struct SceneAmbiguityCheck: Sendable {
     return findings
   }
 
-  /// The evidence for every two photos that a reconstruction places close together, sorted by pair.
-  package func evidence(
+  /// A comparison of every two photos that a reconstruction places close together, sorted by pair.
+  package func comparisons(
     _ reconstruction: Reconstruction, features: [FeatureSet], images: ImageStore,
     _ context: StageContext
-  ) throws -> [Evidence] {
-    let search = VisibilityTest(
+  ) throws -> [Comparison] {
+    let test = VisibilityTest(
       SparseMap(reconstruction), features: features, photos: reconstruction.photos, images: images,
       options)
-    let hypotheses = try search.hypotheses(context.control.part(from: 0, to: 0.2))
-    var found: [PhotoPair: Evidence] = [:]
-    for part in try search.evaluate(hypotheses, context.control.part(from: 0.2, to: 1)) {
-      var sum = found[part.pair] ?? Evidence(pair: part.pair)
+    let hypotheses = try test.hypotheses(context.control.part(from: 0, to: 0.2))
+    var found: [PhotoPair: Comparison] = [:]
+    for part in try test.evaluate(hypotheses, context.control.part(from: 0.2, to: 1)) {
+      var sum = found[part.pair] ?? Comparison(pair: part.pair)
       sum.present += part.present
       sum.absent += part.absent
       sum.contradicting += part.contradicting
@@ -103,9 +103,9 @@ package struct SceneAmbiguityCheck: Sendable {
   }
 
   /// Whether the photos show different parts of the scene.
-  private func isConflict(_ evidence: Evidence) -> Bool {
-    evidence.contradictingCells >= options.minimumCells
-      && evidence.absent.count >= options.minimumPoints
+  private func isConflict(_ comparison: Comparison) -> Bool {
+    comparison.contradictingCells >= options.minimumCells
+      && comparison.absent.count >= options.minimumPoints
   }
 }
 

@@ -78,10 +78,10 @@ struct VisibilityTest: Sendable {
 
   // MARK: Evaluation
 
-  /// The evidence for each hypothesis, in their order.
+  /// The comparison by each hypothesis, in their order.
   func evaluate(
     _ hypotheses: [VisibilityHypothesis], _ control: KernelControl
-  ) throws -> [SceneAmbiguityCheck.Evidence] {
+  ) throws -> [SceneAmbiguityCheck.Comparison] {
     let points = hypotheses.flatMap(\.points)
     let templates = try extraction.templates(
       of: points.map(\.reference), control.part(from: 0, to: 0.4))
@@ -102,7 +102,7 @@ struct VisibilityTest: Sendable {
     first = 0
     return hypotheses.map { hypothesis in
       defer { first += hypothesis.points.count }
-      return evidence(hypothesis, Array(best[first..<first + hypothesis.points.count]))
+      return comparison(hypothesis, Array(best[first..<first + hypothesis.points.count]))
     }
   }
 
@@ -152,29 +152,29 @@ struct VisibilityTest: Sendable {
   ]
 
   /// Counts the present and absent points of a hypothesis, given their correlations.
-  private func evidence(
+  private func comparison(
     _ hypothesis: VisibilityHypothesis, _ correlations: [Double?]
-  ) -> SceneAmbiguityCheck.Evidence {
-    var evidence = SceneAmbiguityCheck.Evidence(
+  ) -> SceneAmbiguityCheck.Comparison {
+    var comparison = SceneAmbiguityCheck.Comparison(
       pair: PhotoPair(ID(hypothesis.other), ID(hypothesis.photo)))
     var grid = PresenceGrid(photos[hypothesis.photo], cells: options.cells)
     var absentPixels: [SIMD2<Double>] = []
     for (point, correlation) in zip(hypothesis.points, correlations) {
       guard let correlation else { continue }
       if correlation >= options.presentCorrelation {
-        evidence.present.append(point.track)
+        comparison.present.append(point.track)
         grid.countPresent(point.pixel)
       } else if correlation < options.absentCorrelation {
-        evidence.absent.append(point.track)
+        comparison.absent.append(point.track)
         grid.countAbsent(point.pixel)
         absentPixels.append(point.pixel)
       }
     }
     hypothesis.confirmedPixels.forEach { grid.countPresent($0) }
-    evidence.contradictingCells = grid.contradictingCells(minimum: options.cellPoints)
-    evidence.contradicting = zip(evidence.absent, absentPixels).compactMap { track, pixel in
+    comparison.contradictingCells = grid.contradictingCells(minimum: options.cellPoints)
+    comparison.contradicting = zip(comparison.absent, absentPixels).compactMap { track, pixel in
       grid.isContradicting(pixel, minimum: options.cellPoints) ? track : nil
     }
-    return evidence
+    return comparison
   }
 }

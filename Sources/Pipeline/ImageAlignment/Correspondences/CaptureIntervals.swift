@@ -4,23 +4,23 @@ import SceneModel
 /// Divides photos in the order of capture into intervals, between which the object was moved.
 ///
 /// For each number of intervals, dynamic programming finds the division with the highest sum of
-/// evidence within them.
+/// affinities within them.
 struct CaptureIntervals {
   struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos of a placement.
     var minimumPhotos = 5
     /// Maximum number of intervals.
     var maximumIntervals = 8
-    /// Maximum evidence of a single pair for or against intervals: a photo with a wrong pose
+    /// Maximum affinity of a single pair, for or against intervals: a photo with a wrong pose
     /// strongly contradicts a few others.
-    var maximumEvidence = 100
-    /// Evidence that a boundary between two intervals must explain.
+    var maximumAffinity = 100
+    /// Sum of affinities that a boundary between two intervals must explain.
     var boundaryCost = 100
     /// Minimum number of photos on each side of a boundary that contradict the other side.
-    var minimumWitnesses = 3
+    var minimumBoundarySupport = 3
     /// Maximum share of the photos that contradict their own interval and agree with another one.
-    var maximumMisplaced = 0.05
-    /// Intervals are placements if at most this share of the evidence that a photo has against the
+    var maximumMisassignedShare = 0.05
+    /// Intervals are placements if at most this share of the affinity that a photo has against the
     /// same placement remains within its interval, in the median of the photos, relative to what
     /// would remain by chance.
     var maximumRemainder = 0.5
@@ -30,35 +30,35 @@ struct CaptureIntervals {
 
   private let options: Options
   private let photoCount: Int
-  /// The evidence between each photo and others that show the object in the same placement
+  /// The affinity between each photo and others that show the object in the same placement
   /// (positive) or in another one (negative).
-  private let evidence: [[(photo: Int, value: Int)]]
+  private let affinities: [[(photo: Int, value: Int)]]
 
-  /// `evidence` is positive if both photos of a pair show the object in the same placement,
+  /// An affinity is positive if both photos of a pair show the object in the same placement,
   /// negative if they show it in different ones.
-  init(_ evidence: [PhotoPair: Int], photoCount: Int, options: Options = Options()) {
+  init(_ affinities: [PhotoPair: Int], photoCount: Int, options: Options = Options()) {
     (self.options, self.photoCount) = (options, photoCount)
     var byPhoto = [[(photo: Int, value: Int)]](repeating: [], count: photoCount)
-    for (pair, value) in evidence where value != 0 {
+    for (pair, value) in affinities where value != 0 {
       byPhoto[pair.first.index].append((pair.second.index, value))
       byPhoto[pair.second.index].append((pair.first.index, value))
     }
-    self.evidence = byPhoto
+    self.affinities = byPhoto
   }
 
-  /// The division into the fewest intervals that explains the evidence; nil if none does.
+  /// The division into the fewest intervals that explains the affinities; nil if none does.
   func division(_ control: KernelControl = KernelControl()) throws -> [[Int]]? {
-    // Without evidence against one placement, a boundary explains nothing.
-    guard evidence.contains(where: { $0.contains { $0.value < 0 } }) else { return nil }
+    // Without negative affinities, a boundary explains nothing.
+    guard affinities.contains(where: { $0.contains { $0.value < 0 } }) else { return nil }
     let divisions = try divisions(control)
-    guard let whole = divisions.first else { return nil }
+    guard let undivided = divisions.first else { return nil }
     return divisions.dropFirst().first {
-      $0.score > whole.score && isExplained(by: $0.groups) && isWitnessed($0.groups)
-        && areInPlace($0.groups)
+      $0.score > undivided.score && isExplained(by: $0.groups) && areBoundariesSupported($0.groups)
+        && areWellAssigned($0.groups)
     }.map { centered($0.groups) }
   }
 
-  /// The division with each boundary in the middle of the positions that explain the evidence
+  /// The division with each boundary in the middle of the positions that explain the affinities
   /// equally well.
   private func centered(_ groups: [[Int]]) -> [[Int]] {
     var starts = groups.map { $0[0] } + [photoCount]
@@ -73,18 +73,18 @@ struct CaptureIntervals {
     return zip(starts, starts.dropFirst()).map { Array($0..<$1) }
   }
 
-  /// How much the evidence between the two sides of a boundary changes if a photo next to it
-  /// changes sides: its evidence with the photos of a range before it, minus that with those after
+  /// How much the affinity between the two sides of a boundary changes if a photo next to it
+  /// changes sides: its affinity with the photos of a range before it, minus that with those after
   /// it.
   private func balance(_ photo: Int, _ range: Range<Int>) -> Int {
-    evidence[photo].reduce(0) { sum, other in
+    affinities[photo].reduce(0) { sum, other in
       guard range.contains(other.photo) else { return sum }
       return sum + (other.photo < photo ? 1 : -1) * clamped(other.value)
     }
   }
 
   private func clamped(_ value: Int) -> Int {
-    min(options.maximumEvidence, max(-options.maximumEvidence, value))
+    min(options.maximumAffinity, max(-options.maximumAffinity, value))
   }
 
   /// The best division for each number of intervals, in O(n²) for n photos.
@@ -96,7 +96,7 @@ struct CaptureIntervals {
     var scores = [[Int]](repeating: row, count: most + 1)
     var starts = scores
     scores[0][0] = options.boundaryCost
-    // The evidence within `first..<end`, by `first`.
+    // The affinities within `first..<end`, by `first`.
     var within = [Int](repeating: 0, count: photoCount)
     for end in stride(from: 1, through: photoCount, by: 1) {
       try control.checkCancellation()
@@ -126,9 +126,9 @@ struct CaptureIntervals {
     }
   }
 
-  /// Adds the evidence between a photo and those before it to the sums from each first photo on.
+  /// Adds the affinity between a photo and those before it to the sums from each first photo on.
   private func add(_ photo: Int, to within: inout [Int]) {
-    let before = evidence[photo].filter { $0.photo < photo }.sorted { $0.photo > $1.photo }
+    let before = affinities[photo].filter { $0.photo < photo }.sorted { $0.photo > $1.photo }
     var sum = 0
     for (index, other) in before.enumerated() {
       sum += clamped(other.value)
@@ -137,11 +137,11 @@ struct CaptureIntervals {
     }
   }
 
-  /// Whether little of the evidence that most photos have against a single placement remains.
+  /// Whether little of the affinity that most photos have against a single placement remains.
   private func isExplained(by groups: [[Int]]) -> Bool {
     let remainders = groups.flatMap { group in
       group.compactMap { photo -> Double? in
-        let against = evidence[photo].filter { $0.value < 0 }
+        let against = affinities[photo].filter { $0.value < 0 }
         guard !against.isEmpty else { return nil }
         func sum(_ part: [(photo: Int, value: Int)]) -> Int { part.reduce(0) { $0 + $1.value } }
         let within = against.filter { group[0]...group[group.count - 1] ~= $0.photo }
@@ -153,28 +153,29 @@ struct CaptureIntervals {
   }
 
   /// Whether several photos contradict the other side of each boundary.
-  private func isWitnessed(_ groups: [[Int]]) -> Bool {
+  private func areBoundariesSupported(_ groups: [[Int]]) -> Bool {
     zip(groups, groups.dropFirst()).allSatisfy { left, right in
       min(
         left.count { sum($0, with: right) < 0 }, right.count { sum($0, with: left) < 0 }
-      ) >= options.minimumWitnesses
+      ) >= options.minimumBoundarySupport
     }
   }
 
-  /// Whether hardly any photo belongs to an interval other than its own.
-  private func areInPlace(_ groups: [[Int]]) -> Bool {
-    let misplaced = groups.reduce(0) { count, group in
+  /// Whether hardly any photo is assigned to an interval that it contradicts, while it agrees with
+  /// another.
+  private func areWellAssigned(_ groups: [[Int]]) -> Bool {
+    let misassigned = groups.reduce(0) { count, group in
       count
         + group.count { photo in
           sum(photo, with: group) < 0 && groups.contains { sum(photo, with: $0) > 0 }
         }
     }
-    return Double(misplaced) <= options.maximumMisplaced * Double(photoCount)
+    return Double(misassigned) <= options.maximumMisassignedShare * Double(photoCount)
   }
 
-  /// The evidence between a photo and those of an interval.
+  /// The affinity between a photo and those of an interval.
   private func sum(_ photo: Int, with group: [Int]) -> Int {
-    evidence[photo].reduce(0) {
+    affinities[photo].reduce(0) {
       group[0]...group[group.count - 1] ~= $1.photo ? $0 + $1.value : $0
     }
   }

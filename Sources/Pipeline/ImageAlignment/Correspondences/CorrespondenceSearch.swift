@@ -139,7 +139,7 @@ private struct MatchedPairs {
   /// Adds the weak pairs of photos with few partners, unless something moves: a few matches may
   /// belong to the object or to its surroundings.
   mutating func addWeakPairs(_ cameras: [Camera], _ context: StageContext) throws {
-    guard graph.motions.isEmpty, graph.placements.isEmpty, !graph.isObjectOnly else { return }
+    guard graph.motions.isEmpty, graph.placements.isEmpty, !graph.omitsSurroundings else { return }
     var weak = graph
     weak.pairs = graph.weakPairs(
       ofPhotosWithFewerPartnersThan: options.expansion.minimumPartners)
@@ -186,7 +186,7 @@ private struct MatchedPairs {
     (pairs, matches, graph.pairs, graph.rejected) = (
       object.pairs, object.matches, object.graph.pairs, object.graph.rejected
     )
-    graph.isObjectOnly = true
+    graph.omitsSurroundings = true
     graph.surroundings = surroundings.hasFeature
     context.notes.record(
       "surroundingsFeatures",

@@ -84,32 +84,34 @@ struct MotionLayers: Sendable {
     let bodies = (0..<tracks.count).map {
       assignment.body(ofTrack: $0, minimumShare: options.minimumTrackShare)
     }
-    let (assigned, certain) = (assignment.assignedTrackCount, bodies.count { $0 != 0 })
-    let bodyOf: [[Int]] = trackOf.map { tracks in
-      tracks.map { track in track < 0 ? 0 : bodies[Int(track)] }
+    let (assigned, certain) = (assignment.assignedTrackCount, bodies.count { $0 != nil })
+    let bodyOf: [[Body?]] = trackOf.map { tracks in
+      tracks.map { track in track < 0 ? nil : bodies[Int(track)] }
     }
     guard assigned > 0, Double(certain) >= options.minimumConsistency * Double(assigned),
       isCoherent(bodyOf, features)
     else { return nil }
-    let object: Int = hasStatic ? 1 : objectBody(bodyOf, features, photos)
+    let object = hasStatic ? Body.second : objectBody(bodyOf, features, photos)
     let shown = bodyOf.count { bodies in
       bodies.count { $0 == object } >= options.minimumFeatures
     }
     guard Double(shown) >= options.minimumPhotoShare * Double(photos.count) else { return nil }
-    let hasFeature = bodyOf.map { bodies in bodies.map { $0 == -object } }
+    let hasFeature = bodyOf.map { bodies in bodies.map { $0 == object.other } }
     return Surroundings(
-      hasFeature: hasFeature, matches: matches(of: graph, -object, bodyOf), areStatic: hasStatic)
+      hasFeature: hasFeature, matches: matches(of: graph, object.other, bodyOf),
+      areStatic: hasStatic)
   }
 
   /// The matches of all motions of a body.
   private func matches(
-    of graph: ViewGraph, _ body: Int, _ bodyOf: [[Int]]
+    of graph: ViewGraph, _ body: Body, _ bodyOf: [[Body?]]
   ) -> [PhotoPair: Set<FeatureMatch>] {
     var result: [PhotoPair: Set<FeatureMatch>] = [:]
     for motion in graph.withAllMotions.pairs {
       let bodies = motion.matches.map { bodyOf[motion.pair.first.index][Int($0.first)] }
-      let (own, known) = (bodies.count { $0 == body }, bodies.count { $0 != 0 })
-      if known >= options.minimumVotes, Double(own) >= options.minimumMotionShare * Double(known) {
+      let (ofBody, known) = (bodies.count { $0 == body }, bodies.count { $0 != nil })
+      if known >= options.minimumVotes, Double(ofBody) >= options.minimumMotionShare * Double(known)
+      {
         result[motion.pair, default: []].formUnion(motion.matches)
       }
     }
@@ -119,10 +121,10 @@ struct MotionLayers: Sendable {
   // MARK: Decisions
 
   /// Whether features of the same body are neighbors in the photos.
-  private func isCoherent(_ bodyOf: [[Int]], _ features: [FeatureSet]) -> Bool {
+  private func isCoherent(_ bodyOf: [[Body?]], _ features: [FeatureSet]) -> Bool {
     var (same, all) = (0, 0)
     for (bodies, set) in zip(bodyOf, features) {
-      let labeled = bodies.indices.filter { bodies[$0] != 0 }
+      let labeled = bodies.indices.filter { bodies[$0] != nil }
       let sorted = labeled.sorted {
         (set.positions[$0].x, set.positions[$0].y) < (set.positions[$1].x, set.positions[$1].y)
       }
@@ -148,22 +150,22 @@ struct MotionLayers: Sendable {
 
   /// The body whose features are nearer to the middle of most photos.
   private func objectBody(
-    _ bodyOf: [[Int]], _ features: [FeatureSet], _ photos: [Photo]
-  ) -> Int {
+    _ bodyOf: [[Body?]], _ features: [FeatureSet], _ photos: [Photo]
+  ) -> Body {
     var votes = 0
     for (photo, bodies) in zip(photos, bodyOf) {
       let middle = SIMD2(Float(photo.width), Float(photo.height)) / 2
-      func spread(_ body: Int) -> Float? {
+      func spread(_ body: Body) -> Float? {
         let distances = bodies.indices.filter { bodies[$0] == body }.map {
           let offset = features[photo.id.index].positions[$0] - middle
           return (offset * offset).sum()
         }
         return distances.count >= options.minimumFeatures ? distances.upperMedian : nil
       }
-      guard let positive = spread(1), let negative = spread(-1) else { continue }
-      votes += positive < negative ? 1 : -1
+      guard let first = spread(.first), let second = spread(.second) else { continue }
+      votes += second < first ? 1 : -1
     }
-    return votes >= 0 ? 1 : -1
+    return votes >= 0 ? .second : .first
   }
 }
 

@@ -9,7 +9,7 @@ import SceneModel
 /// dynamic programming finds. Otherwise greedy edge contraction divides the signed graph (Keuper et
 /// al., "Efficient decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
 ///
-/// A placement needs evidence against one rigid scene. Photos that are merely not linked to the
+/// A placement needs agreement against one rigid scene. Photos that are merely not linked to the
 /// others, because they show something else or overlap too little, are none.
 struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
@@ -35,11 +35,11 @@ struct PlacementDetection: Sendable {
     }
   }
 
-  /// Two motions are evidence against the same placement.
+  /// Two motions contradict the same placement.
   func links(of motions: [TwoMotions]) -> [PhotoPair: Link] {
     var links: [PhotoPair: Link] = [:]
     for motion in motions {
-      links[motion.pair] = Link(evidence: -(motion.bodies.map(\.matches.count).min() ?? 0))
+      links[motion.pair] = Link(agreement: -(motion.bodies.map(\.matches.count).min() ?? 0))
     }
     return links
   }
@@ -48,7 +48,7 @@ struct PlacementDetection: Sendable {
   func groups(
     _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl = KernelControl()
   ) throws -> Placements {
-    guard links.values.contains(where: { $0.evidence < 0 }) else {
+    guard links.values.contains(where: { $0.agreement < 0 }) else {
       return Placements(groups: [Array(0..<photoCount)], basis: .none)
     }
     if let found = try intervals(links, photoCount: photoCount, control) {
@@ -58,23 +58,23 @@ struct PlacementDetection: Sendable {
     return Placements(groups: found, basis: found.count > 1 ? .links : .none)
   }
 
-  /// The division of the order of capture; nil if it does not explain the evidence.
+  /// The division of the order of capture; nil if it does not explain the agreement.
   private func intervals(
     _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl
   ) throws -> [[Int]]? {
     try CaptureIntervals(
-      links.mapValues(\.evidence), photoCount: photoCount, options: options.intervals
+      links.mapValues(\.agreement), photoCount: photoCount, options: options.intervals
     ).division(control)
   }
 
-  /// The groups of photos that remain after contracting links: first by evidence, then, between
+  /// The groups of photos that remain after contracting links: first by agreement, then, between
   /// photos that are nowhere near each other in the map, by matches.
   private func contracted(
     _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl
   ) throws -> [[Int]] {
     var contraction = LinkContraction(links, photoCount: photoCount)
-    try contraction.run(control) { $0.evidence }
-    try contraction.run(control) { $0.evidence < 0 ? 0 : $0.matches }
+    try contraction.run(control) { $0.agreement }
+    try contraction.run(control) { $0.agreement < 0 ? 0 : $0.matches }
     let groups = contraction.groups.filter { $0.count >= options.intervals.minimumPhotos }
     let placements = contradicted(groups, links, photoCount: photoCount)
     guard placements.count < 2 else { return placements }
@@ -87,17 +87,17 @@ struct PlacementDetection: Sendable {
   ) -> [[Int]] {
     var groupOf = [Int?](repeating: nil, count: photoCount)
     for (number, group) in groups.enumerated() { for photo in group { groupOf[photo] = number } }
-    var evidence = [Int](repeating: 0, count: photoCount)
+    var agreement = [Int](repeating: 0, count: photoCount)
     for (pair, link) in links {
       let (first, second) = (pair.first.index, pair.second.index)
       guard let group = groupOf[first], let other = groupOf[second], group != other else {
         continue
       }
-      evidence[first] += link.evidence
-      evidence[second] += link.evidence
+      agreement[first] += link.agreement
+      agreement[second] += link.agreement
     }
     return groups.filter { group in
-      group.count { evidence[$0] < 0 } >= options.intervals.minimumWitnesses
+      group.count { agreement[$0] < 0 } >= options.intervals.minimumBoundarySupport
     }
   }
 }

@@ -6,7 +6,7 @@ struct Placements: Hashable, Sendable {
     case none
     /// The order of the photos, by name: each placement is an interval of it.
     case order
-    /// The evidence of pairs of photos alone, because no division of their order explains it.
+    /// What pairs of photos show, because no division of their order explains it.
     case links
   }
 

@@ -18,12 +18,12 @@ struct UpEstimation: Sendable {
 
   var options = WorldAlignment.Options()
 
-  /// `upright` has poses of photos, by ID, in a frame whose +y is up.
+  /// `posesInUpFrame` has poses of photos, by ID, in a frame whose +y is up.
   func run(
-    _ reconstruction: Reconstruction, _ object: ObjectRegion, upright: [RigidTransform?],
+    _ reconstruction: Reconstruction, _ object: ObjectRegion, posesInUpFrame: [RigidTransform?],
     _ notes: StageNotes
   ) -> Result {
-    let prior = prior(reconstruction, object, upright: upright, notes)
+    let prior = prior(reconstruction, object, posesInUpFrame: posesInUpFrame, notes)
     let plane =
       options.findsSupport
       ? SparseSupportDetection(options: options).run(
@@ -43,7 +43,7 @@ struct UpEstimation: Sendable {
 
   /// The up direction before the search for a plane.
   private func prior(
-    _ reconstruction: Reconstruction, _ object: ObjectRegion, upright: [RigidTransform?],
+    _ reconstruction: Reconstruction, _ object: ObjectRegion, posesInUpFrame: [RigidTransform?],
     _ notes: StageNotes
   ) -> (up: SIMD3<Double>, source: WorldFrame.Up) {
     if case .photos(let side) = options.chosenUp {
@@ -51,7 +51,7 @@ struct UpEstimation: Sendable {
     }
     let gravity = GravityUp(options: options.gravity).run(options.readings, reconstruction, notes)
     if let gravity { return (gravity, .gravity) }
-    if let up = meanUp(of: reconstruction, upright) { return (up, .placement) }
+    if let up = meanUp(of: reconstruction, posesInUpFrame) { return (up, .placement) }
     let cameras = CameraUp(reconstruction, options.cameraUp)
     let isUpsideDown =
       !cameras.isSignCertain
@@ -62,9 +62,9 @@ struct UpEstimation: Sendable {
   /// The mean of the up directions that the photos have in another frame, whose +y is up; nil
   /// without common photos.
   private func meanUp(
-    of reconstruction: Reconstruction, _ upright: [RigidTransform?]
+    of reconstruction: Reconstruction, _ posesInUpFrame: [RigidTransform?]
   ) -> SIMD3<Double>? {
-    let ups = zip(reconstruction.poses, upright).compactMap { own, other -> SIMD3<Double>? in
+    let ups = zip(reconstruction.poses, posesInUpFrame).compactMap { own, other -> SIMD3<Double>? in
       guard let own, let other else { return nil }
       return own.rotation.conjugate * (other.rotation * [0, 1, 0])
     }

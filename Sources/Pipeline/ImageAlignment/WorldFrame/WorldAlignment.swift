@@ -14,16 +14,17 @@ package struct WorldAlignment: Sendable {
 
   /// Returns the same reconstruction in the new world frame; unchanged without registered photos.
   ///
-  /// `upright` has poses of photos, by ID, in a frame whose +y is up.
+  /// `posesInUpFrame` has poses of photos, by ID, in a frame whose +y is up.
   package func run(
-    _ reconstruction: Reconstruction, upright: [RigidTransform?] = [], _ context: StageContext
+    _ reconstruction: Reconstruction, posesInUpFrame: [RigidTransform?] = [],
+    _ context: StageContext
   ) -> Reconstruction {
     guard let first = reconstruction.registered.first, !reconstruction.points.isEmpty else {
       return reconstruction
     }
     let object = ObjectRegion(reconstruction)
     let estimate = UpEstimation(options: options)
-      .run(reconstruction, object, upright: upright, context.notes)
+      .run(reconstruction, object, posesInUpFrame: posesInUpFrame, context.notes)
     var frame = WorldFrame(up: estimate.source)
     let scale: Double
     (scale, frame.scale) = self.scale(reconstruction, object, estimate.gps, context.notes)

@@ -48,7 +48,7 @@ import Testing
     #expect(concerns(scene(others: 2000)) == 1)
   }
 
-  @Test func fewFeaturesSayNothing() {
+  @Test func fewFeaturesAreNotInformative() {
     #expect(concerns(scene(others: 0) { $0.length > 10 }) == 0)
   }
 

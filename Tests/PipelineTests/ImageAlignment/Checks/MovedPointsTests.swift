@@ -5,7 +5,7 @@ import Testing
 @testable import Pipeline
 
 @Suite struct MovedPointsTests {
-  private typealias Evidence = SceneAmbiguityCheck.Evidence
+  private typealias Comparison = SceneAmbiguityCheck.Comparison
 
   /// A ring of photos that is taken twice, before and after an object is moved. In the map of the
   /// table, which most points are on, photos of both rings have the same poses.
@@ -15,7 +15,7 @@ import Testing
   /// well, and `tablePoints` that are seen all around.
   private func scene(
     objectPoints: Int, tablePoints: Int, contradicting: Range<Int>
-  ) -> (evidence: [Evidence], map: Reconstruction) {
+  ) -> (comparisons: [Comparison], map: Reconstruction) {
     let half = photoCount / 2
     var map = Reconstruction(
       cameras: [], photos: [], poses: (0..<photoCount).map { _ in .identity }, points: [])
@@ -32,54 +32,54 @@ import Testing
       }
     }
     let table = (0..<tablePoints).map { _ in addPoint(seenBy: Array(0..<photoCount)) }
-    let evidence = (0..<half).map { photo in
-      var one = Evidence(pair: PhotoPair(ID(photo), ID(photo + half)))
-      one.present = table
-      one.absent = object[photo] + object[photo + half]
-      if contradicting.contains(photo) { one.contradicting = one.absent }
-      return one
+    let comparisons = (0..<half).map { photo in
+      var comparison = Comparison(pair: PhotoPair(ID(photo), ID(photo + half)))
+      comparison.present = table
+      comparison.absent = object[photo] + object[photo + half]
+      if contradicting.contains(photo) { comparison.contradicting = comparison.absent }
+      return comparison
     }
-    return (evidence, map)
+    return (comparisons, map)
   }
 
   /// However little the photos show of the object, and even if not all of them contradict.
   @Test(arguments: [40, 150], [0..<14, 3..<10])
   func smallObjectIsDividedWhereItWasMoved(tablePoints: Int, contradicting: Range<Int>) throws {
-    let (evidence, map) = scene(
+    let (comparisons, map) = scene(
       objectPoints: 8, tablePoints: tablePoints, contradicting: contradicting)
     let features = (0..<photoCount).map { _ in FeatureSet(positions: [.zero]) }
     let placements = try PlacementDetection().groups(
-      evidence, map, ViewGraph(photoCount: photoCount, pairs: []),
+      comparisons, map, ViewGraph(photoCount: photoCount, pairs: []),
       RepeatedStructure(map, features: features), neededPoints: 30, KernelControl())
     #expect(placements.groups == [Array(0..<14), Array(14..<28)])
   }
 
-  @Test func pointsThatNothingContradictsSayNothing() {
-    let (evidence, map) = scene(objectPoints: 8, tablePoints: 40, contradicting: 0..<0)
-    let moved = MovedPoints(evidence)
-    #expect(moved.sightings(map).isEmpty)
-    #expect(evidence.allSatisfy { moved.count($0.present + $0.absent) == 0 })
+  @Test func pointsThatNothingContradictsAreNotInformative() {
+    let (comparisons, map) = scene(objectPoints: 8, tablePoints: 40, contradicting: 0..<0)
+    let moved = MovedPoints(comparisons)
+    #expect(moved.covisibility(map).isEmpty)
+    #expect(comparisons.allSatisfy { moved.count($0.present + $0.absent) == 0 })
   }
 
   /// A point that more photos show than miss was hidden.
   @Test func hiddenPointsWereNotMoved() {
-    var (evidence, _) = scene(objectPoints: 1, tablePoints: 3, contradicting: 0..<14)
-    evidence[0].absent += evidence[0].present
-    evidence[0].contradicting = evidence[0].absent
-    #expect(MovedPoints(evidence).count(evidence[1].present) == 0)
-    #expect(MovedPoints(evidence).count(evidence[0].contradicting) == 2)
+    var (comparisons, _) = scene(objectPoints: 1, tablePoints: 3, contradicting: 0..<14)
+    comparisons[0].absent += comparisons[0].present
+    comparisons[0].contradicting = comparisons[0].absent
+    #expect(MovedPoints(comparisons).count(comparisons[1].present) == 0)
+    #expect(MovedPoints(comparisons).count(comparisons[0].contradicting) == 2)
   }
 
-  /// A point speaks once against each boundary between the photos that observe it.
-  @Test func sightingsOfAPointAreAChain() {
-    var (evidence, map) = scene(objectPoints: 1, tablePoints: 0, contradicting: 0..<1)
+  /// A point counts once against each boundary between the photos that observe it.
+  @Test func covisibilityOfAPointIsAChain() {
+    var (comparisons, map) = scene(objectPoints: 1, tablePoints: 0, contradicting: 0..<1)
     map.points[0].track = [9, 2, 5, 5].map {
       Observation(photo: ID($0), feature: 0, pixel: .zero)
     }
-    evidence = [evidence[0]]
-    evidence[0].contradicting = [0]
+    comparisons = [comparisons[0]]
+    comparisons[0].contradicting = [0]
     #expect(
-      MovedPoints(evidence).sightings(map)
+      MovedPoints(comparisons).covisibility(map)
         == [PhotoPair(ID(2), ID(5)): 1, PhotoPair(ID(5), ID(9)): 1])
   }
 }

@@ -29,7 +29,7 @@ import Testing
   /// The bodies of the tracks of both bodies; nil if tracks of one body differ.
   private static func bodies(
     _ assignment: BodyAssignment, of tracks: Range<Int> = 0..<count
-  ) -> [Int]? {
+  ) -> [Body?]? {
     let bodies = [0, count].map { offset in
       Set(tracks.map { assignment.body(ofTrack: offset + $0, minimumShare: 0.75) })
     }
@@ -47,15 +47,15 @@ import Testing
     let isSwapped = (0..<9).map { _ in random.below(2) == 1 }
     let assignment = Self.assignment(Self.chain { isSwapped[$0] }.shuffled(using: &random))
     let bodies = try #require(Self.bodies(assignment))
-    #expect(bodies == [-1, 1] || bodies == [1, -1])
+    #expect(bodies == [.first, .second] || bodies == [.second, .first])
     #expect(assignment.assignedTrackCount == 2 * Self.count)
   }
 
   /// The strongest pair, from which the assignment would start, has its motions in the other order.
   @Test(arguments: 1...8) func aStaticMotionFixesTheSign(pair: Int) {
     let motions = Self.chain { $0 != pair }
-    #expect(Self.bodies(Self.assignment(motions)) == [1, -1])
-    #expect(Self.bodies(Self.assignment(motions, staticPairs: [pair])) == [-1, 1])
+    #expect(Self.bodies(Self.assignment(motions)) == [.second, .first])
+    #expect(Self.bodies(Self.assignment(motions, staticPairs: [pair])) == [.first, .second])
   }
 
   /// Every track that two pairs share gives one vote.
@@ -65,8 +65,10 @@ import Testing
       Self.motions(0..<20), Self.motions(0..<20),
       Self.motions(20 - shared..<39 - shared, isSwapped: true),
     ])
-    #expect(Self.bodies(assignment, of: 0..<20) == [-1, 1])
-    #expect(Self.bodies(assignment, of: 20..<39 - shared) == (isAssigned ? [-1, 1] : [0, 0]))
+    #expect(Self.bodies(assignment, of: 0..<20) == [.first, .second])
+    #expect(
+      Self.bodies(assignment, of: 20..<39 - shared)
+        == (isAssigned ? [.first, .second] : [nil, nil]))
     #expect(assignment.assignedTrackCount == 2 * (isAssigned ? 39 - shared : 20))
   }
 
@@ -84,31 +86,31 @@ import Testing
       Self.assignment(motions, sweeps: 0), Self.assignment(motions, sweeps: 1)
     )
     for assignment in [before, after] {
-      #expect(Self.bodies(assignment, of: 0..<16) == [-1, 1])
+      #expect(Self.bodies(assignment, of: 0..<16) == [.first, .second])
     }
-    #expect(Self.bodies(before, of: 34..<37) == [1, -1])
-    #expect(Self.bodies(after, of: 34..<37) == [-1, 1])
-    #expect(Self.bodies(after, of: 20..<30) == [-1, 1])
+    #expect(Self.bodies(before, of: 34..<37) == [.second, .first])
+    #expect(Self.bodies(after, of: 34..<37) == [.first, .second])
+    #expect(Self.bodies(after, of: 20..<30) == [.first, .second])
     // One pair is for either body.
-    #expect(Self.bodies(after, of: 30..<34) == [0, 0])
+    #expect(Self.bodies(after, of: 30..<34) == [nil, nil])
   }
 
   /// One of four pairs has the first track in its other motion.
-  @Test(arguments: [(0.75, -1), (0.76, 0)])
-  func tracksBelowTheMinimumShareHaveNoBody(minimumShare: Double, body: Int) {
+  @Test(arguments: [(0.75, .first), (0.76, nil)] as [(Double, Body?)])
+  func tracksBelowTheMinimumShareHaveNoBody(minimumShare: Double, body: Body?) {
     var motions = (0..<4).map { _ in Self.motions(0..<20) }
     motions[2] = [Self.first(1..<20), Self.second(0..<20) + Self.first(0..<1)]
     let assignment = Self.assignment(motions)
     #expect(assignment.body(ofTrack: 0, minimumShare: minimumShare) == body)
-    #expect(assignment.body(ofTrack: 1, minimumShare: 1) == -1)
+    #expect(assignment.body(ofTrack: 1, minimumShare: 1) == .first)
     // No pair shows this one.
-    #expect(assignment.body(ofTrack: 30, minimumShare: 0) == 0)
+    #expect(assignment.body(ofTrack: 30, minimumShare: 0) == nil)
   }
 
   /// No other pair confirms a single one.
   @Test(arguments: [0, 1]) func withoutSeveralPairsNothingIsAssigned(count: Int) {
     let assignment = Self.assignment((0..<count).map { _ in Self.motions(0..<20) })
     #expect(assignment.assignedTrackCount == 0)
-    #expect(Self.bodies(assignment) == [0, 0])
+    #expect(Self.bodies(assignment) == [nil, nil])
   }
 }

@@ -11,19 +11,19 @@ import Testing
 
   // MARK: Intervals
 
-  /// Without evidence within the placements, with some for them, and with a little against them.
-  @Test(arguments: [0, 20, -1]) func twoPlacementsAreIntervals(evidenceWithin: Int) throws {
-    let links = links(12) { ($0 < 5) == ($1 < 5) ? evidenceWithin : -50 }
+  /// Without agreement within the placements, with some, and with a little contradiction.
+  @Test(arguments: [0, 20, -1]) func twoPlacementsAreIntervals(agreementWithin: Int) throws {
+    let links = links(12) { ($0 < 5) == ($1 < 5) ? agreementWithin : -50 }
     #expect(try detection.groups(links, photoCount: 12).groups == [Array(5...11), Array(0...4)])
   }
 
   /// Whether or not the last placement is the first one again.
-  @Test(arguments: [0, 10, -50]) func threePlacementsAreIntervals(evidenceOfReturn: Int) throws {
+  @Test(arguments: [0, 10, -50]) func threePlacementsAreIntervals(agreementOfReturn: Int) throws {
     let links = links(18) { first, second in
       switch second / 6 - first / 6 {
       case 0: 0
       case 1: -50
-      default: evidenceOfReturn
+      default: agreementOfReturn
       }
     }
     #expect(
@@ -96,7 +96,7 @@ import Testing
     #expect(unmoved.basis == .none && unmoved.explanation == nil)
   }
 
-  @Test func photosWithEvidenceOfOnePlacementAreOneGroup() throws {
+  @Test func photosThatAgreeOnOnePlacementAreOneGroup() throws {
     let links = links(12) { $1 == $0 + 1 ? 20 : 0 }
     #expect(try detection.groups(links, photoCount: 12).groups == [Array(0...11)])
   }
@@ -109,8 +109,8 @@ import Testing
       ])
   }
 
-  /// A photo that the map has no evidence about belongs to the photos that it matches.
-  @Test func photoWithoutEvidenceFollowsItsMatches() throws {
+  /// A photo that the map links to no other belongs to the photos that it matches.
+  @Test func photoWithoutAgreementFollowsItsMatches() throws {
     var links = links(12) { $0 == 0 ? 0 : $0 % 2 == $1 % 2 ? 50 : -50 }
     for photo in [3, 5, 7] { links[PhotoPair(ID(0), ID(photo))]?.matches = 30 }
     #expect(
@@ -123,13 +123,13 @@ import Testing
     var generator = SeededGenerator(seed: 7)
     let links = links(40) { _, _ in Int(generator.uniform() * 40) - 20 }
     var contraction = LinkContraction(links, photoCount: 40)
-    try contraction.run(KernelControl()) { $0.evidence }
+    try contraction.run(KernelControl()) { $0.agreement }
     for _ in 0..<5 {
       // Each dictionary hashes in an order of its own.
       var copy: [PhotoPair: PlacementDetection.Link] = [:]
       for (pair, link) in links.shuffled() { copy[pair] = link }
       var other = LinkContraction(copy, photoCount: 40)
-      try other.run(KernelControl()) { $0.evidence }
+      try other.run(KernelControl()) { $0.agreement }
       #expect(other.groups == contraction.groups)
     }
   }
@@ -143,7 +143,7 @@ import Testing
     for first in 0..<count {
       for second in first + 1..<min(count, first + 21) {
         links[PhotoPair(ID(first), ID(second))] = PlacementDetection.Link(
-          evidence: group(first) == group(second) ? 10 : -30)
+          agreement: group(first) == group(second) ? 10 : -30)
       }
     }
     let found = try detection.groups(links, photoCount: count)
@@ -186,15 +186,15 @@ import Testing
 
   // MARK: Helpers
 
-  /// Links between all photos; `evidence` has the two photos in ascending order.
+  /// Links between all photos; `agreement` has the two photos in ascending order.
   private func links(
-    _ photoCount: Int, evidence: (Int, Int) -> Int
+    _ photoCount: Int, agreement: (Int, Int) -> Int
   ) -> [PhotoPair: PlacementDetection.Link] {
     var links: [PhotoPair: PlacementDetection.Link] = [:]
     for first in 0..<photoCount {
       for second in (first + 1)..<photoCount {
         links[PhotoPair(ID(first), ID(second))] = PlacementDetection.Link(
-          evidence: evidence(first, second))
+          agreement: agreement(first, second))
       }
     }
     return links

@@ -138,7 +138,7 @@ import Testing
       RigidTransform(rotation: roll * pose.rotation, translation: roll * pose.translation)
     }
     upright[1] = nil
-    let aligned = WorldAlignment().run(scene, upright: upright, StageContext())
+    let aligned = WorldAlignment().run(scene, posesInUpFrame: upright, StageContext())
     let pose = try #require(aligned.poses[0])
     let truth = SyntheticScene().poses[0].rotation
     let up = pose.rotation.conjugate * (roll * (truth * SIMD3<Double>(0, 1, 0)))

@@ -2,7 +2,7 @@ import Kernels
 import SceneModel
 
 /// What is known about object and surroundings before the photos' coarse reconstruction.
-struct MaskingEvidence: Sendable {
+struct MaskPrior: Sendable {
   /// A feature of the surroundings.
   struct Feature: Sendable {
     /// Pixels of the upright photo, origin at the top-left corner.
@@ -38,9 +38,9 @@ struct MaskingEvidence: Sendable {
   ///
   /// Each placement decides about the points that it has a point of its own near by, within
   /// `tolerance` footprints. Where a placement has none, its photos may show what is behind the
-  /// object. The object is what one placement says it is; points that none knows belong to it if
-  /// all silhouettes contain them, or if photos of two placements show them: only the object is at
-  /// the same place in both.
+  /// object. The object is what one placement classifies as such; points that none observes belong
+  /// to it if all silhouettes contain them, or if photos of two placements show them: only the
+  /// object is at the same place in both.
   func object(
     in cloud: PointCloud, tolerance: Float, _ control: KernelControl
   ) throws -> LabeledCloud {
@@ -68,7 +68,7 @@ struct MaskingEvidence: Sendable {
           || (!vote.surroundings && (vote.isInside || isShownAcrossPlacements(point, of: cloud)))
       },
       isRigid: false)
-    result.others = try placements.map { placement in
+    result.partialSurroundings = try placements.map { placement in
       let around = placement.points.surroundings
       let nearest = try NearestPoints(
         of: around.positions, in: result.object.positions, control)

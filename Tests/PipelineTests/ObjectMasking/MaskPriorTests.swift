@@ -5,26 +5,26 @@ import Testing
 
 @testable import Pipeline
 
-@Suite struct MaskingEvidenceTests {
-  private func evidence(at positions: [SIMD2<Float>]) -> MaskingEvidence {
+@Suite struct MaskPriorTests {
+  private func prior(at positions: [SIMD2<Float>]) -> MaskPrior {
     var graph = ViewGraph(photoCount: 1, pairs: [])
     graph.surroundings = [positions.map { _ in true } + [false]]
     let features = FeatureSet(
       positions: positions + [[50, 50]], scales: [Float](repeating: 4, count: positions.count + 1),
       orientations: [], descriptors: [], colors: [])
-    return MaskingEvidence(graph, features: [features])
+    return MaskPrior(graph, features: [features])
   }
 
-  private func drawn(_ evidence: MaskingEvidence, maximumRadius: Float = 10) -> RasterImage {
+  private func drawn(_ prior: MaskPrior, maximumRadius: Float = 10) -> RasterImage {
     var labels = RasterImage(width: 50, height: 40, channels: 1)
-    evidence.drawFeatures(
+    prior.drawFeatures(
       of: ID(0), full: [100, 80], radius: 1.5, maximumRadius: maximumRadius, into: &labels)
     return labels
   }
 
   /// Photos are drawn at half their size, and features as discs of 1.5 scales: three pixels.
   @Test func featuresOfTheSurroundingsAreDiscs() {
-    let labels = drawn(evidence(at: [[20, 30]]))
+    let labels = drawn(prior(at: [[20, 30]]))
     for y in 0..<40 {
       for x in 0..<50 {
         let offset = SIMD2(Float(x), Float(y)) + 0.5 - [10, 15]
@@ -35,19 +35,19 @@ import Testing
   }
 
   @Test func largeFeaturesAreLimited() {
-    let labels = drawn(evidence(at: [[20, 30]]), maximumRadius: 1)
+    let labels = drawn(prior(at: [[20, 30]]), maximumRadius: 1)
     #expect(labels.pixels.count { $0 != 0 } == 4)
   }
 
   @Test(arguments: [[-40, 10], [500, 10], [10, -40], [10, 500]] as [SIMD2<Float>])
   func featuresOutsideThePhotoAreNotDrawn(position: SIMD2<Float>) {
-    #expect(drawn(evidence(at: [position])).pixels.allSatisfy { $0 == 0 })
+    #expect(drawn(prior(at: [position])).pixels.allSatisfy { $0 == 0 })
   }
 
-  @Test func photosWithoutEvidenceKeepTheirLabels() {
+  @Test func photosWithoutAPriorKeepTheirLabels() {
     var labels = RasterImage(width: 2, height: 1, channels: 1)
     labels.pixels = [PointLabel.object, 0]
-    MaskingEvidence().drawFeatures(
+    MaskPrior().drawFeatures(
       of: ID(3), full: [2, 1], radius: 1, maximumRadius: 1, into: &labels)
     #expect(labels.pixels == [PointLabel.object, 0])
   }
@@ -67,13 +67,13 @@ import Testing
       images: scene.poses.map { _ in image },
       masks: scene.poses.map { _ in RasterImage(width: 60, height: 45, channels: 1) })
     let silhouettes = try #require(try Silhouettes(scene.reconstruction(), images: images))
-    var evidence = MaskingEvidence()
-    evidence.placements = [Set(0...3), Set(4...7)].map { photos in
-      MaskingEvidence.Placement(
+    var prior = MaskPrior()
+    prior.placements = [Set(0...3), Set(4...7)].map { photos in
+      MaskPrior.Placement(
         photos: photos, silhouettes: silhouettes,
         points: LabeledCloud(cloud: cloud(at: [0, 9, 0], seenBy: []), isObject: [true]))
     }
-    let labeled = try evidence.object(
+    let labeled = try prior.object(
       in: cloud(at: [0, 0.1, 0], seenBy: photos), tolerance: 1, KernelControl())
     #expect(labeled.isObject == [isObject])
   }

@@ -9,28 +9,28 @@ extension PlacementDetection {
   /// or in one of the object, but show different things; or they have no pose, although they match
   /// points of the map. `neededPoints` is the number of points that determine a pose.
   func groups(
-    _ evidence: [SceneAmbiguityCheck.Evidence], _ reconstruction: Reconstruction,
+    _ comparisons: [SceneAmbiguityCheck.Comparison], _ reconstruction: Reconstruction,
     _ graph: ViewGraph, _ repetition: RepeatedStructure, neededPoints: Int,
     _ control: KernelControl
   ) throws -> Placements {
     // Matches of a moving object do not depend on its surroundings.
-    let motions = graph.isObjectOnly ? [] : graph.motions
+    let motions = graph.omitsSurroundings ? [] : graph.motions
     var links = links(
       of: motions.filter { motion in
         !motion.bodies.contains { repetition.explains($0.matches, of: motion.pair) }
       })
-    let moved = MovedPoints(evidence)
-    for one in evidence {
-      links[one.pair, default: Link()].evidence +=
-        moved.count(one.present) - options.absenceWeight * moved.count(one.absent)
+    let moved = MovedPoints(comparisons)
+    for comparison in comparisons {
+      links[comparison.pair, default: Link()].agreement +=
+        moved.count(comparison.present) - options.absenceWeight * moved.count(comparison.absent)
     }
-    for (pair, count) in moved.sightings(reconstruction) {
-      links[pair, default: Link()].evidence += count
+    for (pair, count) in moved.covisibility(reconstruction) {
+      links[pair, default: Link()].agreement += count
     }
     let contradicting = graph.contradictingMatches(
       reconstruction, repetition.pointOfFeature, neededPoints: neededPoints)
     for (pair, count) in contradicting {
-      links[pair, default: Link()].evidence -= count
+      links[pair, default: Link()].agreement -= count
     }
     for pair in graph.pairs where reconstruction.isPosedAlike(pair.pair) {
       links[pair.pair, default: Link()].matches += pair.matches.count

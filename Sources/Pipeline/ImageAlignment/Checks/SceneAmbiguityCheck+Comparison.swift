@@ -1,9 +1,9 @@
 import SceneModel
 
 extension SceneAmbiguityCheck {
-  /// Evidence for or against two photos having nearly the same pose. Points are indices into the
-  /// points of the reconstruction.
-  package struct Evidence: Hashable, Sendable {
+  /// What two photos with nearly the same pose show of each other's points: evidence for or against
+  /// these poses. Points are indices into the points of the reconstruction.
+  package struct Comparison: Hashable, Sendable {
     package var pair: PhotoPair
     /// Points that feature matching found in only one of the photos and whose texture both show.
     package var present: [Int32] = []
