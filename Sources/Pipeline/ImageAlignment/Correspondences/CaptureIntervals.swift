@@ -7,31 +7,34 @@ import SceneModel
 /// affinities within them.
 struct CaptureIntervals {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum number of photos of a placement.
+    /// Minimum number of photos of a placement. Chosen: a side of an object is hardly shown by
+    /// fewer.
     var minimumPhotos = 5
-    /// Maximum number of intervals.
+    /// Maximum number of intervals. Chosen: a box has six sides to lie on.
     var maximumIntervals = 8
-    /// Maximum affinity of a single pair, for or against intervals: a photo with a wrong pose
-    /// strongly contradicts a few others.
+    /// Maximum affinity of a single pair, for or against intervals, in points or matches: a photo
+    /// with a wrong pose strongly contradicts a few others. It is also what a boundary between two
+    /// intervals costs: a single pair, however strong, justifies none. Chosen.
     var maximumAffinity = 100
-    /// Sum of affinities that a boundary between two intervals must explain.
-    var boundaryCost = 100
-    /// Minimum number of photos on each side of a boundary that contradict the other side.
-    var minimumBoundarySupport = 3
     /// Maximum share of the photos that contradict their own interval and agree with another one.
+    /// Chosen: they may have wrong poses.
     var maximumMisassignedShare = 0.05
-    /// Intervals are placements if at most this share of the affinity that a photo has against the
-    /// same placement remains within its interval, in the median of the photos, relative to what
-    /// would remain by chance.
+    /// Intervals are placements if, in the median of the photos, at most this share of a photo's
+    /// negative affinity remains within its own interval, relative to what would remain by chance.
+    /// Chosen.
     var maximumRemainder = 0.5
+
+    /// Minimum number of photos on each side of a boundary that contradict the other side: most of
+    /// those of the smallest placement.
+    var minimumBoundarySupport: Int { minimumPhotos / 2 + 1 }
 
     init() {}
   }
 
   private let options: Options
   private let photoCount: Int
-  /// The affinity between each photo and others that show the object in the same placement
-  /// (positive) or in another one (negative).
+  /// The affinities of each photo: positive for others that show the object in the same placement,
+  /// negative for those that show it in another one.
   private let affinities: [[(photo: Int, value: Int)]]
 
   /// An affinity is positive if both photos of a pair show the object in the same placement,
@@ -95,7 +98,7 @@ struct CaptureIntervals {
     let row = [Int](repeating: .min, count: photoCount + 1)
     var scores = [[Int]](repeating: row, count: most + 1)
     var starts = scores
-    scores[0][0] = options.boundaryCost
+    scores[0][0] = options.maximumAffinity
     // The affinities within `first..<end`, by `first`.
     var within = [Int](repeating: 0, count: photoCount)
     for end in stride(from: 1, through: photoCount, by: 1) {
@@ -110,7 +113,7 @@ struct CaptureIntervals {
           if score > best { (best, start) = (score, first) }
         }
         guard start != .min else { continue }
-        (scores[count][end], starts[count][end]) = (best - options.boundaryCost, start)
+        (scores[count][end], starts[count][end]) = (best - options.maximumAffinity, start)
       }
     }
     return (1...most).compactMap { count in
@@ -126,7 +129,7 @@ struct CaptureIntervals {
     }
   }
 
-  /// Adds the affinity between a photo and those before it to the sums from each first photo on.
+  /// Adds the affinities between a photo and those before it to the sums from each first photo on.
   private func add(_ photo: Int, to within: inout [Int]) {
     let before = affinities[photo].filter { $0.photo < photo }.sorted { $0.photo > $1.photo }
     var sum = 0
@@ -137,7 +140,7 @@ struct CaptureIntervals {
     }
   }
 
-  /// Whether little of the affinity that most photos have against a single placement remains.
+  /// Whether little of the negative affinity of most photos remains within their own interval.
   private func isExplained(by groups: [[Int]]) -> Bool {
     let remainders = groups.flatMap { group in
       group.compactMap { photo -> Double? in
@@ -173,7 +176,7 @@ struct CaptureIntervals {
     return Double(misassigned) <= options.maximumMisassignedShare * Double(photoCount)
   }
 
-  /// The affinity between a photo and those of an interval.
+  /// The sum of the affinities between a photo and those of an interval.
   private func sum(_ photo: Int, with group: [Int]) -> Int {
     affinities[photo].reduce(0) {
       group[0]...group[group.count - 1] ~= $1.photo ? $0 + $1.value : $0

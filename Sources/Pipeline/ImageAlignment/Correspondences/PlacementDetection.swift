@@ -9,8 +9,8 @@ import SceneModel
 /// dynamic programming finds. Otherwise greedy edge contraction divides the signed graph (Keuper et
 /// al., "Efficient decomposition of image and mesh graphs by lifted multicuts", ICCV 2015).
 ///
-/// A placement needs agreement against one rigid scene. Photos that are merely not linked to the
-/// others, because they show something else or overlap too little, are none.
+/// A placement needs links that contradict one rigid scene. Photos that are merely not linked to
+/// the others, because they show something else or overlap too little, are none.
 struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var intervals = CaptureIntervals.Options()
@@ -58,7 +58,7 @@ struct PlacementDetection: Sendable {
     return Placements(groups: found, basis: found.count > 1 ? .links : .none)
   }
 
-  /// The division of the order of capture; nil if it does not explain the agreement.
+  /// The division of the order of capture; nil if it does not explain the links.
   private func intervals(
     _ links: [PhotoPair: Link], photoCount: Int, _ control: KernelControl
   ) throws -> [[Int]]? {
