@@ -57,6 +57,24 @@ ck_status ck_match_guided(const ck_features* first, const ck_features* second,
                           const ck_guided_match_options* options, const ck_control* control,
                           int32_t* pairs, size_t* pair_count);
 
+/// Options of the search for repeated features.
+typedef struct {
+  /// Half the side of a descriptor's window, in units of the feature's scale. Features whose
+  /// windows overlap are no repetition.
+  double window_radius;
+  /// Largest descriptor distance of two features that look the same, as in `ck_match_options`.
+  double maximum_distance;
+} ck_repetition_options;
+
+/// Finds the features that look like another feature of the same photo.
+///
+/// `positions` are (x, y) in pixels, `scales` in pixels. `is_repeated` receives 0 or 1 for each of
+/// the `query_count` indices in `queries`.
+ck_status ck_find_repeated_features(const uint8_t* descriptors, const float* positions,
+                                    const float* scales, size_t count, const int32_t* queries,
+                                    size_t query_count, const ck_repetition_options* options,
+                                    const ck_control* control, uint8_t* is_repeated);
+
 #ifdef __cplusplus
 }
 #endif

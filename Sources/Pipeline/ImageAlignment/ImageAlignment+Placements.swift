@@ -10,18 +10,12 @@ extension ImageAlignment {
     _ object: ObjectFeatures, of matched: MatchedPhotos, placements: [[Int]],
     _ context: StageContext
   ) throws -> MatchedPhotos {
+    var photos = matched
+    photos.photos = object.photos
     var search = options.search
     // Two photos without masks would match the surroundings.
     search.matchesUnmaskedPairs = false
-    search.secondMotions.isEnabled = false
-    let kept = object.indices
-    let (graph, cameras) = try CorrespondenceSearch(search).run(
-      photos: object.photos, cameras: matched.cameras,
-      features: zip(matched.features, kept).map { $0.selecting($1) }, ordering: options.ordering,
-      context)
-    var result = matched
-    (result.photos, result.cameras) = (object.photos, cameras)
-    result.graph = graph.renumbered(kept)
+    var result = try match(photos, byFeatures: object.indices, search, context)
     result.graph.add(matched.graph, within: placements)
     result.graph.omitsSurroundings = matched.graph.omitsSurroundings
     return result
@@ -72,22 +66,6 @@ extension ImageAlignment {
 }
 
 extension ViewGraph {
-  /// The graph with other numbers of the features: `numbers` has the new one of each, by photo.
-  fileprivate func renumbered(_ numbers: [[Int]]) -> ViewGraph {
-    var result = self
-    for index in pairs.indices {
-      let (first, second) = (pairs[index].pair.first.index, pairs[index].pair.second.index)
-      result.pairs[index].matches = pairs[index].matches.map {
-        FeatureMatch(
-          first: Int32(numbers[first][Int($0.first)]),
-          second: Int32(numbers[second][Int($0.second)]))
-      }
-    }
-    // Their features are not needed any more.
-    for index in rejected.indices { result.rejected[index].weak = nil }
-    return result
-  }
-
   /// Adds the matches of another graph between photos of the same group. A feature that is matched
   /// already keeps its match.
   fileprivate mutating func add(_ other: ViewGraph, within groups: [[Int]]) {

@@ -17,6 +17,7 @@ package struct ImageAlignment: Sendable {
     package var pureRotation = PureRotationCheck.Options()
     package var mapping = SparseMapping.Options()
     package var sceneAmbiguity = SceneAmbiguityCheck.Options()
+    var repetition = RepetitionOptions()
     /// Nil if photos may be aligned by the surroundings of the object.
     var focus: FocusCheck.Options? = FocusCheck.Options()
     package var refinement = ObservationRefinement.Options()
@@ -44,7 +45,10 @@ package struct ImageAlignment: Sendable {
     let matched = try match(
       photos: photos, cameras: cameras, images: images, context.part(from: 0, to: 0.7))
     let map = try map(matched, images: images, context.part(from: 0.7, to: 0.87))
-    return try finish(rigid: map, matched, images, context.part(from: 0.87, to: 1))
+    let (mapped, rest) = try resolveRepetition(
+      of: MappedPhotos(matched: matched, map: map), images, context, after: 0.87)
+    return try finish(
+      rigid: mapped.map, mapped.matched, images, rest ?? context.part(from: 0.87, to: 1))
   }
 
   /// Finishes the map of a scene that may be rigid, and checks it.

@@ -28,14 +28,20 @@ struct MovedObjectAlignment {
     var matched = try alignment.match(
       photos: photos.ingested.photos, cameras: photos.ingested.cameras, images: photos.images,
       context.part(from: 0, to: 0.7))
-    let map = Result {
+    var map = Result {
       try alignment.map(matched, images: photos.images, context.part(from: 0.7, to: 0.87))
     }
     if case .failure(let error) = map, !(error is PipelineError) { throw error }
+    var rest: StageContext?
+    if let first = try? map.get() {
+      let (mapped, remaining) = try alignment.resolveRepetition(
+        of: .init(matched: matched, map: first), photos.images, context, after: 0.87)
+      (matched, map, rest) = (mapped.matched, .success(mapped.map), remaining)
+    }
     let placements = placements((try? map.get())?.findings, matched.graph)
-    var joiningContext = context.part(from: 0.87, to: 1)
+    var joiningContext = rest ?? context.part(from: 0.87, to: 1)
     if placements.count > 1 || matched.graph.omitsSurroundings {
-      joiningContext = context.extended(by: options.relativeDuration, after: 0.87)
+      joiningContext = rest ?? context.extended(by: options.relativeDuration, after: 0.87)
       let share = joiningContext.part(from: 0, to: 0.9)
       if let joined = try join(
         placements, &matched, try? map.get(), photos, folder: folder, share)

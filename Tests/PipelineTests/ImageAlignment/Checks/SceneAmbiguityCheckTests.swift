@@ -50,6 +50,17 @@ import Testing
     #expect(notes.counts["contradictedPairs"] == 0)
   }
 
+  /// The pattern folds the first map; the object before it does not repeat.
+  @Test func patternsBehindAnObjectAreResolved() throws {
+    let capture = CaptureScene.wallpaper(seed: 11, width: 720, photoCount: 40)
+    let aligned = try AlignedScene(capture.scene(ofPhoto: 0))
+    #expect(aligned.poses.count == 40)
+    #expect(aligned.poses.maximumCenterError < 0.005)
+    #expect(aligned.poses.maximumRotationError < 0.005)
+    #expect(!isReported(aligned.notes))
+    #expect(aligned.notes.details.contains { $0.contains("A pattern repeats") })
+  }
+
   // MARK: Contradicted pairs
 
   @Test(arguments: [0.0, 0.2]) func correctMapsContradictNoPair(outliers: Double) throws {

@@ -1,0 +1,83 @@
+import Kernels
+import SceneModel
+
+/// Mapping scenes in which a pattern repeats.
+extension ImageAlignment {
+  struct RepetitionOptions: Hashable, Codable, Sendable {
+    var features = RepetitiveFeatures.Options()
+    /// Minimum number of photos that the map without repetitive features must register, as a share
+    /// of those of a map that may be wrong. Chosen: a tenth of the photos for certainty.
+    var minimumShare = 0.9
+    /// Duration of the alignment with a second map, relative to that with one.
+    var relativeDuration = 1.4
+
+    init() {}
+  }
+
+  /// Matched photos and their map.
+  struct MappedPhotos: Sendable {
+    var matched: MatchedPhotos
+    var map: Map
+  }
+
+  /// Matches and maps photos again without repetitive features, if a map with them may superimpose
+  /// parts of the scene, and takes the new map if it is consistent.
+  ///
+  /// `context` is that of the whole stage, of which the fraction `done` is done. Also returns the
+  /// context of the rest, which takes longer then than was expected; nil if nothing was tried.
+  func resolveRepetition(
+    of mapped: MappedPhotos, _ images: ImageStore, _ context: StageContext, after done: Double
+  ) throws -> (mapped: MappedPhotos, rest: StageContext?) {
+    guard let verdict = mapped.map.findings?.verdict, verdict != .consistent,
+      !mapped.matched.graph.omitsSurroundings,
+      let kept = try RepetitiveFeatures(options: options.repetition.features).distinctiveFeatures(
+        mapped.matched.graph, mapped.matched.features, context.control.part(from: done, to: done))
+    else { return (mapped, nil) }
+    let rest = context.extended(by: options.repetition.relativeDuration, after: done)
+    let attempt = StageContext(control: rest.control.part(from: 0, to: 0.7))
+    let end = rest.part(from: 0.7, to: 1)
+    guard
+      let found = try mapByDistinctiveFeatures(kept, mapped.matched, images, attempt),
+      found.map.findings?.verdict == .consistent,
+      verdict == .inconsistent
+        || Double(found.map.reconstruction.registered.count) >= options.repetition.minimumShare
+          * Double(mapped.map.reconstruction.registered.count)
+    else { return (mapped, end) }
+    context.notes.add(attempt.notes)
+    context.notes.log(
+      "A pattern repeats in the scene: the photos were aligned by features that don't repeat.")
+    return (found, end)
+  }
+
+  /// Nil if there is no such map.
+  private func mapByDistinctiveFeatures(
+    _ kept: [[Int]], _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext
+  ) throws -> MappedPhotos? {
+    do {
+      var distinctive = try match(
+        matched, byFeatures: kept, options.search, context.part(from: 0, to: 0.6))
+      distinctive.graph.motions = matched.graph.motions
+      distinctive.graph.placements = matched.graph.placements
+      let map = try map(distinctive, images: images, context.part(from: 0.6, to: 1))
+      return MappedPhotos(matched: distinctive, map: map)
+    } catch is PipelineError {
+      return nil
+    }
+  }
+
+  /// The photos matched again by some of their features, which are not searched for two motions.
+  func match(
+    _ matched: MatchedPhotos, byFeatures kept: [[Int]], _ search: CorrespondenceSearch.Options,
+    _ context: StageContext
+  ) throws -> MatchedPhotos {
+    var search = search
+    search.secondMotions.isEnabled = false
+    let (graph, cameras) = try CorrespondenceSearch(search).run(
+      photos: matched.photos, cameras: matched.cameras,
+      features: zip(matched.features, kept).map { $0.selecting($1) }, ordering: options.ordering,
+      context)
+    var result = matched
+    (result.graph, result.cameras) = (graph.renumbered(kept), cameras)
+    return result
+  }
+}
