@@ -15,6 +15,7 @@ extension ImageAlignment {
     var search = options.search
     // Two photos without masks would match the surroundings.
     search.matchesUnmaskedPairs = false
+    search.secondMotions.isEnabled = false
     var result = try match(photos, byFeatures: object.indices, search, context)
     result.graph.add(matched.graph, within: placements)
     result.graph.omitsSurroundings = matched.graph.omitsSurroundings
@@ -36,7 +37,9 @@ extension ImageAlignment {
       result.features[index].appendWithoutDescriptors(matched.features[index])
     }
     result.graph.add(
-      matched.graph.renumbered(zip(counts, matched.features).map { Array($0..<$0 + $1.count) }),
+      matched.graph.renumbered(
+        zip(counts, matched.features).map { Array($0..<$0 + $1.count) },
+        featureCounts: result.features.map(\.count)),
       within: placements)
     result.graph.omitsSurroundings = matched.graph.omitsSurroundings
     let isObject = zip(counts, result.features).map { count, set in

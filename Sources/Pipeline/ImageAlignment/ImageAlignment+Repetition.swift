@@ -5,9 +5,6 @@ import SceneModel
 extension ImageAlignment {
   struct RepetitionOptions: Hashable, Codable, Sendable {
     var features = RepetitiveFeatures.Options()
-    /// Minimum number of photos that the map without repetitive features must register, as a share
-    /// of those of a map that may be wrong. Chosen: a tenth of the photos for certainty.
-    var minimumShare = 0.9
     /// Duration of the alignment with a second map, relative to that with one.
     var relativeDuration = 1.4
 
@@ -28,21 +25,20 @@ extension ImageAlignment {
   func resolveRepetition(
     of mapped: MappedPhotos, _ images: ImageStore, _ context: StageContext, after done: Double
   ) throws -> (mapped: MappedPhotos, rest: StageContext?) {
-    guard let verdict = mapped.map.findings?.verdict, verdict != .consistent,
-      !mapped.matched.graph.omitsSurroundings,
+    guard mapped.map.mayBeWrong,
       let kept = try RepetitiveFeatures(options: options.repetition.features).distinctiveFeatures(
         mapped.matched.graph, mapped.matched.features, context.control.part(from: done, to: done))
     else { return (mapped, nil) }
     let rest = context.extended(by: options.repetition.relativeDuration, after: done)
     let attempt = StageContext(control: rest.control.part(from: 0, to: 0.7))
     let end = rest.part(from: 0.7, to: 1)
-    guard
-      let found = try mapByDistinctiveFeatures(kept, mapped.matched, images, attempt),
-      found.map.findings?.verdict == .consistent,
-      verdict == .inconsistent
-        || Double(found.map.reconstruction.registered.count) >= options.repetition.minimumShare
-          * Double(mapped.map.reconstruction.registered.count)
-    else { return (mapped, end) }
+    guard let found = try mapByDistinctiveFeatures(kept, mapped.matched, images, attempt),
+      found.map.replaces(mapped.map, minimumShare: options.replacingShare)
+    else {
+      context.notes.log(
+        "A pattern repeats in the scene, but features that don't repeat do not align the photos.")
+      return (mapped, end)
+    }
     context.notes.add(attempt.notes)
     context.notes.log(
       "A pattern repeats in the scene: the photos were aligned by features that don't repeat.")
@@ -54,10 +50,8 @@ extension ImageAlignment {
     _ kept: [[Int]], _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext
   ) throws -> MappedPhotos? {
     do {
-      var distinctive = try match(
+      let distinctive = try match(
         matched, byFeatures: kept, options.search, context.part(from: 0, to: 0.6))
-      distinctive.graph.motions = matched.graph.motions
-      distinctive.graph.placements = matched.graph.placements
       let map = try map(distinctive, images: images, context.part(from: 0.6, to: 1))
       return MappedPhotos(matched: distinctive, map: map)
     } catch is PipelineError {
@@ -65,19 +59,18 @@ extension ImageAlignment {
     }
   }
 
-  /// The photos matched again by some of their features, which are not searched for two motions.
+  /// The photos matched again by some of their features.
   func match(
     _ matched: MatchedPhotos, byFeatures kept: [[Int]], _ search: CorrespondenceSearch.Options,
     _ context: StageContext
   ) throws -> MatchedPhotos {
-    var search = search
-    search.secondMotions.isEnabled = false
     let (graph, cameras) = try CorrespondenceSearch(search).run(
       photos: matched.photos, cameras: matched.cameras,
       features: zip(matched.features, kept).map { $0.selecting($1) }, ordering: options.ordering,
       context)
     var result = matched
-    (result.graph, result.cameras) = (graph.renumbered(kept), cameras)
+    result.graph = graph.renumbered(kept, featureCounts: matched.features.map(\.count))
+    result.cameras = cameras
     return result
   }
 }

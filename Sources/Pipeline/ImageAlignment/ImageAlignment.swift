@@ -17,6 +17,9 @@ package struct ImageAlignment: Sendable {
     package var pureRotation = PureRotationCheck.Options()
     package var mapping = SparseMapping.Options()
     package var sceneAmbiguity = SceneAmbiguityCheck.Options()
+    /// Minimum number of photos that a consistent map must register to replace one that may be
+    /// wrong, as a share of that one's. Chosen: a tenth of the photos for certainty.
+    var replacingShare = 0.9
     var repetition = RepetitionOptions()
     /// Nil if photos may be aligned by the surroundings of the object.
     var focus: FocusCheck.Options? = FocusCheck.Options()
@@ -84,6 +87,20 @@ package struct ImageAlignment: Sendable {
     var reconstruction: Reconstruction
     /// Nil if the check failed.
     var findings: SceneAmbiguityCheck.Findings?
+
+    /// Whether there is a sign that parts are superimposed.
+    var mayBeWrong: Bool { findings.map { $0.verdict != .consistent } ?? false }
+    /// Whether the object seems to have been moved between photos.
+    var hasSeveralPlacements: Bool { findings?.placements.areSeveral ?? false }
+
+    /// Whether this map is to replace one that may be wrong: it is consistent, and registers at
+    /// least this share of the photos, unless the other map is of no use.
+    func replaces(_ other: Map, minimumShare: Double) -> Bool {
+      guard findings?.verdict == .consistent else { return false }
+      return other.findings?.verdict == .inconsistent
+        || Double(reconstruction.registered.count) >= minimumShare
+          * Double(other.reconstruction.registered.count)
+    }
   }
 
   /// Extracts and matches features. Throws `PipelineError.alignmentFailed` if no two photos match.
@@ -116,6 +133,10 @@ package struct ImageAlignment: Sendable {
 
   /// Maps matched photos, and checks the map. Throws `PipelineError.alignmentFailed` if there is no
   /// map, but not if parts of it are superimposed.
+  ///
+  /// If nothing was moved and the matches contradict a map that was made of all photos at once,
+  /// they are mapped one at a time: two groups with few links between them may have been joined in
+  /// the wrong place.
   func map(
     _ matched: MatchedPhotos, images: ImageStore, _ context: StageContext
   ) throws -> Map {
@@ -125,8 +146,31 @@ package struct ImageAlignment: Sendable {
       throw PipelineError.alignmentFailed(
         reason: "all photos were taken from one place; walk around the object between photos.")
     }
-    let mapped = try timed("mappingSeconds", context) {
-      try SparseMapping(options.mapping).run(
+    let (map, method) = try map(
+      matched, by: options.mapping.method, images, context.part(from: 0, to: 0.8))
+    guard options.mapping.method == .automatic, method == .global, map.mayBeWrong,
+      !map.hasSeveralPlacements
+    else { return map }
+    let attempt = StageContext(control: context.control.part(from: 0.8, to: 1))
+    do {
+      let (other, _) = try self.map(matched, by: .incremental, images, attempt)
+      guard other.replaces(map, minimumShare: options.replacingShare) else { return map }
+      context.notes.add(attempt.notes)
+      return other
+    } catch is PipelineError {
+      return map
+    }
+  }
+
+  /// Maps matched photos by one method, and checks the map. Also returns the method that was used.
+  private func map(
+    _ matched: MatchedPhotos, by method: MappingMethod, _ images: ImageStore,
+    _ context: StageContext
+  ) throws -> (map: Map, method: MappingMethod) {
+    var mapping = SparseMapping(options.mapping)
+    mapping.options.method = method
+    let (mapped, used) = try timed("mappingSeconds", context) {
+      try mapping.map(
         matched.graph, features: matched.features, photos: matched.photos,
         cameras: matched.cameras, context.part(from: 0, to: 0.9))
     }
@@ -134,7 +178,7 @@ package struct ImageAlignment: Sendable {
     let findings = try timed("ambiguityCheckSeconds", context) {
       try ambiguityFindings(mapped, matched, images, context.part(from: 0.9, to: 1))
     }
-    return Map(reconstruction: mapped, findings: findings)
+    return (Map(reconstruction: mapped, findings: findings), used)
   }
 
   /// A reconstruction of some of the photos in the world frame, not refined: their part of a map of

@@ -54,20 +54,22 @@ struct RepetitiveFeatures: Sendable {
 }
 
 extension ViewGraph {
-  /// The features of each photo that have verified matches, in ascending order.
+  /// The verified matches and those of moving bodies, which may not be among them.
+  private var allPairs: [VerifiedPair] { pairs + motions.flatMap(\.bodies) }
+
+  /// The features of each photo that have such matches, in ascending order.
   fileprivate var matchedFeatures: [[Int32]] {
     var found = [Set<Int32>](repeating: [], count: photoCount)
-    for pair in pairs {
+    for pair in allPairs {
       found[pair.pair.first.index].formUnion(pair.matches.map(\.first))
       found[pair.pair.second.index].formUnion(pair.matches.map(\.second))
     }
     return found.map { $0.sorted() }
   }
 
-  /// The descriptor distance that a share of the verified matches does not exceed; nil without
-  /// matches.
+  /// The descriptor distance that a share of these matches does not exceed; nil without matches.
   fileprivate func matchDistance(share: Double, _ features: [FeatureSet]) -> Double? {
-    let squared = pairs.flatMap { pair in
+    let squared = allPairs.flatMap { pair in
       pair.matches.map { match in
         features[pair.pair.first.index].squaredDistance(
           Int(match.first), features[pair.pair.second.index], Int(match.second))

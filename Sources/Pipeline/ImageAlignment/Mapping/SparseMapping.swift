@@ -23,6 +23,14 @@ package struct SparseMapping: Sendable {
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
     _ context: StageContext
   ) throws -> Reconstruction {
+    try map(graph, features: features, photos: photos, cameras: cameras, context).reconstruction
+  }
+
+  /// The same, with the method that it was made by, `global` or `incremental`.
+  func map(
+    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
+    _ context: StageContext
+  ) throws -> (reconstruction: Reconstruction, method: MappingMethod) {
     let tracks = try TrackBuilding().run(graph, features: features, context.part(from: 0, to: 0.1))
     let empty = SparseMap(cameras: cameras, photos: photos, tracks: tracks)
     let start =
@@ -30,19 +38,23 @@ package struct SparseMapping: Sendable {
       ? nil
       : try GlobalMapping(options.global, growth: options.incremental)
         .start(graph, features: features, empty, context.part(from: 0.1, to: 0.4))
-    func grown(from start: SparseMap?) throws -> Reconstruction {
+    func grown(from start: SparseMap?) throws -> (
+      reconstruction: Reconstruction, method: MappingMethod
+    ) {
       context.notes.record("globalPhotos", Double(start?.registered.count ?? 0))
-      return try IncrementalMapping(options.incremental).run(
+      let result = try IncrementalMapping(options.incremental).run(
         graph, features: features, photos: photos, empty: empty, from: start,
         context.part(from: start == nil ? 0.1 : 0.4, to: 1))
+      return (result, start == nil ? .incremental : .global)
     }
     guard options.method == .automatic, let start else { return try grown(from: start) }
 
     let needed = options.minimumShare * Double(graph.connectedGroups.first?.count ?? 0)
     guard Double(start.registered.count) >= needed else { return try grown(from: nil) }
     let result = try grown(from: start)
-    if Double(result.registered.count) >= needed { return result }
+    let count = result.reconstruction.registered.count
+    if Double(count) >= needed { return result }
     let other = try grown(from: nil)
-    return other.registered.count > result.registered.count ? other : result
+    return other.reconstruction.registered.count > count ? other : result
   }
 }
