@@ -1,3 +1,4 @@
+import Foundation
 import SceneModel
 import Testing
 
@@ -8,14 +9,20 @@ import Testing
   private func map(
     _ verdict: SceneAmbiguityCheck.Verdict?, registered count: Int
   ) -> ImageAlignment.Map {
-    let poses = (0..<20).map { $0 < count ? RigidTransform.identity : nil }
+    let photos = (0..<20).map { index in
+      Photo(
+        id: ID(index), sampleID: index, name: "\(index).jpg",
+        url: URL(fileURLWithPath: "/\(index).jpg"), width: 4, height: 3, orientation: 1,
+        camera: ID(0))
+    }
+    let poses = photos.indices.map { $0 < count ? RigidTransform.identity : nil }
     let findings = verdict.map { verdict in
       var findings = SceneAmbiguityCheck.Findings()
       findings.verdict = verdict
       return findings
     }
     return ImageAlignment.Map(
-      reconstruction: Reconstruction(cameras: [], photos: [], poses: poses, points: []),
+      reconstruction: Reconstruction(cameras: [], photos: photos, poses: poses, points: []),
       findings: findings)
   }
 

@@ -14,7 +14,7 @@ import SceneModel
 package struct SceneAmbiguityCheck: Sendable {
   /// The signs that a reconstruction is wrong.
   package struct Findings: Hashable, Sendable {
-    /// Number of pairs of nearby photos that could be compared.
+    /// Number of pairs of nearby photos that show enough of each other's points to be compared.
     package var compared = 0
     /// The pairs in conflict, the strongest conflict first.
     package var conflicts: [Comparison] = []
@@ -49,7 +49,7 @@ package struct SceneAmbiguityCheck: Sendable {
     let comparisons = try comparisons(reconstruction, features: features, images: images, context)
     let repetition = RepeatedStructure(reconstruction, features: features)
     var findings = Findings()
-    findings.compared = comparisons.count
+    findings.compared = comparisons.count(where: isInformative)
     findings.conflicts = comparisons.filter(isConflict).sorted {
       ($1.contradictingCells, $0.pair) < ($0.contradictingCells, $1.pair)
     }
@@ -62,7 +62,7 @@ package struct SceneAmbiguityCheck: Sendable {
     }
     let signs = [
       isSign(
-        findings.conflicts.count, of: comparisons.count, minimum: options.minimumConflicts,
+        findings.conflicts.count, of: findings.compared, minimum: options.minimumConflicts,
         share: options.minimumConflictShare),
       isSign(
         findings.contradicted.count, of: graph.pairs.count, minimum: options.minimumContradicted,
@@ -100,6 +100,11 @@ package struct SceneAmbiguityCheck: Sendable {
       found[part.pair] = sum
     }
     return found.values.sorted { $0.pair < $1.pair }
+  }
+
+  /// Whether enough points were searched for to decide whether the photos show the same.
+  private func isInformative(_ comparison: Comparison) -> Bool {
+    comparison.present.count + comparison.absent.count >= options.minimumPoints
   }
 
   /// Whether the photos show different parts of the scene.

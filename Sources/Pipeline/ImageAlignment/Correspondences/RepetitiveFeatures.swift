@@ -16,9 +16,10 @@ struct RepetitiveFeatures: Sendable {
     /// repetitive (`wallpaper`, seeds 2 and 3), of the object in front of it none, and of the
     /// matches of 11 real sets without a pattern at most 10 % (a facade).
     var matchShare = 0.75
-    /// Minimum share of the matched features that must be repetitive for a pattern to matter, and
-    /// the number of features per photo by which that is decided. Chosen between the 10 % of that
-    /// facade and the 48 % of the matches of the wallpapers, and of a flower pot on graph paper.
+    /// Minimum share of the features in question that must be repetitive for a pattern to matter,
+    /// and the number of features per photo by which that is decided. Chosen between the 10 % of
+    /// that facade and the 48 % of the matches of the wallpapers, and of a flower pot on graph
+    /// paper.
     var minimumShare = 0.2
     var sampleCount = 100
 
@@ -28,7 +29,7 @@ struct RepetitiveFeatures: Sendable {
   var options = Options()
 
   /// The indices of the features that are not repetitive, by photo; nil if there are too few
-  /// repetitive ones among the matched features.
+  /// repetitive ones among the features in question.
   func distinctiveFeatures(
     _ graph: ViewGraph, _ features: [FeatureSet], _ control: KernelControl
   ) throws -> [[Int]]? {
@@ -41,7 +42,7 @@ struct RepetitiveFeatures: Sendable {
         try search.areRepeated(queries[photo], of: features[photo], KernelControl())
       }
     }
-    let sample = graph.matchedFeatures.map { $0.sample(options.sampleCount) }
+    let sample = graph.questionableFeatures.map { $0.sample(options.sampleCount) }
     let inSample = try areRepeated(sample, control.part(from: 0, to: 0.1)).joined()
     guard Double(inSample.count { $0 }) >= options.minimumShare * Double(inSample.count) else {
       return nil
@@ -54,22 +55,25 @@ struct RepetitiveFeatures: Sendable {
 }
 
 extension ViewGraph {
-  /// The verified matches and those of moving bodies, which may not be among them.
-  private var allPairs: [VerifiedPair] { pairs + motions.flatMap(\.bodies) }
-
-  /// The features of each photo that have such matches, in ascending order.
-  fileprivate var matchedFeatures: [[Int32]] {
+  /// The features that a pattern may have matched wrongly, by photo in ascending order: all that
+  /// are matched, or, where an object seems to move, those of its surroundings, which may not have
+  /// moved if they repeat.
+  fileprivate var questionableFeatures: [[Int32]] {
+    if omitsSurroundings {
+      return surroundings.map { flags in flags.indices.filter { flags[$0] }.map(Int32.init) }
+    }
     var found = [Set<Int32>](repeating: [], count: photoCount)
-    for pair in allPairs {
+    for pair in pairs {
       found[pair.pair.first.index].formUnion(pair.matches.map(\.first))
       found[pair.pair.second.index].formUnion(pair.matches.map(\.second))
     }
     return found.map { $0.sorted() }
   }
 
-  /// The descriptor distance that a share of these matches does not exceed; nil without matches.
+  /// The descriptor distance that a share of the verified matches does not exceed; nil without
+  /// matches.
   fileprivate func matchDistance(share: Double, _ features: [FeatureSet]) -> Double? {
-    let squared = allPairs.flatMap { pair in
+    let squared = pairs.flatMap { pair in
       pair.matches.map { match in
         features[pair.pair.first.index].squaredDistance(
           Int(match.first), features[pair.pair.second.index], Int(match.second))

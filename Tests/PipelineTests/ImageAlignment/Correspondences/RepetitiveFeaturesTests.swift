@@ -66,6 +66,21 @@ import Testing
       try RepetitiveFeatures().distinctiveFeatures(graph, features, KernelControl()) == nil)
   }
 
+  /// Where an object seems to move, a pattern matters if it is in the surroundings: it may not have
+  /// moved.
+  @Test(arguments: [true, false])
+  func thePatternMattersInSurroundingsThatSeemToMove(isInSurroundings: Bool) throws {
+    var (graph, features) = photos(patternCount: 40)
+    graph.omitsSurroundings = true
+    graph.surroundings = features.map { set in
+      (0..<set.count).map { ($0 >= uniqueCount) == isInSurroundings }
+    }
+    var search = RepetitiveFeatures()
+    search.options.matchShare = 1
+    let kept = try search.distinctiveFeatures(graph, features, KernelControl())
+    #expect((kept != nil) == isInSurroundings)
+  }
+
   @Test func withoutMatchesNothingIsKnown() throws {
     let (_, features) = photos(patternCount: 40)
     let graph = ViewGraph(photoCount: 2, pairs: [])
