@@ -92,14 +92,17 @@ final class BatchRunner: Sendable {
       progress.ended(entry, path: nil)
     }
     try await process(jobs: options.plan.jobs)
-    for _ in 0..<options.retries {
-      state.withLock { state in
-        state.open = state.retries.sorted().reversed()
-        state.retries = []
-      }
-      try await process(jobs: 1)
-    }
+    while reopensRetries() { try await process(jobs: 1) }
     progress.finish()
+  }
+
+  /// Puts the datasets that are to be tried again in line; returns false if there are none.
+  private func reopensRetries() -> Bool {
+    state.withLock { state in
+      state.open = state.retries.sorted().reversed()
+      state.retries = []
+      return !state.isStopping && !state.open.isEmpty
+    }
   }
 
   private func process(jobs: Int) async throws {
