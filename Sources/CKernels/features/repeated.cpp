@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "ck_matching.h"
 #include "core/guard.h"
 #include "features/nearest.h"

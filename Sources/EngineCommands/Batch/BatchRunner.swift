@@ -92,12 +92,12 @@ final class BatchRunner: Sendable {
       progress.ended(entry, path: nil)
     }
     try await process(jobs: options.plan.jobs)
-    while reopensRetries() { try await process(jobs: 1) }
+    while reopenRetries() { try await process(jobs: 1) }
     progress.finish()
   }
 
   /// Puts the datasets that are to be tried again in line; returns false if there are none.
-  private func reopensRetries() -> Bool {
+  private func reopenRetries() -> Bool {
     state.withLock { state in
       state.open = state.retries.sorted().reversed()
       state.retries = []

@@ -14,7 +14,7 @@ package struct RepetitionSearch: Hashable, Codable, Sendable {
   package init(maximumDistance: Double) { self.maximumDistance = maximumDistance }
 
   /// Whether each of the features with indices in `queries` is repeated among all features of the
-  /// photo.
+  /// photo. Throws `KernelError` if an index is out of range.
   package func areRepeated(
     _ queries: [Int32], of features: FeatureSet, _ control: KernelControl
   ) throws -> [Bool] {

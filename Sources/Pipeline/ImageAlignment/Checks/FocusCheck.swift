@@ -35,6 +35,8 @@ struct FocusCheck: Sendable {
     /// degrees.
     var spreadDegrees = 180.0
 
+    /// The number of features in the focus that are observations of points.
+    var observations: Double { features * focusShare }
     /// The number of features in the focus that would be observations if it were like its
     /// surroundings.
     var expected: Double { features * surroundingsShare }

@@ -91,7 +91,7 @@ import Testing
 
   @Test func killedRunIsRetried() throws {
     try addDataset("orbit", from: "orbit", photos: 20)
-    // The one that is allowed most: no other is made without a failure.
+    // Any number is allowed: without a failure there is nothing to try again.
     let run = try batch(["--json", "--verbose", "--retries", "\(Int.max)"]) { process in
       for child in Self.children(of: process, count: 1) { kill(child, SIGKILL) }
     }
