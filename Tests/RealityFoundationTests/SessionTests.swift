@@ -11,9 +11,11 @@ import Testing
   typealias Session = PhotogrammetrySession
 
   private func withPhotos(_ body: (URL) async throws -> Void) async throws {
-    try await withTemporaryFolder { folder in
-      try Data("photo".utf8).write(to: folder.appendingPathComponent("a.jpg"))
-      try await body(folder)
+    try await withTaskExecutorPreference(QueueExecutor()) {
+      try await withTemporaryFolder { folder in
+        try Data("photo".utf8).write(to: folder.appendingPathComponent("a.jpg"))
+        try await body(folder)
+      }
     }
   }
 
