@@ -89,4 +89,47 @@ import Testing
     #expect(bad.contains { $0.second.index == 3 } && bad.count <= moved)
     #expect(bad.allSatisfy { $0.first.index == 3 || $0.second.index == 3 })
   }
+
+  /// Opposite photos of a ball that match points of which no photo shows both: alike rows of
+  /// windows on two sides of a house, if the pair is weak.
+  @Test(arguments: [(share: 0.1, contradicts: false), (share: 0.3, contradicts: true)])
+  func onlyStrongPairsContradictStrongChains(share: Double, contradicts: Bool) throws {
+    let scene = SyntheticScene()
+    let map = try SparseMapping().run(
+      scene.viewGraph, features: scene.features, photos: scene.photos, cameras: [scene.camera],
+      StageContext())
+    let opposite = PhotoPair(ID(0), ID(6))
+    var graph = scene.viewGraph
+    let weakest = try #require(
+      graph.pairs.filter { $0.pair.second.index == $0.pair.first.index + 1 }
+        .map(\.matches.count).min())
+    let matches = unlikeMatches(of: opposite, in: scene)
+    let count = Int(share * Double(weakest))
+    try #require(matches.count >= count && count > 5)
+    graph.pairs.append(
+      VerifiedPair(
+        pair: opposite, model: .fundamental, secondFromFirst: nil,
+        matches: Array(matches.prefix(count)), medianAngle: 0))
+    var options = SceneAmbiguityCheck.Options()
+    options.minimumPairMatches = 5
+    let contradicted = graph.contradicted(by: map, features: scene.features, options)
+    #expect(contradicted == (contradicts ? [opposite] : []))
+  }
+
+  /// Matches of points that no photo shows together.
+  private func unlikeMatches(of pair: PhotoPair, in scene: SyntheticScene) -> [FeatureMatch] {
+    var photosOfPoint = [Set<Int>](repeating: [], count: scene.points.count)
+    for (photo, points) in scene.pointOfFeature.enumerated() {
+      for point in points { photosOfPoint[Int(point)].insert(photo) }
+    }
+    var rest = Array(scene.pointOfFeature[pair.second.index].enumerated())
+    return scene.pointOfFeature[pair.first.index].enumerated().compactMap { first, point in
+      let other = rest.firstIndex {
+        photosOfPoint[Int($0.element)].isDisjoint(with: photosOfPoint[Int(point)])
+      }
+      return other.map {
+        FeatureMatch(first: Int32(first), second: Int32(rest.remove(at: $0).offset))
+      }
+    }
+  }
 }
