@@ -22,12 +22,14 @@ extension ImageAlignment {
     return result
   }
 
-  /// The same with features that are extracted again from the masked photos, more of them.
-  func matchSensitively(
-    _ masked: PhotoSet, of matched: MatchedPhotos, placements: [[Int]], _ context: StageContext
+  /// The same with features that are extracted again from the masked photos: without the
+  /// surroundings, a photo holds more of the object.
+  func match(
+    _ masked: PhotoSet, of matched: MatchedPhotos, placements: [[Int]],
+    sensitivity: FeatureSensitivity, _ context: StageContext
   ) throws -> (photos: MatchedPhotos, object: ObjectFeatures) {
     var alignment = self
-    alignment.options.features.sensitivity = .high
+    alignment.options.features.sensitivity = sensitivity
     alignment.options.correspondences.matchesUnmaskedPairs = false
     alignment.options.correspondences.secondMotions.isEnabled = false
     var result = try alignment.match(

@@ -33,4 +33,7 @@ struct ObjectFeatures: Sendable {
 
   /// The indices of the object's features, by photo.
   var indices: [[Int]] { isObject.map { flags in flags.indices.filter { flags[$0] } } }
+
+  /// How many of them the median photo has.
+  var medianCount: Int { isObject.map { flags in flags.count { $0 } }.upperMedian ?? 0 }
 }

@@ -29,33 +29,45 @@ struct PlacementJoin {
   /// An alignment of all photos, with its notes.
   typealias Joined = (reconstruction: Reconstruction, notes: StageNotes)
 
-  /// Returns nil if too little is joined. `map` is that of all photos. If too many photos are
-  /// missing, the features are extracted again, more of them: the object may be small in the
-  /// photos. That releases the descriptors of `matched`.
+  /// Returns nil if too little is joined. `map` is that of all photos.
+  ///
+  /// An object that is small in the photos has few of their features: then more are extracted from
+  /// the masked photos, and once more, with high sensitivity, if too many photos are missing. That
+  /// releases the descriptors of `matched`.
   func run(
     _ matched: inout MatchedPhotos, _ map: ImageAlignment.Map?, _ context: StageContext
   ) throws -> Joined? {
-    let margin = alignment.options.features.maskMargin
     let object = try ObjectFeatures(
-      matched.features, photos: masked.ingested.photos, masks: masks, margin: margin,
-      context.control.part(from: 0, to: 0.02))
-    let first = try attempt(context.part(from: 0.02, to: 0.5)) { [matched] context in
-      if let map, isSufficient(map, matched) { return (matched, object, map) }
-      let result = try alignment.match(
-        object, of: matched, placements: placements, context.part(from: 0, to: 0.6))
-      return (result, object, try objectMap(result, context))
-    }
+      matched.features, photos: masked.ingested.photos, masks: masks,
+      margin: alignment.options.features.maskMargin, context.control.part(from: 0, to: 0.02))
+    let sensitivity = alignment.options.features.sensitivity
+    let share = context.part(from: 0.02, to: 0.5)
+    let first =
+      object.medianCount < alignment.options.features.sparseFeatures
+      ? try attempt(extractingAgain: sensitivity, &matched, share)
+      : try attempt(share) { [matched] context in
+        if let map, isSufficient(map, matched) { return (matched, object, map) }
+        let result = try alignment.match(
+          object, of: matched, placements: placements, context.part(from: 0, to: 0.6))
+        return (result, object, try objectMap(result, context))
+      }
     let count = first?.reconstruction.registered.count ?? 0
-    guard isIncomplete(count, matched), alignment.options.features.sensitivity != .high else {
-      return first
-    }
+    guard isIncomplete(count, matched), sensitivity != .high else { return first }
+    let second = try attempt(extractingAgain: .high, &matched, context.part(from: 0.5, to: 1))
+    return second?.reconstruction.registered.count ?? 0 > count ? second : first
+  }
+
+  private func attempt(
+    extractingAgain sensitivity: FeatureSensitivity, _ matched: inout MatchedPhotos,
+    _ context: StageContext
+  ) throws -> Joined? {
     for index in matched.features.indices { matched.features[index].descriptors = [] }
-    let second = try attempt(context.part(from: 0.5, to: 1)) { [matched] context in
-      let (result, object) = try alignment.matchSensitively(
-        masked, of: matched, placements: placements, context.part(from: 0, to: 0.6))
+    return try attempt(context) { [matched] context in
+      let (result, object) = try alignment.match(
+        masked, of: matched, placements: placements, sensitivity: sensitivity,
+        context.part(from: 0, to: 0.6))
       return (result, object, try objectMap(result, context))
     }
-    return second?.reconstruction.registered.count ?? 0 > count ? second : first
   }
 
   private func isIncomplete(_ count: Int, _ matched: MatchedPhotos) -> Bool {

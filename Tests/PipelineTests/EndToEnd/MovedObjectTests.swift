@@ -33,8 +33,10 @@ import Testing
     }
   }
 
-  private func pipeline(checkpoint: String, threads: Int) -> ReconstructionPipeline {
-    var configuration = PipelineConfiguration()
+  private func pipeline(
+    checkpoint: String, threads: Int, configuration: PipelineConfiguration = PipelineConfiguration()
+  ) -> ReconstructionPipeline {
+    var configuration = configuration
     configuration.checkpointDirectory = folder.url.appendingPathComponent(checkpoint)
     configuration.threadCount = threads
     configuration.maskOutput = masks
@@ -62,6 +64,23 @@ import Testing
     #expect(try resumed(without: ["mesh/surface.ply"], reusesAlignment: true) == bytes)
     let lost = ["masks/view_03.png", "mesh/surface.ply"]
     #expect(try resumed(without: lost, reusesAlignment: false) == bytes)
+  }
+
+  /// The photos have so few features of the object that more are extracted from what the masks
+  /// leave. Those at hand join its sides as well.
+  @Test func featuresAtHandJoinTheSides() throws {
+    func features(_ pipeline: ReconstructionPipeline) throws -> Double {
+      try checkPoses(pipeline.align())
+      let alignment = try #require(pipeline.report.stages.first { $0.name == "imageAlignment" })
+      #expect(alignment.counts["joinedPlacements"] == 2)
+      return try #require(alignment.counts["features"])
+    }
+    var configuration = PipelineConfiguration()
+    configuration.alignment.features.sparseFeatures = 0
+    let atHand = try features(
+      pipeline(checkpoint: "at hand", threads: 2, configuration: configuration))
+    let extracted = try features(pipeline(checkpoint: "extracted", threads: 2))
+    #expect(extracted < atHand)
   }
 
   /// The model of a run in the first checkpoint directory without some of its files.

@@ -48,5 +48,6 @@ import Testing
     let found = try objectFeatures(at: [[0, 0], [200, 100], [500, 500]], margin: 0.03)
     #expect(found.isObject == [[false, true, false], [true, true, true]])
     #expect(found.indices == [[1], [0, 1, 2]])
+    #expect(found.medianCount == 3)
   }
 }
