@@ -40,7 +40,9 @@ extension ImageAlignment {
     let end = rest.part(from: 0.7, to: 1)
     guard let found = try mapByDistinctiveFeatures(kept, mapped.matched, images, attempt),
       found.map.replaces(mapped.map, minimumShare: options.replacingShare),
-      keepsFocus(of: mapped, in: found)
+      FocusCheck().isKept(
+        from: mapped.map.reconstruction, in: found.map.reconstruction, mapped.matched.features,
+        minimumShare: options.repetition.minimumFocusShare)
     else {
       context.notes.log(
         "A pattern repeats in the scene, but features that don't repeat do not align the photos.")
@@ -50,15 +52,6 @@ extension ImageAlignment {
     context.notes.log(
       "A pattern repeats in the scene: the photos were aligned by features that don't repeat.")
     return (found, end)
-  }
-
-  /// Whether a map without repetitive features still shows what the photos are aimed at.
-  private func keepsFocus(of first: MappedPhotos, in other: MappedPhotos) -> Bool {
-    func observations(_ mapped: MappedPhotos) -> Double? {
-      FocusCheck().findings(mapped.map.reconstruction, mapped.matched.features).map(\.observations)
-    }
-    guard let before = observations(first) else { return true }
-    return observations(other) ?? 0 >= options.repetition.minimumFocusShare * before
   }
 
   /// Nil if there is no such map.

@@ -67,6 +67,16 @@ struct FocusCheck: Sendable {
     }
   }
 
+  /// Whether another map of the same features has at least a share of the observations of what the
+  /// photos are aimed at.
+  func isKept(
+    from first: Reconstruction, in other: Reconstruction, _ features: [FeatureSet],
+    minimumShare: Double
+  ) -> Bool {
+    guard let before = findings(first, features)?.observations else { return true }
+    return findings(other, features)?.observations ?? 0 >= minimumShare * before
+  }
+
   /// Nil if the optical axes don't determine a focus.
   func findings(_ reconstruction: Reconstruction, _ features: [FeatureSet]) -> Findings? {
     var depths = [[Double]](repeating: [], count: reconstruction.photos.count)

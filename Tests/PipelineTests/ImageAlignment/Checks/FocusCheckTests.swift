@@ -65,4 +65,24 @@ import Testing
     #expect(findings.spreadDegrees < 8)
     #expect(concerns((scene, features)) == 1)
   }
+
+  /// A map without the repetitive features of an object's own texture.
+  @Test(arguments: [(0.3, false), (0.7, true)])
+  func focusIsKeptByEnoughObservations(share: Double, isKept: Bool) {
+    let (first, features) = scene(others: 0)
+    var other = first
+    other.points = first.points.prefix(Int(share * Double(first.points.count))).map { $0 }
+    let check = FocusCheck()
+    #expect(check.isKept(from: first, in: other, features, minimumShare: 0.5) == isKept)
+    #expect(check.isKept(from: other, in: first, features, minimumShare: 0.5))
+  }
+
+  @Test func withoutAFocusThereIsNoneToKeep() {
+    let (first, features) = scene(others: 0)
+    var unposed = first
+    for index in unposed.poses.indices { unposed.poses[index] = nil }
+    let check = FocusCheck()
+    #expect(check.isKept(from: unposed, in: first, features, minimumShare: 0.5))
+    #expect(!check.isKept(from: first, in: unposed, features, minimumShare: 0.5))
+  }
 }
