@@ -65,13 +65,13 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "CKernels",
       dependencies: [
         "CCeres", "CDeflate", "CEigen", "CEmbree", "CGlog", "CHEIF", "CJPEG", "CLittleCMS",
-        "COpen3D", "COpenCV", "CPNG", "CXXHash",
+        "CNanoflann", "COpenCV", "CPNG", "CXXHash",
       ],
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
         .linkedLibrary("opencv_imgcodecs"),
-        .linkedLibrary("ceres"), .linkedLibrary("Open3D"), .linkedLibrary("embree3"),
+        .linkedLibrary("ceres"), .linkedLibrary("embree3"),
       ]),
     systemLibrary("CCeres", apt: ["libceres-dev"]),
     systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
@@ -81,7 +81,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     systemLibrary("CHEIF", pkgConfig: "libheif", apt: ["libheif-dev"]),
     systemLibrary("CJPEG", pkgConfig: "libjpeg", apt: ["libjpeg-dev"]),
     systemLibrary("CLittleCMS", pkgConfig: "lcms2", apt: ["liblcms2-dev"]),
-    systemLibrary("COpen3D", apt: ["libopen3d-dev"]),
+    systemLibrary("CNanoflann", apt: ["libnanoflann-dev"]),
     systemLibrary(
       "COpenCV",
       apt: ["libopencv-core-dev", "libopencv-imgproc-dev", "libopencv-imgcodecs-dev"]),

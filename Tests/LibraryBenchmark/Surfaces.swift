@@ -114,6 +114,7 @@ struct Poisson: ParsableCommand {
   @Argument(help: "A cloud with normals, PLY.") var cloud: String
   @Argument(help: "The surface, PLY.") var output: String
   @Option(help: "Levels of the octree.") var depth = 9
+  @Option(help: "Threads.") var threads = 1
 
   func run() throws {
     let cloud = try PLY.readPointCloud(URL(fileURLWithPath: cloud))
@@ -121,9 +122,9 @@ struct Poisson: ParsableCommand {
     solver.depth = depth
     let (surface, cost) = try Cost.measuring {
       try solver.surface(
-        positions: cloud.positions, normals: cloud.normals, KernelControl(threadCount: 1))
+        positions: cloud.positions, normals: cloud.normals, KernelControl(threadCount: threads))
     }
-    try PLY.write(surface.mesh, to: URL(fileURLWithPath: output))
+    try PLY.write(surface, to: URL(fileURLWithPath: output))
     try printJSON(cost)
   }
 }

@@ -1,4 +1,4 @@
-"""Open3D's screened Poisson, as this project calls it, against MeshLab's."""
+"""This project's screened Poisson against MeshLab's, a version of Kazhdan's program."""
 
 import json
 import subprocess
@@ -39,7 +39,9 @@ def run(arguments):
         output = Path(folder) / "surface.ply"
         rows = []
         own = [common.PROGRAM, "poisson", cloud, output, "--depth", arguments.depth]
-        rows.append(["Open3D, as called here", 1, *measured(own, output, points)])
+        for threads in (1, 2):
+            rows.append(["ours", threads,
+                         *measured([*own, "--threads", threads], output, points)])
         library = [sys.executable, "-c", LIBRARY, cloud, output, arguments.depth, 1]
         rows.append(["MeshLab", 1, *measured(library, output, points)])
     benchmarking.print_table(HEADER, rows)

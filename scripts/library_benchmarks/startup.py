@@ -20,11 +20,8 @@ LIBRARIES = {
     "Ceres and glog": ["ceres", "glog"],
     "OpenCV core and imgproc": OPENCV,
     "OpenCV core, imgproc and imgcodecs": [*OPENCV, "opencv_imgcodecs"],
-    "Open3D": ["Open3D"],
-    "all but Open3D": [*SMALL, "heif", "ceres", "glog", *OPENCV, "opencv_imgcodecs"],
-    "all but imgcodecs": [*SMALL, "heif", "ceres", "glog", *OPENCV, "Open3D"],
-    "all but Open3D and imgcodecs": [*SMALL, "heif", "ceres", "glog", *OPENCV],
-    "all": [*SMALL, "heif", "ceres", "glog", *OPENCV, "opencv_imgcodecs", "Open3D"],
+    "all but imgcodecs": [*SMALL, "heif", "ceres", "glog", *OPENCV],
+    "all": [*SMALL, "heif", "ceres", "glog", *OPENCV, "opencv_imgcodecs"],
 }
 # Transitive dependencies under the GPL, or with parts under it.
 GPL = ["libpoppler", "libx265", "libspqr", "libcholmod"]

@@ -1,5 +1,4 @@
 #include <glog/logging.h>
-#include <open3d/utility/Logging.h>
 
 #include <iostream>
 #include <opencv2/core.hpp>
@@ -15,6 +14,4 @@ void ck_silence_libraries(void) {
   // OpenCV's decoders bypass its logger and write to this stream.
   std::cerr.rdbuf(nullptr);
   FLAGS_minloglevel = google::GLOG_FATAL;
-  open3d::utility::SetVerbosityLevel(open3d::utility::VerbosityLevel::Error);
-  open3d::utility::Logger::GetInstance().SetPrintFunction([](const std::string&) {});
 }

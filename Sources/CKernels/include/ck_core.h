@@ -92,8 +92,8 @@ const char* ck_last_error(void);
 /// changes, not forgery.
 uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 
-/// Suppresses the messages of OpenCV, glog and Open3D and everything that C++ code writes to
-/// `std::cerr`, and limits OpenCV to one thread, for the whole process.
+/// Suppresses the messages of OpenCV and glog, and everything that C++ code writes to `std::cerr`,
+/// and limits OpenCV to one thread, for the whole process.
 ///
 /// To be called once from the `main` of an executable, before the first kernel: kernels themselves
 /// do not change settings of the process.

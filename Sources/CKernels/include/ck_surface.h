@@ -19,17 +19,13 @@ typedef struct {
   double scale;
 } ck_poisson_options;
 
-/// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points.
+/// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points,
+/// with trilinear functions on an adaptive octree.
 ///
 /// Positions and normals (3 floats) have the same count; points that are not finite or have no
 /// normal are ignored. Triangles are counter-clockwise when seen from the side that the normals
-/// point to. Returns `ck_degenerate` if fewer than four points are left.
-///
-/// The solver runs on a thread of its own, and only on that one, because results of several threads
-/// differ between runs. It cannot be interrupted: a canceled call returns at once, but
-/// its solver runs to the end in the background. Until then it occupies a processor core, and the
-/// memory of the solver and of a copy of the points; later calls wait for its end first. The arrays
-/// of the caller are not used after the call.
+/// point to. The surface has no cracks; it is open where it leaves the cube. Returns
+/// `ck_degenerate` if fewer than four points are left, or if all are at one position.
 ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
                      const ck_control* control, ck_surface** surface);
 
@@ -37,10 +33,8 @@ ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_option
 size_t ck_surface_vertex_count(const ck_surface* surface);
 /// Number of triangles of the mesh.
 size_t ck_surface_triangle_count(const ck_surface* surface);
-/// Copies the positions (3 floats), the octree depth that the samples around each vertex support
-/// (the sampling density, one float per vertex), and three indices per triangle.
-void ck_surface_copy(const ck_surface* surface, ck_mutable_span positions, float* densities,
-                     uint32_t* triangles);
+/// Copies the positions (3 floats) and three indices per triangle.
+void ck_surface_copy(const ck_surface* surface, ck_mutable_span positions, uint32_t* triangles);
 /// Frees the mesh; null does nothing.
 void ck_surface_free(ck_surface* surface);
 

@@ -1,8 +1,8 @@
-#include <open3d/geometry/KDTreeFlann.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <nanoflann.hpp>
 #include <vector>
 
 #include "ck_surface.h"
@@ -15,22 +15,35 @@ namespace {
 /// Queries per unit of work.
 constexpr size_t kChunk = 4096;
 
-/// The finite points and their indices in the input.
-struct FinitePoints {
-  Eigen::MatrixXd matrix;
-  std::vector<int32_t> indices;
-
+/// The finite points and their indices in the input, as nanoflann's trees read them.
+class FinitePoints {
+ public:
   explicit FinitePoints(const ck::Strided<float>& points) {
     for (size_t i = 0; i < points.count; ++i) {
-      if (points.is_finite(i)) indices.push_back(static_cast<int32_t>(i));
-    }
-    matrix.resize(3, static_cast<Eigen::Index>(indices.size()));
-    for (size_t k = 0; k < indices.size(); ++k) {
-      const float* p = points[static_cast<size_t>(indices[k])];
-      matrix.col(static_cast<Eigen::Index>(k)) << p[0], p[1], p[2];
+      if (!points.is_finite(i)) continue;
+      indices_.push_back(static_cast<int32_t>(i));
+      positions_.push_back({points[i][0], points[i][1], points[i][2]});
     }
   }
+
+  bool is_empty() const { return indices_.empty(); }
+  int32_t index(uint32_t number) const { return indices_[number]; }
+
+  size_t kdtree_get_point_count() const { return positions_.size(); }
+  float kdtree_get_pt(uint32_t number, size_t axis) const { return positions_[number][axis]; }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+
+ private:
+  std::vector<int32_t> indices_;
+  std::vector<std::array<float, 3>> positions_;
 };
+
+using Tree =
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, FinitePoints, double>,
+                                        FinitePoints, 3, uint32_t>;
 
 }  // namespace
 
@@ -47,21 +60,24 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
     std::fill(indices, indices + query_count * width, -1);
     std::fill(distances, distances + query_count * width, std::numeric_limits<float>::infinity());
     const FinitePoints finite(points);
-    if (finite.indices.empty()) return;
+    if (finite.is_empty()) return;
     ck::step(control, 0);
-    const open3d::geometry::KDTreeFlann tree(finite.matrix);
+    Tree tree(3, finite);
+    tree.buildIndex();
     const ck::Strided<float> q(queries);
     ck::parallel_for(control, (query_count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      std::vector<int> found;
-      std::vector<double> squared;
+      std::vector<uint32_t> found(width);
+      std::vector<double> squared(width);
       const size_t end = std::min(query_count, (chunk + 1) * kChunk);
       for (size_t i = chunk * kChunk; i < end; ++i) {
         if (!q.is_finite(i)) continue;
-        const Eigen::Vector3d query(q[i][0], q[i][1], q[i][2]);
-        const int n = std::isfinite(reach) ? tree.SearchHybrid(query, reach, count, found, squared)
-                                           : tree.SearchKNN(query, count, found, squared);
-        for (int k = 0; k < std::min(n, count); ++k) {
-          indices[i * width + k] = finite.indices[found[k]];
+        nanoflann::KNNResultSet<double, uint32_t> nearest(width);
+        nearest.init(found.data(), squared.data());
+        // Until that many are found, the last one's distance is the limit, which is included.
+        squared.back() = std::nextafter(reach * reach, std::numeric_limits<double>::infinity());
+        tree.findNeighbors(nearest, q[i], nanoflann::SearchParams());
+        for (size_t k = 0; k < nearest.size(); ++k) {
+          indices[i * width + k] = finite.index(found[k]);
           distances[i * width + k] = static_cast<float>(std::sqrt(squared[k]));
         }
       }

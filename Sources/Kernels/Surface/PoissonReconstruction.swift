@@ -10,24 +10,14 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
 
   package init() {}
 
-  /// A surface with the sample density at its vertices.
-  package struct Surface: Sendable {
-    /// Positions and triangles only, counter-clockwise seen from the side that the normals point
-    /// to.
-    package var mesh: Mesh
-    /// The octree depth that the samples around each vertex support.
-    package var densities: [Float]
-  }
-
   /// Reconstructs the surface of oriented points; points that are not finite or have no normal are
   /// ignored.
   ///
-  /// A canceled call returns at once, but its solver can't be interrupted: it occupies a processor
-  /// core and its memory until it ends. Later calls wait for that, so that together they don't
-  /// exceed the limits of the machine.
+  /// The mesh has positions and triangles only, counter-clockwise seen from the side that the
+  /// normals point to. It has no cracks, and is open only where it leaves the cube.
   package func surface(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], _ control: KernelControl
-  ) throws -> Surface {
+  ) throws -> Mesh {
     guard positions.count == normals.count else {
       throw KernelError.invalidArgument("as many normals as positions are needed")
     }
@@ -37,7 +27,7 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
       withSpans(positions, normals) { ck_poisson($0, $1, &options, control, &handle) }
     }
     guard let handle else { throw KernelError.failed("no surface") }
-    return SurfaceHandle(handle).surface
+    return SurfaceHandle(handle).mesh
   }
 }
 
@@ -49,16 +39,12 @@ private final class SurfaceHandle {
 
   deinit { ck_surface_free(raw) }
 
-  var surface: PoissonReconstruction.Surface {
-    let count = ck_surface_vertex_count(raw)
+  var mesh: Mesh {
     var mesh = Mesh(
-      positions: Array(repeating: .zero, count: count),
+      positions: Array(repeating: .zero, count: ck_surface_vertex_count(raw)),
       triangles: Array(
         repeating: Triangle(0, 0, 0), count: ck_surface_triangle_count(raw)))
-    var densities = [Float](repeating: 0, count: count)
-    mesh.withMutableKernelValue {
-      ck_surface_copy(raw, $0.positions, &densities, $0.triangles)
-    }
-    return PoissonReconstruction.Surface(mesh: mesh, densities: densities)
+    mesh.withMutableKernelValue { ck_surface_copy(raw, $0.positions, $0.triangles) }
+    return mesh
   }
 }

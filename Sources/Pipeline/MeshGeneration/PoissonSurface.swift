@@ -14,8 +14,6 @@ struct PoissonSurface {
     var scale = 1.1
     /// Minimum number of points.
     var minimumPoints = 20
-    /// Number of attempts, each with a coarser octree.
-    var attempts = 3
 
     init() {}
   }
@@ -36,23 +34,24 @@ struct PoissonSurface {
     var solver = PoissonReconstruction()
     solver.scale = options.scale
     let extent = Double((bounds.max - bounds.min).max())
-    let depth = depth(extent: extent, spacing: spacing)
-    var failure = ""
-    // The solver fails on rare inputs ("failed to close loop"); a coarser octree avoids them.
-    for coarser in 0..<options.attempts where depth - coarser >= 2 {
-      solver.depth = depth - coarser
-      do {
-        let surface = try solver.surface(
-          positions: cloud.positions, normals: cloud.normals, context.control)
-        guard !surface.mesh.triangles.isEmpty else { continue }
-        context.notes.record("poissonDepth", Double(solver.depth))
-        return (surface.mesh, options.scale * extent / exp2(Double(solver.depth)))
-      } catch let error as KernelError where error != .outOfMemory {
-        failure = " (\(error))"
-      }
+    solver.depth = depth(extent: extent, spacing: spacing)
+    let mesh = try surface(of: cloud, solver, context.control)
+    guard !mesh.triangles.isEmpty else {
+      throw PipelineError.noSurface(reason: "no surface fits the \(cloud.count) points.")
     }
-    throw PipelineError.noSurface(
-      reason: "no surface fits the \(cloud.count) points\(failure).")
+    context.notes.record("poissonDepth", Double(solver.depth))
+    return (mesh, options.scale * extent / exp2(Double(solver.depth)))
+  }
+
+  private func surface(
+    of cloud: PointCloud, _ solver: PoissonReconstruction, _ control: KernelControl
+  ) throws -> Mesh {
+    do {
+      return try solver.surface(positions: cloud.positions, normals: cloud.normals, control)
+    } catch let error as KernelError where error != .outOfMemory {
+      throw PipelineError.noSurface(
+        reason: "no surface fits the \(cloud.count) points (\(error)).")
+    }
   }
 
   /// The depth at which a cell is 1 to 1.5 (at most 2) spacings wide.

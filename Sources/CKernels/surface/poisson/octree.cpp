@@ -1,0 +1,146 @@
+#include "surface/poisson/octree.h"
+
+#include "surface/poisson/field.h"
+
+namespace ck::poisson {
+
+namespace {
+
+/// The first of the four cells per axis that are the children of the two parents nearest to a cell.
+int first_child(int cell) { return (cell - 1) & ~1; }
+
+/// The bricks that hold the cells, their nodes, and the nodes around these.
+BrickSet make_bricks(const Level& level, const Samples& samples) {
+  BrickCodes codes;
+  if (level.depth <= kFullDepth) {
+    codes.add({0, 0, 0}, 0, level.side(), level.side());
+    return BrickSet(codes.take());
+  }
+  samples.for_cells(
+      0, samples.samples.size(), level.depth, level.least_depth(), [&](const Coordinates& c) {
+        const Coordinates first{first_child(c[0]), first_child(c[1]), first_child(c[2])};
+        codes.add(first, 1, 5, level.side());
+      });
+  return BrickSet(codes.take());
+}
+
+void mark_all_cells(Level& level) {
+  for (size_t b = 0; b < level.bricks.count(); ++b) {
+    const Coordinates corner = level.bricks.coordinates(b);
+    for (int i = 0; i < kBrick; ++i) {
+      const Coordinates at = local_coordinates(i);
+      bool exists = true;
+      for (size_t a = 0; a < 3; ++a) exists = exists && kSide * corner[a] + at[a] < level.side();
+      level.cells[b][i] = exists;
+    }
+  }
+}
+
+/// Marks the children of the parents around the cells that have samples.
+void mark_sampled_cells(Level& level, const Samples& samples, const ck_control* control) {
+  for_colors(level.bricks, 3, control, [&](size_t b) {
+    const auto [first, last] = samples.range(level.bricks.code(b), level.depth);
+    const Coordinates corner = level.bricks.coordinates(b);
+    const auto mark = [&](const Coordinates& c) {
+      for (int i = 0; i < 64; ++i) {
+        const int offsets[3] = {i & 3, i >> 2 & 3, i >> 4};
+        Coordinates at;
+        bool exists = true;
+        for (size_t a = 0; a < 3; ++a) {
+          const int cell = first_child(c[a]) + offsets[a];
+          exists = exists && cell >= 0 && cell < level.side();
+          at[a] = cell - kSide * corner[a];
+        }
+        if (!exists) continue;
+        const auto [other, index] = resolve(level.bricks, b, at);
+        level.cells[other][index] = true;
+      }
+    };
+    samples.for_cells(first, last, level.depth, level.least_depth(), mark);
+  });
+}
+
+/// Marks the corners of the cells.
+void mark_nodes(Level& level, const ck_control* control) {
+  parallel_for(control, level.bricks.count(), [&](size_t b) {
+    for (int i = 0; i < kBrick; ++i) {
+      const Coordinates node = local_coordinates(i);
+      const Coordinates low{node[0] - 1, node[1] - 1, node[2] - 1};
+      for (int k = 0; k < 8 && !level.nodes[b][i]; ++k) {
+        level.nodes[b][i] = level.has_cell(b, corner(low, k));
+      }
+    }
+  });
+}
+
+/// Averages the samples of each cell, whatever their depth.
+std::vector<CellSample> average_samples(const Level& level, size_t b, const Samples& samples) {
+  std::vector<CellSample> averages;
+  const auto [first, last] = samples.range(level.bricks.code(b), level.depth);
+  const double side = level.side();
+  for (size_t i = first, end; i < last; i = end) {
+    const uint64_t code = level.cell_code(samples.samples[i]);
+    const Coordinates c = from_morton(code);
+    double area = 0;
+    std::array<double, 3> sum{};
+    for (end = i; end < last && level.cell_code(samples.samples[end]) == code; ++end) {
+      const Sample& s = samples.samples[end];
+      area += s.area;
+      for (size_t a = 0; a < 3; ++a) sum[a] += s.area * (s.position[a] * side - c[a]);
+    }
+    const size_t index = local_index(c);
+    if (!level.cells[b][index]) continue;
+    CellSample average{static_cast<uint16_t>(index), static_cast<float>(area * side * side), {}};
+    for (size_t a = 0; a < 3; ++a) average.position[a] = static_cast<float>(sum[a] / area);
+    averages.push_back(average);
+  }
+  return averages;
+}
+
+void gather_samples(Level& level, const Samples& samples, const ck_control* control) {
+  std::vector<std::vector<CellSample>> parts(level.bricks.count());
+  parallel_for(control, parts.size(),
+               [&](size_t b) { parts[b] = average_samples(level, b, samples); });
+  level.offsets.assign(1, 0);
+  for (const std::vector<CellSample>& part : parts) {
+    level.samples.insert(level.samples.end(), part.begin(), part.end());
+    level.offsets.push_back(static_cast<uint32_t>(level.samples.size()));
+  }
+}
+
+void find_parents(Level& level, const Level& above) {
+  for (size_t b = 0; b < level.bricks.count(); ++b) {
+    const Coordinates c = level.bricks.coordinates(b);
+    level.parents.push_back(above.bricks.find({c[0] >> 1, c[1] >> 1, c[2] >> 1}));
+  }
+}
+
+}  // namespace
+
+bool Level::has_cell(size_t brick, const Coordinates& at) const {
+  const auto [other, index] = resolve(bricks, brick, at);
+  return other >= 0 && cells[other][index];
+}
+
+std::vector<Level> make_levels(const Samples& samples, int depth, const ck_control* control) {
+  std::vector<Level> levels;
+  for (int d = kFirstDepth; d <= std::max(depth, kFirstDepth); ++d) {
+    const ProgressPart part(control, static_cast<double>(d - kFirstDepth) / (depth + 1),
+                            static_cast<double>(d + 1 - kFirstDepth) / (depth + 1));
+    Level level;
+    level.depth = d;
+    level.bricks = make_bricks(level, samples);
+    const size_t count = level.bricks.count();
+    if (count == 0) break;
+    level.cells.resize(count);
+    level.nodes.resize(count);
+    d <= kFullDepth ? mark_all_cells(level) : mark_sampled_cells(level, samples, part.control());
+    mark_nodes(level, part.control());
+    gather_samples(level, samples, part.control());
+    if (!levels.empty()) find_parents(level, levels.back());
+    levels.push_back(std::move(level));
+  }
+  return levels;
+}
+
+}  // namespace ck::poisson

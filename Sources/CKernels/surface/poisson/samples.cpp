@@ -1,0 +1,70 @@
+#include "surface/poisson/samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/guard.h"
+
+namespace ck::poisson {
+
+Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale) {
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < p.count; ++i) {
+    if (!p.is_finite(i) || !n.is_finite(i)) continue;
+    const double length = std::hypot(n[i][0], n[i][1], n[i][2]);
+    if (!(length > 0)) continue;
+    Sample s{};
+    for (size_t a = 0; a < 3; ++a) {
+      s.position[a] = p[i][a];
+      s.normal[a] = static_cast<float>(n[i][a] / length);
+      low[a] = std::min<double>(low[a], p[i][a]);
+      high[a] = std::max<double>(high[a], p[i][a]);
+    }
+    samples.push_back(s);
+  }
+  if (samples.size() < 4) throw Degenerate("fewer than four oriented points");
+  side = 0;
+  for (size_t a = 0; a < 3; ++a) side = std::max(side, scale * (high[a] - low[a]));
+  if (!(side > 0)) throw Degenerate("all points are at one position");
+  for (size_t a = 0; a < 3; ++a) origin[a] = (low[a] + high[a]) / 2 - side / 2;
+  for (Sample& s : samples) move_to_cube(s);
+  sort();
+}
+
+/// Samples of one cell stay in the order of the input.
+void Samples::sort() {
+  std::vector<std::pair<uint64_t, size_t>> order;
+  for (size_t i = 0; i < samples.size(); ++i) order.emplace_back(samples[i].code, i);
+  std::sort(order.begin(), order.end());
+  std::vector<Sample> sorted;
+  sorted.reserve(samples.size());
+  for (const auto& [code, i] : order) sorted.push_back(samples[i]);
+  samples = std::move(sorted);
+}
+
+void Samples::move_to_cube(Sample& s) const {
+  const float largest = std::nextafter(1.0f, 0.0f);
+  Coordinates cell;
+  for (size_t a = 0; a < 3; ++a) {
+    const double at = (static_cast<double>(s.position[a]) - origin[a]) / side;
+    s.position[a] = std::clamp(static_cast<float>(at), 0.0f, largest);
+    cell[a] = static_cast<int>(std::ldexp(s.position[a], kCodeDepth));
+  }
+  s.code = morton(cell);
+}
+
+std::pair<size_t, size_t> Samples::range(uint64_t brick_code, int depth) const {
+  // Above depth 3 a brick is a cell of the level three above; below, it is the cube.
+  const int brick_depth = std::max(0, depth - 3), shift = 3 * (kCodeDepth - brick_depth);
+  // Nodes at the far sides of the cube are in bricks without cells.
+  if (brick_code >> 3 * brick_depth != 0) return {0, 0};
+  const auto before = [](const Sample& s, uint64_t code) { return s.code < code; };
+  const auto first = std::lower_bound(samples.begin(), samples.end(), brick_code << shift, before);
+  const auto last = std::lower_bound(first, samples.end(), (brick_code + 1) << shift, before);
+  return {first - samples.begin(), last - samples.begin()};
+}
+
+}  // namespace ck::poisson

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/span.h"
+#include "surface/poisson/bricks.h"
+
+namespace ck::poisson {
+
+/// An oriented point in the unit cube.
+struct Sample {
+  /// 0 to less than 1 per axis.
+  std::array<float, 3> position;
+  /// Of unit length.
+  std::array<float, 3> normal;
+  /// The area of the surface that it represents.
+  float area;
+  /// The depth at which cells are about as large as the distance to the next samples.
+  float depth;
+  /// Of its cell at `kCodeDepth`, in Morton order.
+  uint64_t code;
+};
+
+constexpr int kCodeDepth = 21;
+
+/// The finite points with a normal, in Morton order, with the transform to their frame:
+/// world = origin + side × position.
+struct Samples {
+  std::vector<Sample> samples;
+  std::array<double, 3> origin{};
+  double side = 1;
+
+  /// `scale` is the side of the cube relative to the largest extent of the points. Throws
+  /// `Degenerate` if fewer than four are left, or all at one position.
+  Samples(const Strided<float>& positions, const Strided<float>& normals, double scale);
+
+  /// The samples in a brick of a level: from `first` to before `second`.
+  std::pair<size_t, size_t> range(uint64_t brick_code, int depth) const;
+
+  /// Calls `body(cell)` for each cell of a level with samples of at least `least` depth among those
+  /// from `first` to before `last`.
+  template <typename Body>
+  void for_cells(size_t first, size_t last, int depth, float least, Body&& body) const {
+    uint64_t before = UINT64_MAX;
+    for (size_t i = first; i < last; ++i) {
+      const uint64_t cell = samples[i].code >> 3 * (kCodeDepth - depth);
+      if (cell == before || samples[i].depth < least) continue;
+      before = cell;
+      body(from_morton(cell));
+    }
+  }
+
+ private:
+  void move_to_cube(Sample& sample) const;
+  void sort();
+};
+
+/// The quadratic B-spline weights of the 27 nodes around a position.
+class SplineWeights {
+ public:
+  /// Nodes are relative to the brick at `corner`, in bricks, of a level with `side` cells per axis.
+  SplineWeights(const std::array<float, 3>& position, const Coordinates& corner, int side) {
+    for (size_t a = 0; a < 3; ++a) {
+      const double at = static_cast<double>(position[a]) * side, nearest = std::floor(at + 0.5);
+      const double d = at - nearest;
+      first_[a] = static_cast<int>(nearest) - 1 - kSide * corner[a];
+      weights_[a] = {static_cast<float>(0.5 * (0.5 - d) * (0.5 - d)),
+                     static_cast<float>(0.75 - d * d),
+                     static_cast<float>(0.5 * (0.5 + d) * (0.5 + d))};
+    }
+  }
+
+  Coordinates node(int n) const {
+    return {first_[0] + n % 3, first_[1] + n / 3 % 3, first_[2] + n / 9};
+  }
+  float weight(int n) const {
+    return weights_[0][n % 3] * weights_[1][n / 3 % 3] * weights_[2][n / 9];
+  }
+
+ private:
+  Coordinates first_;
+  std::array<std::array<float, 3>, 3> weights_;
+};
+
+}  // namespace ck::poisson
