@@ -3,7 +3,8 @@ import Foundation
 /// Expected durations of the stages of a run, before anything is measured.
 ///
 /// Fitted to ten runs with two threads and 8 to 40 photos of 0.5 to 6 megapixels, at all detail
-/// levels from preview to full. Meshing and texture mapping are mostly single-threaded.
+/// levels from preview to full; meshing scaled to boot, orbit and saharov32 at reduced and boot at
+/// medium since its solver uses all threads. Texture mapping is mostly single-threaded.
 package struct StageDurationModel: Sendable {
   /// The work that yields cameras and sparse points.
   package enum AlignmentWork: Sendable {
@@ -58,7 +59,7 @@ package struct StageDurationModel: Sendable {
     case .objectMasking: photos.masked > 0 ? 0 : maskingSeconds(count) / threads
     case .pointCloudGeneration: 0.4 + 1.84 * denseShare * count * view / threads
     // The octree usually has the same depth for 0.2 MP and 0.5 MP, and is shallower below 0.12 MP.
-    case .meshGeneration: view < 0.12 ? 4.2 : 14.5 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
+    case .meshGeneration: view < 0.12 ? 1.5 : 5.2 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
     case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
     case .optimization: 0.1 + 0.06 * texels
     }
