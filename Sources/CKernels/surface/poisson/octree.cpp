@@ -6,21 +6,40 @@ namespace ck::poisson {
 
 namespace {
 
-/// The first of the four cells per axis that are the children of the two parents nearest to a cell.
-int first_child(int cell) { return (cell - 1) & ~1; }
+/// The cells that exist around a sample, as a range per axis: all children of some parents.
+///
+/// At the finest level, these are the two parents per axis that are nearest to the sample's cell.
+/// Coarser levels reach farther: where there are no samples, triangles grow with the distance from
+/// them, not at once.
+class Surroundings {
+ public:
+  explicit Surroundings(int levels_below) : reach_(std::min(levels_below, 2)) {}
+
+  int count() const { return reach_ == 0 ? 4 : 4 * reach_ + 2; }
+  Coordinates first(const Coordinates& cell) const {
+    Coordinates first;
+    for (size_t a = 0; a < 3; ++a) {
+      first[a] = reach_ == 0 ? (cell[a] - 1) & ~1 : 2 * ((cell[a] >> 1) - reach_);
+    }
+    return first;
+  }
+
+ private:
+  /// Number of parents on each side of a cell's parent.
+  int reach_;
+};
 
 /// The bricks that hold the cells, their nodes, and the nodes around these.
-BrickSet make_bricks(const Level& level, const Samples& samples) {
+BrickSet make_bricks(const Level& level, const Samples& samples, const Surroundings& around) {
   BrickCodes codes;
   if (level.depth <= kFullDepth) {
     codes.add({0, 0, 0}, 0, level.side(), level.side());
     return BrickSet(codes.take());
   }
-  samples.for_cells(
-      0, samples.samples.size(), level.depth, level.least_depth(), [&](const Coordinates& c) {
-        const Coordinates first{first_child(c[0]), first_child(c[1]), first_child(c[2])};
-        codes.add(first, 1, 5, level.side());
-      });
+  const auto add = [&](const Coordinates& cell) {
+    codes.add(around.first(cell), 1, around.count() + 1, level.side());
+  };
+  samples.for_cells(0, samples.samples.size(), level.depth, level.least_depth(), add);
   return BrickSet(codes.take());
 }
 
@@ -36,18 +55,25 @@ void mark_all_cells(Level& level) {
   }
 }
 
-/// Marks the children of the parents around the cells that have samples.
-void mark_sampled_cells(Level& level, const Samples& samples, const ck_control* control) {
+/// Marks the cells around those that have samples.
+void mark_sampled_cells(Level& level, const Samples& samples, const Surroundings& around,
+                        const ck_control* control) {
+  const int count = around.count();
   for_colors(level.bricks, 3, control, [&](size_t b) {
     const auto [first, last] = samples.range(level.bricks.code(b), level.depth);
     const Coordinates corner = level.bricks.coordinates(b);
+    Coordinates before{-kSide, -kSide, -kSide};
     const auto mark = [&](const Coordinates& c) {
-      for (int i = 0; i < 64; ++i) {
-        const int offsets[3] = {i & 3, i >> 2 & 3, i >> 4};
+      const Coordinates low = around.first(c);
+      // Siblings, which follow each other, may have the same surroundings.
+      if (low == before) return;
+      before = low;
+      for (int i = 0; i < count * count * count; ++i) {
+        const int offsets[3] = {i % count, i / count % count, i / (count * count)};
         Coordinates at;
         bool exists = true;
         for (size_t a = 0; a < 3; ++a) {
-          const int cell = first_child(c[a]) + offsets[a];
+          const int cell = low[a] + offsets[a];
           exists = exists && cell >= 0 && cell < level.side();
           at[a] = cell - kSide * corner[a];
         }
@@ -129,12 +155,14 @@ std::vector<Level> make_levels(const Samples& samples, int depth, const ck_contr
                             static_cast<double>(d + 1 - kFirstDepth) / (depth + 1));
     Level level;
     level.depth = d;
-    level.bricks = make_bricks(level, samples);
+    const Surroundings around(depth - d);
+    level.bricks = make_bricks(level, samples, around);
     const size_t count = level.bricks.count();
     if (count == 0) break;
     level.cells.resize(count);
     level.nodes.resize(count);
-    d <= kFullDepth ? mark_all_cells(level) : mark_sampled_cells(level, samples, part.control());
+    d <= kFullDepth ? mark_all_cells(level)
+                    : mark_sampled_cells(level, samples, around, part.control());
     mark_nodes(level, part.control());
     gather_samples(level, samples, part.control());
     if (!levels.empty()) find_parents(level, levels.back());
