@@ -1,5 +1,6 @@
+#include <array>
 #include <cstring>
-#include <memory>
+#include <vector>
 
 #include "ck_surface.h"
 #include "core/guard.h"

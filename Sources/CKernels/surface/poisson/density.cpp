@@ -12,12 +12,12 @@ namespace {
 /// Number of samples, weighted by the kernel, from which on their density is known well enough:
 /// that of about seven. Chosen.
 constexpr double kSufficientCount = 4;
-/// The weights of samples on a plane, with one per cell, at a point of it: the mean over the
-/// distances of the plane from the nodes, for planes along an axis.
+/// The count at a point of a plane with one sample per cell: the mean over the distances of the
+/// plane from the nodes, for planes along an axis (computed: 0.599).
 constexpr double kPlaneCount = 0.6;
 /// Cells with this many samples resolve them (the default of Kazhdan and Hoppe's program).
 constexpr double kSamplesPerCell = 1.5;
-/// Level of depth below which no density is estimated.
+/// The coarsest level by which density is estimated: 8 cells per axis. Chosen.
 constexpr int kCoarsestDensity = 3;
 
 /// The bricks of the nodes that the samples' weights reach.

@@ -48,8 +48,9 @@ struct Level {
 };
 
 /// Levels down to this depth have all cells; the others, those around samples that are dense enough
-/// for them.
+/// for them. It is the default of Kazhdan and Hoppe's program.
 constexpr int kFullDepth = 5;
+/// The first level's 125 nodes are solved well by the sweeps that it gets. Chosen.
 constexpr int kFirstDepth = 2;
 
 /// The levels from `kFirstDepth` to at most `depth`, without values.

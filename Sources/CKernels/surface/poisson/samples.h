@@ -25,6 +25,7 @@ struct Sample {
   uint64_t code;
 };
 
+/// The depth at which a code of three coordinates fits 64 bits.
 constexpr int kCodeDepth = 21;
 
 /// The finite points with a normal, in Morton order, with the transform to their frame:
