@@ -87,30 +87,53 @@ struct IsolationSamples {
     return .object(isObject, support)
   }
 
-  /// The plane that the object stands on. Where the surroundings have no texture, a face of the
-  /// object may be the dominant plane, which is none.
+  /// The plane that the object stands on. Where the surroundings have little texture, a face of the
+  /// object may be the dominant plane: its top, which what it stands on lies below.
   private func support(of region: [Int], _ context: StageContext) throws -> SupportPlane? {
     let detection = SupportPlaneDetection(options: options.support)
-    let positions = region.map { cloud.positions[$0] }
-    let normals = cloud.normals.isEmpty ? [] : region.map { cloud.normals[$0] }
-    let found = detection.run(
-      positions: positions, normals: normals, up: up, isUpKnown: isUpKnown, focus: focus,
-      cell: cell)
-    guard let found else { return nil }
-    let division = detection.divide(positions, normals, by: found, focus: focus, cell: cell)
+    guard let (found, division) = plane(of: region, detection) else { return nil }
     if options.showsOnlyObject {
       return detection.surrounds(found, division) && !detection.hasSideFaces(division) ? found : nil
     }
-    return try detection.hasSideFaces(division) && isBounded(context) ? nil : found
+    guard detection.hasSideFaces(division) else { return found }
+    let rest = region.filter {
+      abs(found.height(of: SIMD3<Double>(cloud.positions[$0]))) > found.band
+    }
+    if let (lower, division) = plane(of: rest, detection),
+      detection.surrounds(lower, division), !detection.hasSideFaces(division),
+      try isBounded(on: lower, context)
+    {
+      return lower
+    }
+    return try isBounded(on: nil, context) ? nil : found
   }
 
-  /// Whether all that is seen is one object.
-  private func isBounded(_ context: StageContext) throws -> Bool {
+  /// The dominant plane of the samples `indices`, and how it divides them.
+  private func plane(
+    of indices: [Int], _ detection: SupportPlaneDetection
+  ) -> (SupportPlane, SupportPlaneDetection.Division)? {
+    let positions = indices.map { cloud.positions[$0] }
+    let normals = cloud.normals.isEmpty ? [] : indices.map { cloud.normals[$0] }
+    let found = detection.run(
+      positions: positions, normals: normals, up: up, isUpKnown: isUpKnown, focus: focus,
+      cell: cell)
+    return found.map {
+      ($0, detection.divide(positions, normals, by: $0, focus: focus, cell: cell))
+    }
+  }
+
+  /// Whether all that is seen is one object, on `support` if there is one.
+  private func isBounded(on support: SupportPlane?, _ context: StageContext) throws -> Bool {
+    let isOff = cloud.positions.map { position in
+      support.map { abs($0.height(of: SIMD3<Double>(position))) > $0.band } ?? true
+    }
     let isNear = cloud.positions.indices.map {
-      Double(coverage[$0]) >= options.objectCoverage && Double(distance[$0]) < options.reach
+      isOff[$0] && Double(coverage[$0]) >= options.objectCoverage
+        && Double(distance[$0]) < options.reach
     }
     guard let isObject = try object(isNear, on: nil, context) else { return false }
-    return Double(isObject.count { $0 }) >= options.minimumBoundedShare * Double(cloud.count)
+    return Double(isObject.count { $0 })
+      >= options.minimumBoundedShare * Double(isOff.count { $0 })
   }
 
   /// The candidates in the main component and in those that belong to it; nil without any.

@@ -71,6 +71,43 @@ import Testing
     #expect(keptShare(result, scene, label: 0) <= 0.01)
   }
 
+  /// The top of the base has more points than the turntable, which has little texture. A table
+  /// whose side is visible in a room, however, supports what stands on it.
+  @Test(arguments: [true, false]) func topOfTheBaseIsNoSupport(isInRoom: Bool) throws {
+    var scene = IsolationScene()
+    let reconstruction = scene.reconstruction()
+    let centers = reconstruction.poses.compactMap { $0?.center }
+    scene.addBall(center: [0, 0.35, 0], radius: 0.35, label: 1, centers: centers)
+    scene.addPlane(radius: 0.5, label: 2, centers: centers) { $0.length > 0.1 }
+    for turn in 0..<150 {
+      let out = SIMD3(cos(Double(turn) * .pi / 75), 0, sin(Double(turn) * .pi / 75))
+      for layer in 1...13 {
+        scene.add(
+          0.5 * out - [0, 0.02 * Double(layer), 0], normal: out, label: 3, centers: centers)
+      }
+      for ring in 0..<8 where (turn + ring) % 2 == 0 {
+        scene.add(
+          (0.53 + 0.06 * Double(ring)) * out - [0, 0.26, 0], normal: [0, 1, 0], label: 0,
+          centers: centers)
+      }
+    }
+    if isInRoom {
+      for turn in 0..<12 {
+        let angle = Double(turn) * .pi / 6
+        scene.addBall(
+          center: [1.6 * cos(angle), 0.1, 1.6 * sin(angle)], radius: 0.2, label: 4,
+          centers: centers)
+      }
+    }
+    let result = try ObjectIsolation().run(scene.cloud, reconstruction, StageContext())
+    #expect(result.failure == nil)
+    let support = try #require(result.support)
+    #expect(abs(support.offset - (isInRoom ? 0 : -0.26)) < 0.02)
+    #expect(keptShare(result, scene, label: 1) >= 0.99)
+    #expect(keptShare(result, scene, label: 3) == (isInRoom ? 0 : 1))
+    #expect(keptShare(result, scene, label: 0) <= 0.01)
+  }
+
   @Test func objectWithoutSupportIsIsolated() throws {
     var scene = IsolationScene()
     let reconstruction = scene.reconstruction()
