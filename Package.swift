@@ -65,12 +65,11 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "CKernels",
       dependencies: [
         "CCeres", "CDeflate", "CEigen", "CEmbree", "CGlog", "CHEIF", "CJPEG", "CLittleCMS",
-        "CNanoflann", "COpenCV", "CPNG", "CXXHash",
+        "CNanoflann", "COpenCV", "CPNG", "CTIFF", "CWebP", "CXXHash",
       ],
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
-        .linkedLibrary("opencv_imgcodecs"),
         .linkedLibrary("ceres"), .linkedLibrary("embree3"),
       ]),
     systemLibrary("CCeres", apt: ["libceres-dev"]),
@@ -84,8 +83,10 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     systemLibrary("CNanoflann", apt: ["libnanoflann-dev"]),
     systemLibrary(
       "COpenCV",
-      apt: ["libopencv-core-dev", "libopencv-imgproc-dev", "libopencv-imgcodecs-dev"]),
+      apt: ["libopencv-core-dev", "libopencv-imgproc-dev"]),
     systemLibrary("CPNG", pkgConfig: "libpng", apt: ["libpng-dev"]),
+    systemLibrary("CTIFF", pkgConfig: "libtiff-4", apt: ["libtiff-dev"]),
+    systemLibrary("CWebP", pkgConfig: "libwebp", apt: ["libwebp-dev"]),
     systemLibrary("CXXHash", pkgConfig: "libxxhash", apt: ["libxxhash-dev"]),
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(
@@ -122,8 +123,8 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(
       name: "EngineCommands",
       dependencies: [
-        argumentParser, logging, "SharedCommands", "RealityKit", "RealityFoundation", "Pipeline",
-        "Kernels", "Evaluation", "Formats", "SceneModel",
+        argumentParser, logging, "SharedCommands", "RealityFoundation", "Pipeline", "Kernels",
+        "Evaluation", "Formats", "SceneModel",
       ],
       swiftSettings: strict),
     .target(
@@ -188,7 +189,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]
-  sharedCommands.append("RealityKit")
+  sharedCommands.append("RealityFoundation")
   program.append("EngineCommands")
 #endif
 

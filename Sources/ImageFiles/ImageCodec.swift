@@ -84,12 +84,13 @@ package enum ImageCodec {
   package static func decodeNumbers(
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
+    let colors = ImageError.unsupportedFormat(
+      "a color image, where one with a number per pixel is expected")
+    guard try ImageHeader(bytes).format == .tiff else { throw colors }
     let decoded = try decode(bytes, channels: 4, limits) {
       ck_image_decode_float(bytes, bytes.count, $1, $2)
     }
-    guard !decoded.pixels.isEmpty else {
-      throw .unsupportedFormat("a color image, where one with a number per pixel is expected")
-    }
+    guard !decoded.pixels.isEmpty else { throw colors }
     let values = decoded.pixels.withUnsafeBytes { Array($0.bindMemory(to: Float.self)) }
     return (decoded.width, decoded.height, values)
   }
@@ -109,7 +110,9 @@ package enum ImageCodec {
       case .jpeg: ck_codec_jpeg
       case .png: ck_codec_png
       case .heic, .avif: ck_codec_heif
-      case .tiff, .bmp, .webP: ck_codec_other
+      case .tiff: ck_codec_tiff
+      case .webP: ck_codec_webp
+      case .bmp: ck_codec_bmp
       }
     let rawLimits = ck_decode_limits(
       maximum_side: Int32(clamping: limits.maximumSide),
@@ -119,8 +122,8 @@ package enum ImageCodec {
       try withKernel(KernelControl()) { _ in
         withUnsafePointer(to: rawLimits) { body(codec, $0, &image) }
       }
-    } catch KernelError.invalidArgument where codec == ck_codec_heif {
-      throw HEIFFile.unsupported(header.format)
+    } catch KernelError.invalidArgument {
+      throw header.format.unsupportedVariant
     } catch {
       throw .damaged("its \(header.format.rawValue) data is damaged (\(message(of: error)))")
     }

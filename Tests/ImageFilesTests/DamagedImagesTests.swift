@@ -34,7 +34,7 @@ import Testing
         content.colorProfile = ICCWriter.profile(.displayP3)
         return try ImageCodec.encodeHEIC(image, content)
       case .webP: return Self.webP(ExifWriter.tiff(fields))
-      case .bmp: return Self.bitmap
+      case .bmp: return BMPWriter.file(image)
       }
     }
 
@@ -47,14 +47,6 @@ import Testing
         Array("WEBP".utf8) + chunk("VP8X", [0x28, 0, 0, 0, 23, 0, 0, 15, 0, 0])
         + chunk("ICCP", ICCWriter.profile(.sRGB)) + chunk("EXIF", exif)
       return Array("RIFF".utf8) + littleEndian(content.count) + content
-    }
-
-    /// 24 × 16 gray pixels of 24 bits.
-    private static var bitmap: [UInt8] {
-      let pixels = [UInt8](repeating: 99, count: 24 * 16 * 3)
-      let layout = [54 + pixels.count, 0, 54, 40, 24, 16].flatMap { littleEndian($0) }
-      let coding = [0, pixels.count, 2835, 2835, 0, 0].flatMap { littleEndian($0) }
-      return Array("BM".utf8) + layout + [1, 0, 24, 0] + coding + pixels
     }
   }
 

@@ -85,12 +85,77 @@ import Testing
     let upsideDown = TIFFWriter.rgba(image, orientation: 3)
     #expect(try ImageCodec.decodeAlpha(upsideDown) == alpha.turned(byOrientation: 3))
     #expect(try ImageCodec.decode(upsideDown).width == 6)
+    let webP = try ImageCodec.decodeAlpha(Self.webP)
+    #expect(webP == RasterImage(width: 2, height: 1, channels: 1, pixels: [0, 128]))
     for opaque in [
       try ImageCodec.encodePNG(pattern()), try ImageCodec.encodeJPEG(pattern(), quality: 0.9),
     ] {
       #expect(try ImageCodec.decodeAlpha(opaque) == nil)
     }
     #expect(throws: ImageError.self) { try ImageCodec.decodeAlpha(Array(png.dropLast(30))) }
+  }
+
+  /// Two pixels without loss, the first of which is transparent: (200, 100, 50), (10, 20, 30).
+  private static let webP: [UInt8] = [
+    0x52, 0x49, 0x46, 0x46, 0x20, 0x00, 0x00, 0x00, 0x57, 0x45, 0x42, 0x50,
+    0x56, 0x50, 0x38, 0x4C, 0x14, 0x00, 0x00, 0x00, 0x2F, 0x01, 0x00, 0x00,
+    0x10, 0x0F, 0x70, 0x0A, 0xA8, 0x2B, 0xF8, 0x9E, 0xC2, 0xA3, 0x80, 0xC1,
+    0x21, 0x23, 0xFA, 0x1F,
+  ]
+
+  @Test func webPKeepsTheColorsOfTransparentPixels() throws {
+    #expect(
+      try ImageCodec.decode(Self.webP)
+        == RasterImage(width: 2, height: 1, channels: 3, pixels: [200, 100, 50, 10, 20, 30]))
+  }
+
+  @Test(arguments: 1...8) func tiffIsUprightAndKeepsTransparentColors(orientation: Int) throws {
+    let colors = pattern(width: 7, height: 5)
+    var image = RasterImage(width: 7, height: 5, channels: 4)
+    for pixel in 0..<35 {
+      for channel in 0..<3 {
+        image.pixels[4 * pixel + channel] = colors.pixels[3 * pixel + channel]
+      }
+      image.pixels[4 * pixel + 3] = UInt8(pixel % 3 * 100)
+    }
+    #expect(
+      try ImageCodec.decode(TIFFWriter.rgba(image, orientation: orientation))
+        == colors.turned(byOrientation: orientation))
+  }
+
+  @Test func numbersAreReadExactly() throws {
+    let values: [Float] = [0, -1.5, .infinity, 3e-20, 7, 1e20]
+    let decoded = try ImageCodec.decodeNumbers(
+      TIFFWriter.numbers(width: 3, height: 2, values))
+    #expect(decoded.width == 3 && decoded.height == 2 && decoded.values == values)
+    for colors in [
+      try ImageCodec.encodePNG(pattern()),
+      TIFFWriter.rgba(RasterImage(width: 2, height: 2, channels: 4)),
+    ] {
+      #expect(throws: ImageError.self) { try ImageCodec.decodeNumbers(colors) }
+    }
+    // As a photo, it is of an unsupported kind, but not damaged.
+    #expect(throws: ImageHeader.Format.tiff.unsupportedVariant) {
+      try ImageCodec.decode(TIFFWriter.numbers(width: 3, height: 2, values))
+    }
+  }
+
+  @Test(arguments: [8, 24, 32], [true, false])
+  func bitmapsAreDecoded(bits: Int, isTopDown: Bool) throws {
+    let image = pattern(width: 5, height: 3)
+    var expected = image
+    if bits == 8 {
+      let colors = stride(from: 0, to: image.pixels.count, by: 3).map {
+        BMPWriter.color(image.pixels[$0])
+      }
+      expected.pixels = Array(colors.joined())
+    }
+    let bytes = BMPWriter.file(image, bits: bits, isTopDown: isTopDown)
+    #expect(try ImageCodec.decode(bytes) == expected)
+    #expect(throws: ImageError.self) { try ImageCodec.decode(Array(bytes.dropLast(1))) }
+    #expect(throws: ImageHeader.Format.bmp.unsupportedVariant) {
+      try ImageCodec.decode(BMPWriter.file(image, bits: bits, compression: 1))
+    }
   }
 
   @Test func dilationUsesASquareWindow() throws {

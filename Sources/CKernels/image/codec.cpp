@@ -2,11 +2,8 @@
 
 #include <cstring>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "core/guard.h"
-#include "core/opencv.h"
 #include "image/buffers.h"
 
 namespace ck {
@@ -61,37 +58,6 @@ void decode_png_alpha(const uint8_t* bytes, size_t count, const ck_decode_limits
   for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = rgba[4 * i + 3];
 }
 
-void decode_other(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
-                  ck_image& image) {
-  require(count <= static_cast<size_t>(INT32_MAX), "the file is too large");
-  const cv::Mat data(1, static_cast<int>(count), CV_8U, const_cast<uint8_t*>(bytes));
-  const cv::Mat bgr = cv::imdecode(data, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (bgr.empty() || bgr.type() != CV_8UC3) throw std::runtime_error("it can't be decoded");
-  require_within(limits, bgr.cols, bgr.rows);
-  image.width = bgr.cols;
-  image.height = bgr.rows;
-  image.pixels.resize(bgr.total() * 3);
-  cv::Mat rgb(bgr.rows, bgr.cols, CV_8UC3, image.pixels.data());
-  on_one_thread([&] { cv::cvtColor(bgr, rgb, cv::COLOR_BGR2RGB); });
-}
-
-/// Decodes the alpha channel; leaves the image without pixels if the file has none.
-void decode_other_alpha(const uint8_t* bytes, size_t count, const ck_decode_limits& limits,
-                        ck_image& image) {
-  require(count <= static_cast<size_t>(INT32_MAX), "the file is too large");
-  const cv::Mat data(1, static_cast<int>(count), CV_8U, const_cast<uint8_t*>(bytes));
-  const cv::Mat all = cv::imdecode(data, cv::IMREAD_UNCHANGED);
-  if (all.empty()) throw std::runtime_error("it can't be decoded");
-  require_within(limits, all.cols, all.rows);
-  if (all.channels() != 4 || (all.depth() != CV_8U && all.depth() != CV_16U)) return;
-  image.width = all.cols;
-  image.height = all.rows;
-  image.pixels.resize(all.total());
-  cv::Mat alpha, bytes_of_alpha(all.rows, all.cols, CV_8U, image.pixels.data());
-  cv::extractChannel(all, alpha, 3);
-  alpha.convertTo(bytes_of_alpha, CV_8U, all.depth() == CV_16U ? 1 / 257.0 : 1);
-}
-
 }  // namespace
 }  // namespace ck
 
@@ -112,8 +78,15 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
       case ck_codec_heif:
         ck::decode_heif(bytes, byte_count, *limits, *result);
         break;
-      default:
-        ck::decode_other(bytes, byte_count, *limits, *result);
+      case ck_codec_tiff:
+        ck::decode_tiff(bytes, byte_count, *limits, *result);
+        break;
+      case ck_codec_webp:
+        ck::decode_webp(bytes, byte_count, *limits, *result);
+        break;
+      case ck_codec_bmp:
+        ck::decode_bmp(bytes, byte_count, *limits, *result);
+        break;
     }
     *image = result.release();
   });
@@ -126,7 +99,8 @@ ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_code
     auto result = std::make_unique<ck_image>();
     if (codec == ck_codec_png) ck::decode_png_alpha(bytes, byte_count, *limits, *result);
     if (codec == ck_codec_heif) ck::decode_heif_alpha(bytes, byte_count, *limits, *result);
-    if (codec == ck_codec_other) ck::decode_other_alpha(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_tiff) ck::decode_tiff_alpha(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_webp) ck::decode_webp_alpha(bytes, byte_count, *limits, *result);
     *image = result.release();
   });
 }
@@ -135,18 +109,8 @@ ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count,
                                 const ck_decode_limits* limits, ck_image** image) {
   return ck::guarded([&] {
     ck::require(bytes && byte_count > 0, "the file is empty");
-    ck::require(byte_count <= static_cast<size_t>(INT32_MAX), "the file is too large");
-    const cv::Mat data(1, static_cast<int>(byte_count), CV_8U, const_cast<uint8_t*>(bytes));
-    const cv::Mat decoded = cv::imdecode(data, cv::IMREAD_UNCHANGED);
-    if (decoded.empty()) throw std::runtime_error("it can't be decoded");
-    ck::require_within(*limits, decoded.cols, decoded.rows);
     auto result = std::make_unique<ck_image>();
-    if (decoded.type() == CV_32FC1) {
-      result->width = decoded.cols;
-      result->height = decoded.rows;
-      result->pixels.resize(decoded.total() * sizeof(float));
-      std::memcpy(result->pixels.data(), decoded.ptr(), result->pixels.size());
-    }
+    ck::decode_tiff_numbers(bytes, byte_count, *limits, *result);
     *image = result.release();
   });
 }
@@ -167,23 +131,8 @@ ck_status ck_image_encode(const ck_pixels* pixels, ck_codec codec, int32_t quali
     ck::require(channels == 1 || channels == 3 || (channels == 4 && codec == ck_codec_png),
                 "this number of channels can't be encoded");
     auto result = std::make_unique<ck_bytes>();
-    if (codec == ck_codec_png) {
-      result->data = ck::encode_png(data, width, height, channels);
-    } else {
-      const cv::Mat source(height, width, CV_8UC(channels), const_cast<uint8_t*>(data));
-      // A separate matrix: OpenCV would write into an existing one of the same size.
-      cv::Mat swapped;
-      if (channels == 3) {
-        ck::on_one_thread([&] { cv::cvtColor(source, swapped, cv::COLOR_RGB2BGR); });
-      } else {
-        swapped = source;
-      }
-      const std::vector<int> options{cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE,
-                                     1};
-      if (!cv::imencode(".jpg", swapped, result->data, options)) {
-        throw std::runtime_error("the image can't be encoded");
-      }
-    }
+    result->data = codec == ck_codec_png ? ck::encode_png(data, width, height, channels)
+                                         : ck::encode_jpeg(*pixels, quality);
     *encoded = result.release();
   });
 }

@@ -4,6 +4,7 @@
 #include "ck_image.h"
 #include "core/guard.h"
 #include "core/opencv.h"
+#include "image/buffers.h"
 
 namespace {
 
@@ -45,6 +46,45 @@ void fill_maps(const ck_camera& from, const ck_camera& to, int first, int last, 
 
 }  // namespace
 
+namespace ck {
+
+void turn_upright(const ck_pixels& source, int32_t orientation,
+                  const ck_mutable_pixels& destination) {
+  require(orientation >= 1 && orientation <= 8, "EXIF orientations are 1 to 8");
+  const cv::Mat from = wrap(source);
+  const bool swaps = orientation >= 5;
+  require(destination.width == (swaps ? source.height : source.width) &&
+              destination.height == (swaps ? source.width : source.height) &&
+              destination.channels == source.channels,
+          "the destination does not have the size of the rotated image");
+  cv::Mat to = wrap(destination);
+  cv::Mat transposed;
+  if (swaps) {
+    cv::transpose(from, transposed);
+  } else {
+    transposed = from;
+  }
+  // After transposing, orientations 5…8 need these flips: 5 none, 6 columns, 7 both, 8 rows.
+  switch (orientation) {
+    case 2:
+    case 6:
+      cv::flip(transposed, to, 1);
+      break;
+    case 3:
+    case 7:
+      cv::flip(transposed, to, -1);
+      break;
+    case 4:
+    case 8:
+      cv::flip(transposed, to, 0);
+      break;
+    default:
+      transposed.copyTo(to);
+  }
+}
+
+}  // namespace ck
+
 ck_status ck_image_resize(const ck_pixels* source, const ck_mutable_pixels* destination) {
   return ck::guarded([&] {
     ck::require(source->channels == destination->channels, "the numbers of channels differ");
@@ -60,39 +100,7 @@ ck_status ck_image_resize(const ck_pixels* source, const ck_mutable_pixels* dest
 
 ck_status ck_image_orient(const ck_pixels* source, int32_t orientation,
                           const ck_mutable_pixels* destination) {
-  return ck::guarded([&] {
-    ck::require(orientation >= 1 && orientation <= 8, "EXIF orientations are 1 to 8");
-    const cv::Mat from = wrap(*source);
-    const bool swaps = orientation >= 5;
-    ck::require(destination->width == (swaps ? source->height : source->width) &&
-                    destination->height == (swaps ? source->width : source->height) &&
-                    destination->channels == source->channels,
-                "the destination does not have the size of the rotated image");
-    cv::Mat to = wrap(*destination);
-    cv::Mat transposed;
-    if (swaps) {
-      cv::transpose(from, transposed);
-    } else {
-      transposed = from;
-    }
-    // After transposing, orientations 5…8 need these flips: 5 none, 6 columns, 7 both, 8 rows.
-    switch (orientation) {
-      case 2:
-      case 6:
-        cv::flip(transposed, to, 1);
-        break;
-      case 3:
-      case 7:
-        cv::flip(transposed, to, -1);
-        break;
-      case 4:
-      case 8:
-        cv::flip(transposed, to, 0);
-        break;
-      default:
-        transposed.copyTo(to);
-    }
-  });
+  return ck::guarded([&] { ck::turn_upright(*source, orientation, *destination); });
 }
 
 ck_status ck_image_undistort(const ck_pixels* source, const ck_camera* source_camera,

@@ -18,10 +18,12 @@ typedef struct ck_bytes ck_bytes;
 typedef enum {
   ck_codec_jpeg = 0,
   ck_codec_png = 1,
-  /// TIFF, BMP and WebP through OpenCV.
-  ck_codec_other = 2,
-  /// HEIC and AVIF through libheif.
-  ck_codec_heif = 3,
+  /// HEIC and AVIF.
+  ck_codec_heif = 2,
+  ck_codec_tiff = 3,
+  ck_codec_webp = 4,
+  /// Windows bitmaps without compression.
+  ck_codec_bmp = 5,
 } ck_codec;
 
 /// Size limits, checked before a decoder allocates pixels.
@@ -50,8 +52,8 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
 ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                                 const ck_decode_limits* limits, ck_image** image);
 
-/// Decodes a single-channel 32-bit floating-point image, for example a depth map, without
-/// conversion. Returns an image without pixels if the file has another pixel format.
+/// Decodes a TIFF file with one 32-bit floating-point number per pixel, for example a depth map,
+/// upright. Returns an image without pixels if the file has another pixel format.
 ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count,
                                 const ck_decode_limits* limits, ck_image** image);
 

@@ -3,7 +3,6 @@ import Formats
 import Foundation
 import Pipeline
 import RealityFoundation
-import RealityKit
 import SharedCommands
 
 /// Options of `reconstruct` that only this project's engine has.

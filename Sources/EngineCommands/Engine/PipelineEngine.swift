@@ -4,7 +4,6 @@ import Foundation
 import Kernels
 import Pipeline
 import RealityFoundation
-import RealityKit
 import SharedCommands
 
 /// This project's engine.

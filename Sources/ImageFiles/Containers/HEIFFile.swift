@@ -39,16 +39,11 @@ package enum HEIFFile {
     do {
       try withKernel(KernelControl()) { _ in ck_heif_inspect(bytes, bytes.count, &info) }
     } catch KernelError.invalidArgument {
-      throw unsupported(format)
+      throw format.unsupportedVariant
     } catch {
       throw .damaged("its \(format.rawValue) header is damaged or cut off")
     }
     return (Int(info.width), Int(info.height), info.has_alpha)
-  }
-
-  /// The error for a file that libheif has no decoder for.
-  static func unsupported(_ format: ImageHeader.Format) -> ImageError {
-    .unsupportedFormat("a kind of \(format.rawValue) image that libheif can't read")
   }
 
   /// The EXIF data of a file, starting at its TIFF header; nil without any.

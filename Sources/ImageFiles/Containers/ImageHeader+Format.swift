@@ -8,5 +8,10 @@ extension ImageHeader {
     case webP = "WebP"
     case heic = "HEIC"
     case avif = "AVIF"
+
+    /// The error for a variant of the format that its decoder can't read.
+    package var unsupportedVariant: ImageError {
+      .unsupportedFormat("a kind of \(rawValue) image that can't be read")
+    }
   }
 }

@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 import SceneModel
 
 /// Properties of the photos that help to align them.

@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// A box by two opposite corners.
 package struct BoxArgument: ExpressibleByArgument, Equatable {

@@ -1,5 +1,3 @@
-import RealityKit
-
 /// The limits of `--detail custom`.
 package typealias CustomDetail =
   PhotogrammetrySession.Configuration.CustomDetailSpecification

@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// The detail levels with fixed limits.
 package enum DetailArgument: String, ExpressibleByArgument, CaseIterable, Sendable {

@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// The detail of a model: one of the levels, or custom limits.
 package struct DetailArguments: ParsableArguments {

@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// A detail level, or custom limits.
 package enum DetailChoice: ExpressibleByArgument, Equatable, Sendable {

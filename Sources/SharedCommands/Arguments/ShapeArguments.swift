@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// The part of the surface that a model shows, and the kind of its faces.
 package struct ShapeArguments: ParsableArguments {

@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// The image format of textures.
 package struct TextureFormatArgument: ExpressibleByArgument {

@@ -1,6 +1,5 @@
 import ArgumentParser
 import Foundation
-import RealityKit
 
 /// The texture maps of a model, by name.
 package struct TextureMapsArgument: ExpressibleByArgument {

@@ -1,7 +1,6 @@
 import ArgumentParser
 import Formats
 import Foundation
-import RealityKit
 
 /// Apple's engine: nothing beyond the public API of RealityKit.
 package enum AppleEngine: EngineSupport {

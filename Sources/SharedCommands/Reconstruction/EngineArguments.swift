@@ -1,6 +1,5 @@
 import ArgumentParser
 import Foundation
-import RealityKit
 
 /// Options of `reconstruct` that only one engine has.
 package protocol EngineArguments: ParsableArguments {

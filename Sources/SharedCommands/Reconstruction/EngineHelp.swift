@@ -1,5 +1,4 @@
 import ArgumentParser
-import RealityKit
 
 /// Sections of the help of `reconstruct` that depend on the engine; empty if it adds nothing.
 package struct EngineHelp: Sendable {

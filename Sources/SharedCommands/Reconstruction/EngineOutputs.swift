@@ -1,6 +1,5 @@
 import ArgumentParser
 import Foundation
-import RealityKit
 
 /// Files that only some engines write.
 package struct EngineOutputs: Equatable, Sendable {

@@ -1,7 +1,6 @@
 import ArgumentParser
 import Formats
 import Foundation
-import RealityKit
 
 /// An engine behind `PhotogrammetrySession`, as far as the command line depends on it.
 package protocol EngineSupport: Sendable {

@@ -1,5 +1,4 @@
 import Foundation
-import RealityKit
 
 /// The content of `--poses`: camera poses in the model's frame.
 package struct PosesFile: Encodable {

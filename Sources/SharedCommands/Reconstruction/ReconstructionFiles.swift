@@ -1,6 +1,5 @@
 import Formats
 import Foundation
-import RealityKit
 import SceneModel
 
 /// The folder that `reconstruct` reads and the files that it writes.

@@ -1,7 +1,6 @@
 import Formats
 import Foundation
 import Logging
-import RealityKit
 import SceneModel
 
 /// Carries out `reconstruct`: sets up the session and its requests, follows its outputs and writes

@@ -1,6 +1,5 @@
 import Foundation
 import Logging
-import RealityKit
 
 /// The state of a run, from the outputs of its session.
 struct SessionRun<Engine: EngineSupport> {

@@ -1,1 +1,0 @@
-#include <opencv4/opencv2/imgcodecs.hpp>
