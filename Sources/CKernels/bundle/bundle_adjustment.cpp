@@ -67,6 +67,8 @@ class Adjustment {
                                 : free_photos_ <= options_.direct_photo_limit
                                     ? ceres::SPARSE_SCHUR
                                     : ceres::ITERATIVE_SCHUR;
+    // CHOLMOD rounds as the BLAS that happens to be installed.
+    solver.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     solver.preconditioner_type = ceres::SCHUR_JACOBI;
     solver.max_linear_solver_iterations = kMaximumLinearIterations;
     ceres::Solver::Summary summary;
