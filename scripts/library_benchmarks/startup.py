@@ -12,19 +12,19 @@ import benchmarking
 from library_benchmarks import common
 
 SMALL = ["embree3", "jpeg", "png", "deflate", "xxhash", "lcms2"]
+IMAGES = ["tiff", "webp", "heif"]
 OPENCV = ["opencv_core", "opencv_imgproc"]
 LIBRARIES = {
     "nothing": [],
     "Embree, libjpeg, libpng, libdeflate, xxHash, lcms2": SMALL,
+    "libtiff and libwebp": ["tiff", "webp"],
     "libheif": ["heif"],
     "Ceres and glog": ["ceres", "glog"],
     "OpenCV core and imgproc": OPENCV,
-    "OpenCV core, imgproc and imgcodecs": [*OPENCV, "opencv_imgcodecs"],
-    "all but imgcodecs": [*SMALL, "heif", "ceres", "glog", *OPENCV],
-    "all": [*SMALL, "heif", "ceres", "glog", *OPENCV, "opencv_imgcodecs"],
+    "all": [*SMALL, *IMAGES, "ceres", "glog", *OPENCV],
 }
 # Transitive dependencies under the GPL, or with parts under it.
-GPL = ["libpoppler", "libx265", "libspqr", "libcholmod"]
+GPL = ["libx265", "libjbig", "libspqr", "libcholmod"]
 
 
 def run(arguments):
