@@ -10,10 +10,14 @@ package struct RunReport: Codable, Sendable {
     package var seconds: Double
     /// User and system time of all threads.
     package var cpuSeconds: Double
+    /// The part of `seconds` in which fewer than two threads were busy.
+    package var serialSeconds: Double
     /// Peak resident memory of the process at the stage's end.
     package var peakMemoryBytes: Int
     /// The numbers of `StageNotes`.
     package var counts: [String: Double]
+    /// Where the time went.
+    package var steps: [StepCost]
   }
 
   /// What became of a photo.

@@ -1,17 +1,43 @@
 import SceneModel
 
-/// Counts, warnings and details that a stage records for `report.json`.
+/// Counts, warnings, details and the cost of steps that a stage records for `report.json`.
 package final class StageNotes: Sendable {
   private struct State {
+    var steps: [StepCost] = []
     var counts: [String: Double] = [:]
     var warnings: [String] = []
     var concerns: [String] = []
     var details: [String] = []
+
+    mutating func add(_ cost: StepCost) {
+      if let index = steps.firstIndex(where: { $0.name == cost.name }) {
+        steps[index] += cost
+      } else {
+        steps.append(cost)
+      }
+    }
   }
 
   private let state = Locked(State())
+  /// Measures steps; nil outside a run.
+  let meter: SerialTimeMeter?
 
-  package init() {}
+  package init(meter: SerialTimeMeter? = nil) { self.meter = meter }
+
+  /// Runs a step of the stage and records its cost; calls with the same name add up.
+  func step<Value>(_ name: String, _ body: () throws -> Value) rethrows -> Value {
+    let start = ResourceUsage.now
+    let serialStart = meter?.serialSeconds ?? 0
+    defer {
+      let end = ResourceUsage.now
+      let cost = StepCost(
+        name: name, seconds: end.seconds - start.seconds,
+        cpuSeconds: end.cpuSeconds - start.cpuSeconds,
+        serialSeconds: (meter?.serialSeconds ?? 0) - serialStart)
+      state.withLock { $0.add(cost) }
+    }
+    return try body()
+  }
 
   /// Records a number, for instance `points` or `meanReprojectionError`.
   package func record(_ name: String, _ value: Double) {
@@ -37,11 +63,15 @@ package final class StageNotes: Sendable {
     state.withLock { $0.details.append(sentence) }
   }
 
+  /// The steps in the order of their first execution.
+  package var steps: [StepCost] { state.withLock { $0.steps } }
+
   /// Adds the notes of another part of the stage.
   func add(_ other: StageNotes) {
     let other = other.state.withLock { $0 }
     state.withLock { state in
       state.counts.merge(other.counts) { $1 }
+      other.steps.forEach { state.add($0) }
       state.warnings += other.warnings
       state.concerns += other.concerns
       state.details += other.details

@@ -119,11 +119,11 @@ package struct ImageAlignment: Sendable {
   func viewGraph(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> MatchedPhotos {
-    let features = try timed("featureSeconds", context) {
+    let features = try context.notes.step("feature") {
       try FeatureExtraction(options.features).run(
         photos, images: decodingOnce(images), context.part(from: 0, to: 0.55))
     }
-    let (graph, calibrated) = try timed("matchingSeconds", context) {
+    let (graph, calibrated) = try context.notes.step("matching") {
       try CorrespondenceSearch(options.search).run(
         photos: photos, cameras: cameras, features: features, ordering: options.ordering,
         context.part(from: 0.55, to: 1))
@@ -169,13 +169,13 @@ package struct ImageAlignment: Sendable {
   ) throws -> (map: Map, method: MappingMethod) {
     var mapping = SparseMapping(options.mapping)
     mapping.options.method = method
-    let (mapped, used) = try timed("mappingSeconds", context) {
+    let (mapped, used) = try context.notes.step("mapping") {
       try mapping.map(
         matched.graph, features: matched.features, photos: matched.photos,
         cameras: matched.cameras, context.part(from: 0, to: 0.9))
     }
     try check(mapped, context.notes)
-    let findings = try timed("ambiguityCheckSeconds", context) {
+    let findings = try context.notes.step("ambiguityCheck") {
       try ambiguityFindings(mapped, matched, images, context.part(from: 0.9, to: 1))
     }
     return (Map(reconstruction: mapped, findings: findings), used)
@@ -207,7 +207,7 @@ package struct ImageAlignment: Sendable {
     posesInUpFrame: [RigidTransform?] = [], _ context: StageContext,
     keeping isKept: (ScenePoint) -> Bool = { _ in true }
   ) throws -> Reconstruction {
-    var refined = try timed("refinementSeconds", context) {
+    var refined = try context.notes.step("refinement") {
       try refine(
         mapped, matched.features, matched.cameras, decodingOnce(images),
         context.part(from: 0, to: 0.85))
@@ -318,16 +318,5 @@ package struct ImageAlignment: Sendable {
       notes.warn(
         "\(missing) of \(reconstruction.photos.count) photos could not be aligned with the others.")
     }
-  }
-
-  /// Runs a step and records its duration in seconds as a metric.
-  private func timed<Value>(
-    _ name: String, _ context: StageContext, _ body: () throws -> Value
-  ) rethrows -> Value {
-    let start = ContinuousClock.now
-    let value = try body()
-    let duration = (ContinuousClock.now - start).components
-    context.notes.record(name, Double(duration.seconds) + Double(duration.attoseconds) * 1e-18)
-    return value
   }
 }

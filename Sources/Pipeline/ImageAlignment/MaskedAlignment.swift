@@ -36,12 +36,12 @@ struct MaskedAlignment {
         StageContext(control: context.control, notes: notes))
     }
     guard images.hasMasks else { return try align(images, by: alignment, context.notes) }
-    let notes = StageNotes()
+    let notes = StageNotes(meter: context.notes.meter)
     let masked = Result { try align(images, by: alignment, notes) }
     if case .failure(let error) = masked, !(error is PipelineError) { throw error }
     let count = (try? masked.get())?.registered.count ?? 0
     if Double(count) < options.minimumShare * Double(ingested.photos.count) {
-      let wholeNotes = StageNotes()
+      let wholeNotes = StageNotes(meter: context.notes.meter)
       // The object is checked below.
       var unchecked = alignment
       unchecked.options.focus = nil

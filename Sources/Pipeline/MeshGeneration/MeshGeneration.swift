@@ -59,18 +59,25 @@ package struct MeshGeneration {
     _ context: StageContext
   ) throws -> Mesh {
     try check(cloud)
-    let selection = try select(
-      cloud, reconstruction, silhouettes, support, context.part(from: 0, to: 0.05))
+    let notes = context.notes
+    let selection = try notes.step("selection") {
+      try select(cloud, reconstruction, silhouettes, support, context.part(from: 0, to: 0.05))
+    }
     let downsampling = VoxelDownsampling(options: options.downsampling)
-    var downsampled = try downsampling.run(
-      cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
-    downsampled.cloud = try downsampling.withoutOutliers(
-      downsampled, context.control.part(from: 0.07, to: 0.1))
-    context.notes.record("samples", Double(downsampled.cloud.count))
+    let downsampled = try notes.step("samples") {
+      var samples = try downsampling.run(
+        cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
+      samples.cloud = try downsampling.withoutOutliers(
+        samples, context.control.part(from: 0.07, to: 0.1))
+      return samples
+    }
+    notes.record("samples", Double(downsampled.cloud.count))
     var poisson = PoissonSurface(options: options.poisson)
     poisson.options.maximumDepth = options.maximumDepth
-    let (closed, cell) = try poisson.run(
-      downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
+    let (closed, cell) = try notes.step("poisson") {
+      try poisson.run(
+        downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
+    }
     var scene = cloud
     scene.append(surroundings)
     var trimming = SurfaceTrimming(options: options.trimming)
@@ -81,9 +88,11 @@ package struct MeshGeneration {
       spacing: max(downsampled.voxelSize, cell / 2),
       support: selection.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.85, to: 0.96))
-    let mesh = try MeshCleaning(options: options.cleaning).run(
-      trimmed, samples: downsampled.cloud, context.part(from: 0.96, to: 1))
-    context.notes.record("triangles", Double(mesh.triangles.count))
+    let mesh = try notes.step("cleaning") {
+      try MeshCleaning(options: options.cleaning).run(
+        trimmed, samples: downsampled.cloud, context.part(from: 0.96, to: 1))
+    }
+    notes.record("triangles", Double(mesh.triangles.count))
     return mesh
   }
 

@@ -39,10 +39,14 @@ struct SurfaceTrimming {
     _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Mesh {
     guard let bounds = mesh.bounds else { return mesh }
-    let distances = try distances(
-      mesh, samples, spacing, context.control.part(from: 0, to: 0.4))
-    let freeSpace = try freeSpace(
-      bounds, scene, spacing, reconstruction, context.control.part(from: 0.4, to: 0.8))
+    let notes = context.notes
+    let distances = try notes.step("sampleDistances") {
+      try self.distances(mesh, samples, spacing, context.control.part(from: 0, to: 0.4))
+    }
+    let freeSpace = try notes.step("freeSpace") {
+      try self.freeSpace(
+        bounds, scene, spacing, reconstruction, context.control.part(from: 0.4, to: 0.8))
+    }
     let isInside = try silhouettes?.areInside(
       mesh.triangles.map { mesh.center(of: $0) }, context.control.part(from: 0.8, to: 0.8))
     let isSeenThrough = { freeSpace.photos(at: $0) >= options.contradictingPhotos }
@@ -53,12 +57,13 @@ struct SurfaceTrimming {
         || distance > Float(options.contradictedSpacings)
           && isSeenThrough(mesh.center(of: triangle))
     }
-    isRemoved = BoundarySmoothing(options: options.boundary).run(mesh, isRemoved: isRemoved) {
-      index in
-      let triangle = mesh.triangles[index]
-      return triangle.maximum(of: distances) <= Float(options.notchSpacings)
-        && isInside?[index] != false && !isSeenThrough(mesh.center(of: triangle))
-        && support.map { $0.height(of: SIMD3<Double>(mesh.center(of: triangle))) > 0 } ?? true
+    isRemoved = notes.step("boundarySmoothing") {
+      BoundarySmoothing(options: options.boundary).run(mesh, isRemoved: isRemoved) { index in
+        let triangle = mesh.triangles[index]
+        return triangle.maximum(of: distances) <= Float(options.notchSpacings)
+          && isInside?[index] != false && !isSeenThrough(mesh.center(of: triangle))
+          && support.map { $0.height(of: SIMD3<Double>(mesh.center(of: triangle))) > 0 } ?? true
+      }
     }
     try context.control.step(0.9)
     context.notes.record(
@@ -66,8 +71,10 @@ struct SurfaceTrimming {
       Double(isRemoved.count { $0 }) / Double(max(1, mesh.triangles.count)))
     var holeFilling = HoleFilling(options: options.holeFilling)
     holeFilling.options.depth = Float(freeSpace.cellSize)
-    return holeFilling.run(mesh, isRemoved: isRemoved, support: support) { point in
-      isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
+    return notes.step("holeFilling") {
+      holeFilling.run(mesh, isRemoved: isRemoved, support: support) { point in
+        isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
+      }
     }
   }
 

@@ -56,11 +56,13 @@ struct MaskEstimation: Sendable {
       let share = 0.6 / Double(max(2, options.rounds) - 1)
       let start = 0.4 + Double(round - 1) * share
       let part = context.part(from: start, to: start + share)
-      let hull = try VisualHull(
-        of: views, masks: masks, around: points, options: options.hull,
-        part.part(from: 0, to: 0.3).control)
-      silhouettes = try part.part(from: 0.3, to: 0.4).control.parallelMap(views.count) {
-        try hull.silhouette(in: views[$0], KernelControl())
+      silhouettes = try context.notes.step("visualHull") {
+        let hull = try VisualHull(
+          of: views, masks: masks, around: points, options: options.hull,
+          part.part(from: 0, to: 0.3).control)
+        return try part.part(from: 0.3, to: 0.4).control.parallelMap(views.count) {
+          try hull.silhouette(in: views[$0], KernelControl())
+        }
       }
       masks = try cut(views, masks, silhouettes, part.part(from: 0.4, to: 1).control)
     }

@@ -76,28 +76,37 @@ struct ObjectMasking {
   ) throws -> Result? {
     let cloud: PointCloud
     do {
-      cloud = try PointCloudGeneration(options: options.coarse)
-        .coarseCloud(reconstruction, images: images, context.part(from: 0, to: 0.6))
+      cloud = try context.notes.step("coarseCloud") {
+        try PointCloudGeneration(options: options.coarse)
+          .coarseCloud(reconstruction, images: images, context.part(from: 0, to: 0.6))
+      }
     } catch is PipelineError {
       // The dense stage at full resolution reports why.
       return nil
     }
-    let (photos, backdrop) = try reducedPhotos(
-      of: reconstruction, images, context.part(from: 0.6, to: 0.65).control)
+    let (photos, backdrop) = try context.notes.step("backdrop") {
+      try reducedPhotos(of: reconstruction, images, context.part(from: 0.6, to: 0.65).control)
+    }
     let isolationContext = context.part(from: 0.65, to: 0.7)
     var isolated: ObjectIsolation.Result?
     if prior.placements.isEmpty {
-      isolated = try isolate(cloud, photos, backdrop, reconstruction, isolationContext)
+      isolated = try context.notes.step("isolation") {
+        try isolate(cloud, photos, backdrop, reconstruction, isolationContext)
+      }
       guard isolated?.failure == nil else { return nil }
     }
     let points =
       try isolated.map { LabeledCloud(cloud: cloud, isObject: $0.isKept) }
       ?? prior.object(
         in: cloud, tolerance: options.neighborFootprints, isolationContext.control)
-    let views = try views(
-      of: photos, points, prior, reconstruction, context.part(from: 0.7, to: 0.75).control)
-    let estimated = try MaskEstimation(options: options.estimation)
-      .run(views, points: points.object.positions, context.part(from: 0.75, to: 1))
+    let views = try context.notes.step("drawing") {
+      try self.views(
+        of: photos, points, prior, reconstruction, context.part(from: 0.7, to: 0.75).control)
+    }
+    let estimated = try context.notes.step("maskEstimation") {
+      try MaskEstimation(options: options.estimation)
+        .run(views, points: points.object.positions, context.part(from: 0.75, to: 1))
+    }
     var result = Result(photoCount: reconstruction.photos.count)
     result.support = isolated?.support
     result.points = points

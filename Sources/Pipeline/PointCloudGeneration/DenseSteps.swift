@@ -209,10 +209,12 @@ extension DenseSteps {
     _ body: @escaping @Sendable (Int, KernelControl) throws -> Void
   ) throws {
     let indices = inOrderOfWork(plan[step])
-    _ = try context.control.parallelUnits(indices.count) { [self] unit, control in
-      // A concurrent job may have written it since planning.
-      if share != nil, workspace.contains(views.key(step, indices[unit])) { return }
-      try body(indices[unit], control)
+    try context.notes.step(step.rawValue) {
+      _ = try context.control.parallelUnits(indices.count) { [self] unit, control in
+        // A concurrent job may have written it since planning.
+        if share != nil, workspace.contains(views.key(step, indices[unit])) { return }
+        try body(indices[unit], control)
+      }
     }
   }
 

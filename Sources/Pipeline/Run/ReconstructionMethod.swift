@@ -119,7 +119,9 @@ struct ReconstructionMethod {
   private func mesh(_ cloud: PointCloud, _ scene: ObjectScene) throws -> Mesh {
     let (photos, reconstruction) = (scene.photos, scene.reconstruction)
     return try recorder.run(.meshGeneration, images: photos.images) { context in
-      let silhouettes = try Silhouettes(reconstruction, images: photos.images)
+      let silhouettes = try context.notes.step("silhouettes") {
+        try Silhouettes(reconstruction, images: photos.images)
+      }
       let share = configuration.photoRefinement == nil ? 1 : 0.4
       let mesh = try MeshGeneration(configuration.meshGeneration)
         .run(
@@ -141,8 +143,10 @@ struct ReconstructionMethod {
       let parts = box.map { MeshCropping(box: $0).run(surface) }
       let dense = parts?.inside ?? surface
       guard !dense.triangles.isEmpty else { throw PipelineError.emptyCrop }
-      let mesh = try Simplification(options: configuration.simplification)
-        .run(dense, context.part(from: 0, to: 0.15))
+      let mesh = try context.notes.step("simplification") {
+        try Simplification(options: configuration.simplification)
+          .run(dense, context.part(from: 0, to: 0.15))
+      }
       var texturing = TextureMapping(options: configuration.textureMapping)
       if !configuration.isObjectMaskingEnabled { texturing.options.presence = nil }
       return try texturing.run(
@@ -163,8 +167,10 @@ struct ReconstructionMethod {
         case .triangle: model
         case .quad: try QuadPairing().run(model, context.part(from: 0, to: 0))
         }
-      try ModelExport(options: configuration.export)
-        .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
+      try context.notes.step("export") {
+        try ModelExport(options: configuration.export)
+          .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
+      }
       guard let preview = configuration.previewFile else { return }
       // The preview is rendered in the frame of the cameras.
       try ModelPreview(configuration.preview).write(

@@ -47,7 +47,9 @@ final class RunRecorder {
   func run<Value>(
     _ stage: PipelineStage, images: ImageStore? = nil, _ body: (StageContext) throws -> Value
   ) throws -> Value {
-    let notes = StageNotes()
+    let meter = SerialTimeMeter()
+    defer { meter.stop() }
+    let notes = StageNotes(meter: meter)
     let control = KernelControl(threadCount: threadCount, flag: flag) { [onEvent] fraction in
       onEvent(.progress(stage, fraction: fraction))
     }
@@ -77,8 +79,9 @@ final class RunRecorder {
     report.stages.append(
       .init(
         name: stage.rawValue, seconds: end.seconds - start.seconds,
-        cpuSeconds: end.cpuSeconds - start.cpuSeconds, peakMemoryBytes: end.peakMemoryBytes,
-        counts: notes.counts))
+        cpuSeconds: end.cpuSeconds - start.cpuSeconds,
+        serialSeconds: notes.meter?.serialSeconds ?? 0, peakMemoryBytes: end.peakMemoryBytes,
+        counts: notes.counts, steps: notes.steps))
     report.warnings += notes.warnings
     report.concerns += notes.concerns
     report.details += notes.details

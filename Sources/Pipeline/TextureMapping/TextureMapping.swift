@@ -68,50 +68,89 @@ package struct TextureMapping: Sendable {
     _ context: StageContext
   ) throws -> TexturedMesh {
     let mesh = try checked(input)
+    let notes = context.notes
     let views = source.reconstruction.registered
-    let topology = MeshTopology(mesh)
-    let scene = try RayScene(mesh, context.part(from: 0, to: 0).control)
-
-    let seen = try ViewObservation(options: options.observation)
-      .run(
+    let topology = notes.step("topology") { MeshTopology(mesh) }
+    let scene = try notes.step("rayScene") {
+      try RayScene(mesh, context.part(from: 0, to: 0).control)
+    }
+    let seen = try notes.step("observation") {
+      try ViewObservation(options: options.observation).run(
         try occluded(mesh, by: occluders, context) ?? scene, faceCount: mesh.triangles.count,
         views: views, source: source, context.part(from: 0, to: 0.19))
-    let gains = try ExposureCompensation(options: options.exposure)
-      .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
+    }
+    let colors = try colors(
+      of: mesh, topology, seen, source, isCropped: !occluders.triangles.isEmpty, context)
+    let map = try notes.step("charts") {
+      try Charting(options: options.charting)
+        .run(mesh, rated: colors.rated, labels: colors.labels, context.part(from: 0.3, to: 0.32))
+    }
+    let layout = try notes.step("packing") {
+      try AtlasPacking(
+        options: .init(maximumSide: options.textureSide, maximumAtlases: options.maximumAtlases)
+      ).run(map, context.part(from: 0.32, to: 0.35))
+    }
+    let baking = try notes.step("bakingPreparation") {
+      try MapBaking(options: options.baking).prepared(
+        options.maps, mesh: mesh, scene: scene, dense: dense, layout: layout, charts: map.charts,
+        context.part(from: 0.35, to: 0.39))
+    }
+    let painting = TexturePainting(
+      options: options.painting, weights: colors.weights, leveling: colors.leveling,
+      gains: colors.gains, views: views, source: source, magnification: layout.magnification)
+    let maps = try images(
+      of: layout, scene: scene, baking, painting, context.part(from: 0.39, to: 1))
+    return notes.step("assembly") { assembled(mesh, layout, maps) }
+  }
+
+  /// What decides the colors of the faces.
+  private struct FaceColors {
+    var gains: [ExposureGain]
+    var rated: RatedViews
+    var labels: [Int32]
+    var weights: CornerWeights
+    var leveling: LevelingOffsets
+  }
+
+  /// Chooses the views of each face, and levels their colors.
+  private func colors(
+    of mesh: Mesh, _ topology: MeshTopology, _ seen: FaceViews, _ source: ViewSource,
+    isCropped: Bool, _ context: StageContext
+  ) throws -> FaceColors {
+    let notes = context.notes
+    let views = source.reconstruction.registered
+    let gains = try notes.step("exposure") {
+      try ExposureCompensation(options: options.exposure)
+        .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
+    }
     var candidates = options.candidates
     candidates.outliers.minimumRegionPixels = max(
       candidates.outliers.minimumRegionPixels, options.minimumRegionShare * source.pixelsPerPhoto)
-    let rated = try ViewCandidates(options: candidates)
-      .run(seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
-    // A user who cropped the model decided what is in it.
-    if let presence = options.presence, occluders.triangles.isEmpty {
-      ObjectPresence(options: presence)
-        .run(mesh, seen: seen, views: views, source.reconstruction, context.notes)
+    let rated = try notes.step("candidates") {
+      try ViewCandidates(options: candidates)
+        .run(seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
     }
-    let labels = try ViewSelection(options: options.selection)
-      .run(rated, mesh: mesh, topology: topology, context.part(from: 0.22, to: 0.26))
-    let weights = try ViewBlending(options: options.blending)
-      .run(
+    // A user who cropped the model decided what is in it.
+    if let presence = options.presence, !isCropped {
+      notes.step("presence") {
+        ObjectPresence(options: presence)
+          .run(mesh, seen: seen, views: views, source.reconstruction, notes)
+      }
+    }
+    let labels = try notes.step("labels") {
+      try ViewSelection(options: options.selection)
+        .run(rated, mesh: mesh, topology: topology, context.part(from: 0.22, to: 0.26))
+    }
+    let weights = try notes.step("blending") {
+      try ViewBlending(options: options.blending).run(
         rated, labels: labels, mesh: mesh, topology: topology, context.part(from: 0.26, to: 0.27))
-    let leveling = try ColorLeveling(options: options.leveling)
-      .run(
+    }
+    let leveling = try notes.step("leveling") {
+      try ColorLeveling(options: options.leveling).run(
         rated, weights: weights, mesh: mesh, topology: topology, context.part(from: 0.27, to: 0.3))
-
-    let map = try Charting(options: options.charting)
-      .run(mesh, rated: rated, labels: labels, context.part(from: 0.3, to: 0.32))
-    let layout = try AtlasPacking(
-      options: .init(maximumSide: options.textureSide, maximumAtlases: options.maximumAtlases)
-    ).run(map, context.part(from: 0.32, to: 0.35))
-    let baking = try MapBaking(options: options.baking)
-      .prepared(
-        options.maps, mesh: mesh, scene: scene, dense: dense, layout: layout, charts: map.charts,
-        context.part(from: 0.35, to: 0.39))
-    let painting = TexturePainting(
-      options: options.painting, weights: weights, leveling: leveling, gains: gains, views: views,
-      source: source, magnification: layout.magnification)
-    let maps = try images(
-      of: layout, scene: scene, baking, painting, context.part(from: 0.39, to: 1))
-    return assembled(mesh, layout, maps)
+    }
+    return FaceColors(
+      gains: gains, rated: rated, labels: labels, weights: weights, leveling: leveling)
   }
 
   /// The mesh's scene with the occluders appended after its triangles; nil without occluders.
@@ -142,15 +181,21 @@ package struct TextureMapping: Sendable {
     var usage = 0.0
     let images = try (0..<layout.count).map { atlas in
       let part = context.part(from: share * Double(atlas), to: share * Double(atlas + 1))
-      let canvas = try TextureCanvas(
-        scene, corners: layout.corners(in: atlas), side: layout.side,
-        part.part(from: 0, to: 0.06).control)
+      let canvas = try context.notes.step("canvas") {
+        try TextureCanvas(
+          scene, corners: layout.corners(in: atlas), side: layout.side,
+          part.part(from: 0, to: 0.06).control)
+      }
       usage += canvas.usage * share
-      var maps = try baking.run(on: canvas, atlas: atlas, part.part(from: 0.06, to: 0.73))
+      var maps = try context.notes.step("baking") {
+        try baking.run(on: canvas, atlas: atlas, part.part(from: 0.06, to: 0.73))
+      }
       if options.maps.contains(.diffuseColor) {
-        try painting.run(
-          on: canvas, faces: layout.faces(in: atlas), part.part(from: 0.73, to: 0.97))
-        maps[.diffuseColor] = try canvas.colors(part.part(from: 0.97, to: 1).control)
+        maps[.diffuseColor] = try context.notes.step("painting") {
+          try painting.run(
+            on: canvas, faces: layout.faces(in: atlas), part.part(from: 0.73, to: 0.97))
+          return try canvas.colors(part.part(from: 0.97, to: 1).control)
+        }
       }
       return maps
     }
