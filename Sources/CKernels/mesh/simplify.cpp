@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -7,6 +8,8 @@
 #include "ck_mesh.h"
 #include "core/disjoint_sets.h"
 #include "core/guard.h"
+#include "core/parallel.h"
+#include "core/progress.h"
 #include "mesh/collapse_mesh.h"
 #include "mesh/collapse_queue.h"
 #include "mesh/quadric.h"
@@ -30,6 +33,8 @@ constexpr double kLengthWeight = 1e-9;
 /// The number of components is limited to one per this number of triangles of the result.
 /// Empirical.
 constexpr size_t kTrianglesPerPiece = 16;
+/// Number of edges that a thread works on at a time.
+constexpr size_t kBlock = 8192;
 
 /// The vertices; throws if one is not finite.
 std::vector<Point> load_points(const InputMesh& input) {
@@ -90,7 +95,7 @@ class Simplifier {
   void run(size_t maximum, double cosine, const ck_control* control) {
     if (alive_ <= maximum) return;
     minimum_cosine_ = cosine;
-    fill_queue();
+    fill_queue(control);
     const size_t start = alive_;
     size_t count = 0;
     Collapse c;
@@ -249,28 +254,39 @@ class Simplifier {
     return is_found;
   }
 
-  void push(uint32_t a, uint32_t b, const Target& t, bool is_fallback) {
-    // The cost is the error that this collapse adds, not the error accumulated before.
+  /// The error that this collapse adds, not the error accumulated before.
+  float cost(uint32_t a, uint32_t b, const Target& t) const {
     const double added = std::max(0.0, t.error - vertices_[a].error - vertices_[b].error);
     const Point along = mesh_.point(a) - mesh_.point(b);
-    const double cost = added + kLengthWeight * dot(along, along) * dot(along, along);
-    queue_.push(static_cast<float>(cost), {a, b, versions_[a] + versions_[b], is_fallback});
+    return static_cast<float>(added + kLengthWeight * dot(along, along) * dot(along, along));
+  }
+
+  void push(uint32_t a, uint32_t b, float cost, bool is_fallback) {
+    queue_.push(cost, {a, b, versions_[a] + versions_[b], is_fallback});
   }
 
   void push(uint32_t first, uint32_t second) {
     const uint32_t a = std::min(first, second), b = std::max(first, second);
-    push(a, b, target(a, b), false);
+    push(a, b, cost(a, b, target(a, b)), false);
   }
 
-  void fill_queue() {
+  void fill_queue(const ck_control* control) {
     queue_ = {};
+    std::vector<std::array<uint32_t, 2>> edges;
     for_alive([&](uint32_t i) {
       const Face& f = mesh_.face(i);
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t a = f[k], b = f[(k + 1) % 3];
-        if (a < b || is_border(a, b)) push(a, b);
+        if (a < b || is_border(a, b)) edges.push_back({std::min(a, b), std::max(a, b)});
       }
     });
+    std::vector<float> costs(edges.size());
+    const ProgressPart start(control, 0, 0);
+    parallel_for_blocks(start.control(), edges.size(), kBlock, [&](size_t i) {
+      const auto [a, b] = edges[i];
+      costs[i] = cost(a, b, target(a, b));
+    });
+    for (size_t i = 0; i < edges.size(); ++i) push(edges[i][0], edges[i][1], costs[i], false);
   }
 
   void collapse(const Collapse& c) {
@@ -283,7 +299,7 @@ class Simplifier {
       t = target(a, b);
       if (!keeps_shape(a, b, t.position)) {
         // The fallback position may cost far more, so it is queued.
-        if (find_fallback(a, b, &t)) push(a, b, t, true);
+        if (find_fallback(a, b, &t)) push(a, b, cost(a, b, t), true);
         return;
       }
     }

@@ -4,12 +4,16 @@
 #include <limits>
 
 #include "core/guard.h"
+#include "core/parallel.h"
+#include "core/progress.h"
 
 namespace ck::mesh {
 namespace {
 
 /// Rounds of projecting the samples, and sweeps of moving the vertices in each.
 constexpr size_t kRounds = 2, kSweeps = 2;
+/// Number of samples that a thread works on at a time.
+constexpr size_t kBlock = 8192;
 /// Regularization weight, as a fraction of the weight of the planes, for directions that the
 /// samples do not determine, for example within a plane.
 constexpr double kPull = 2e-3;
@@ -92,8 +96,7 @@ void SurfaceFit::add(const Point& position, double area, uint32_t representative
 
 void SurfaceFit::run(const ck_control* control) {
   for (size_t round = 0; round < kRounds; ++round) {
-    step(control, 1);
-    find_faces(round == 0);
+    find_faces(round == 0, control);
     group();
     step(control, 1);
     for (size_t sweep = 0; sweep < kSweeps; ++sweep) move_vertices();
@@ -104,25 +107,29 @@ void SurfaceFit::run(const ck_control* control) {
   }
 }
 
-void SurfaceFit::find_faces(bool is_first) {
-  for (Sample& s : samples_) {
-    uint32_t center = s.face;
-    if (!is_first) {
-      place(&s, s.face);
-      const auto [least, most] = std::minmax_element(s.weights.begin(), s.weights.end());
-      if (*least > 0) continue;
-      center = mesh_.face(s.face)[static_cast<size_t>(most - s.weights.begin())];
-    }
-    double best = std::numeric_limits<double>::infinity();
-    Sample found = s;
-    mesh_.for_faces(center, [&](uint32_t i) {
-      const double distance2 = place(&s, i);
-      if (!(distance2 < best) && best < std::numeric_limits<double>::infinity()) return;
-      best = distance2;
-      found = s;
-    });
-    s = found;
+void SurfaceFit::find_faces(bool is_first, const ck_control* control) {
+  const ProgressPart end(control, 1, 1);
+  parallel_for_blocks(end.control(), samples_.size(), kBlock,
+                      [&](size_t i) { find_face(is_first, samples_[i]); });
+}
+
+void SurfaceFit::find_face(bool is_first, Sample& s) const {
+  uint32_t center = s.face;
+  if (!is_first) {
+    place(&s, s.face);
+    const auto [least, most] = std::minmax_element(s.weights.begin(), s.weights.end());
+    if (*least > 0) return;
+    center = mesh_.face(s.face)[static_cast<size_t>(most - s.weights.begin())];
   }
+  double best = std::numeric_limits<double>::infinity();
+  Sample found = s;
+  mesh_.for_faces(center, [&](uint32_t i) {
+    const double distance2 = place(&s, i);
+    if (!(distance2 < best) && best < std::numeric_limits<double>::infinity()) return;
+    best = distance2;
+    found = s;
+  });
+  s = found;
 }
 
 double SurfaceFit::place(Sample* s, uint32_t face) const {

@@ -49,7 +49,8 @@ class SurfaceFit {
   void add(const Point& position, double area, uint32_t representative);
   /// Searches for the nearest triangle around a nearby vertex, except for samples whose projection
   /// lies inside their triangle.
-  void find_faces(bool is_first);
+  void find_faces(bool is_first, const ck_control* control);
+  void find_face(bool is_first, Sample& s) const;
   /// Projects a sample onto a triangle; returns the squared distance.
   double place(Sample* s, uint32_t face) const;
   /// Groups the samples by triangle and updates the normals.

@@ -3,12 +3,17 @@
 #include <cmath>
 #include <memory>
 
+#include "core/parallel.h"
+#include "core/progress.h"
+
 namespace ck::texture {
 namespace {
 
 /// Tolerance of the barycentric weights of a texel center in a triangle, so that none is missed
 /// between two triangles; weight from which a center counts as covered twice.
 constexpr float kInsideTolerance = 1e-4f, kOverlapWeight = 1e-2f;
+/// Number of rows that a thread works on at a time.
+constexpr size_t kRows = 64;
 
 /// Assigns every texel whose center lies in a triangle to it; of several triangles the first one
 /// keeps it.
@@ -42,10 +47,11 @@ void rasterize(ck_atlas& atlas) {
 }
 
 /// Grows charts by one texel into free space.
-void grow(ck_atlas& atlas) {
+void grow(ck_atlas& atlas, const ck_control* control) {
   const std::vector<int32_t> before = atlas.faces;
   const int side = atlas.side;
-  for (int y = 0; y < side; ++y) {
+  parallel_for_blocks(control, static_cast<size_t>(side), kRows, [&](size_t row) {
+    const int y = static_cast<int>(row);
     for (int x = 0; x < side; ++x) {
       const size_t texel = atlas.index(x, y);
       if (before[texel] >= 0) continue;
@@ -61,7 +67,7 @@ void grow(ck_atlas& atlas) {
         break;
       }
     }
-  }
+  });
 }
 
 }  // namespace
@@ -86,8 +92,8 @@ ck_status ck_atlas_create(const ck_ray_scene* scene, const float* corners, size_
         std::vector<int32_t>(texels, -1), std::vector<int16_t>(3 * texels, 0), 0, 0, gutter});
     ck::texture::rasterize(*result);
     for (int i = 0; i < gutter; ++i) {
-      ck::step(control, 0.5);
-      ck::texture::grow(*result);
+      const ck::ProgressPart part(control, 0.5, 0.5);
+      ck::texture::grow(*result, part.control());
     }
     *atlas = result.release();
   });

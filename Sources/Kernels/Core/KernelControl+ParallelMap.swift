@@ -53,4 +53,41 @@ extension KernelControl {
       return result
     }
   }
+
+  /// Maps 0..<count like `parallelMap`, in units of consecutive indices, so that short calls cost
+  /// little.
+  package func parallelMap<Result: Sendable>(
+    _ count: Int, inUnitsOf size: Int, _ body: @escaping @Sendable (Int) throws -> Result
+  ) throws -> [Result] {
+    let units = try parallelMap((count + size - 1) / size) { unit in
+      try (unit * size..<min(count, (unit + 1) * size)).map(body)
+    }
+    return Array(units.joined())
+  }
+
+  /// Runs three independent calls on the control's threads.
+  package func concurrently<First: Sendable, Second: Sendable, Third: Sendable>(
+    _ first: @escaping @Sendable (KernelControl) throws -> First,
+    _ second: @escaping @Sendable (KernelControl) throws -> Second,
+    _ third: @escaping @Sendable (KernelControl) throws -> Third
+  ) throws -> (First, Second, Third) {
+    let results = Locked<(First?, Second?, Third?)>((nil, nil, nil))
+    _ = try parallelUnits(3) { index, control in
+      switch index {
+      case 0:
+        let value = try first(control)
+        results.withLock { $0.0 = value }
+      case 1:
+        let value = try second(control)
+        results.withLock { $0.1 = value }
+      default:
+        let value = try third(control)
+        results.withLock { $0.2 = value }
+      }
+    }
+    guard case (let first?, let second?, let third?) = results.withLock({ $0 }) else {
+      preconditionFailure("all calls have returned")
+    }
+    return (first, second, third)
+  }
 }

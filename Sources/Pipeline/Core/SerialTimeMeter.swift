@@ -25,8 +25,9 @@ package final class SerialTimeMeter: Sendable {
     }
   }
 
-  /// Seconds between two samples: a hundredth of the shortest steps of interest.
-  private static let interval = 0.005
+  /// Seconds between two samples: several ticks of the kernel, at which the time of running threads
+  /// is counted.
+  private static let interval = 0.02
 
   private let state = Locked(State())
   private let condition = NSCondition()

@@ -32,13 +32,16 @@ struct ExposureCompensation: Sendable {
     let step = max(1, views.faceCount / max(1, options.sufficientFaces))
     for round in 0..<options.rounds {
       try context.step(round, of: options.rounds)
-      for channel in 0..<3 {
+      let solutions = try context.part(from: 0, to: 0).control.parallelMap(3) {
+        [logGains] channel in
         var system = PairwiseDifferences(count: viewCount)
         for face in stride(from: 0, to: views.faceCount, by: step) {
           add(face, channel, of: views, logGains, to: &system)
         }
-        let solution = try system.solve(prior: options.prior, context.control)
-        for view in 0..<viewCount { logGains[view][channel] = solution[view] }
+        return try system.solve(prior: options.prior, KernelControl())
+      }
+      for view in 0..<viewCount {
+        logGains[view] = SIMD3(solutions[0][view], solutions[1][view], solutions[2][view])
       }
     }
     let limit = options.maximumGain

@@ -32,35 +32,47 @@ struct MapBaking: Sendable {
     fileprivate var diagonal: Float
   }
 
+  /// The surface before simplification, for rays.
+  struct DenseSurface {
+    fileprivate var scene: RayScene
+    fileprivate var normals: [SIMD3<Float>]
+  }
+
+  /// Nil if no map of `maps` shows the surface before simplification.
+  func denseSurface(
+    _ dense: Mesh, for maps: Set<TextureMap>, _ control: KernelControl
+  ) throws -> DenseSurface? {
+    guard !maps.isDisjoint(with: [.normal, .displacement, .ambientOcclusion]) else { return nil }
+    return DenseSurface(
+      scene: try RayScene(dense, control),
+      normals: dense.normals.count == dense.positions.count
+        ? dense.normals : dense.angleWeightedNormals())
+  }
+
   /// Prepares baking of `maps` onto `mesh`, whose triangles are those of `scene`.
   func prepared(
-    _ maps: Set<TextureMap>, mesh: Mesh, scene: RayScene, dense: Mesh, layout: AtlasLayout,
-    charts: [Int32], _ context: StageContext
-  ) throws -> Prepared {
+    _ maps: Set<TextureMap>, mesh: Mesh, scene: RayScene, dense: DenseSurface?,
+    layout: AtlasLayout, charts: [Int32]
+  ) -> Prepared {
     let diagonal = mesh.bounds.map { ($0.max - $0.min).length } ?? 1
     var side = layout.side
     while side > 512, layout.count * side * side > options.smoothTexels { side /= 2 }
-    let needsDense = !maps.isDisjoint(with: [.normal, .displacement, .ambientOcclusion])
     return Prepared(
       maps: maps, options: options, scene: scene, layout: layout,
       smooth: layout.scaled(toSide: side),
-      source: needsDense
-        ? try source(mesh, dense, layout, charts, reach: options.reach * diagonal, context) : nil,
+      source: dense.map { source(mesh, $0, layout, charts, reach: options.reach * diagonal) },
       diagonal: diagonal)
   }
 
   /// The dense surface with the tangent frames of the textured one.
   private func source(
-    _ mesh: Mesh, _ dense: Mesh, _ layout: AtlasLayout, _ charts: [Int32], reach: Float,
-    _ context: StageContext
-  ) throws -> BakeSource {
+    _ mesh: Mesh, _ dense: DenseSurface, _ layout: AtlasLayout, _ charts: [Int32], reach: Float
+  ) -> BakeSource {
     let normals = mesh.triangles.flatMap { $0.vertices.map { mesh.normals[$0] } }
-    let denseNormals =
-      dense.normals.count == dense.positions.count ? dense.normals : dense.angleWeightedNormals()
     return BakeSource(
       maximumDistance: reach, cornerNormals: normals,
       cornerTangents: TangentFrames().run(mesh, texels: layout.corners, charts: charts),
-      dense: try RayScene(dense, context.control), denseNormals: denseNormals)
+      dense: dense.scene, denseNormals: dense.normals)
   }
 }
 

@@ -81,38 +81,30 @@ package struct TextureMapping: Sendable {
     }
     let colors = try colors(
       of: mesh, topology, seen, source, isCropped: !occluders.triangles.isEmpty, context)
-    let map = try notes.step("charts") {
-      try Charting(options: options.charting)
-        .run(mesh, rated: colors.rated, labels: colors.labels, context.part(from: 0.3, to: 0.32))
+    let layout = try notes.step("layout") {
+      try self.layout(of: mesh, dense, topology, colors, context.part(from: 0.26, to: 0.39))
     }
-    let layout = try notes.step("packing") {
-      try AtlasPacking(
-        options: .init(maximumSide: options.textureSide, maximumAtlases: options.maximumAtlases)
-      ).run(map, context.part(from: 0.32, to: 0.35))
-    }
-    let baking = try notes.step("bakingPreparation") {
-      try MapBaking(options: options.baking).prepared(
-        options.maps, mesh: mesh, scene: scene, dense: dense, layout: layout, charts: map.charts,
-        context.part(from: 0.35, to: 0.39))
+    let baking = notes.step("bakingPreparation") {
+      MapBaking(options: options.baking).prepared(
+        options.maps, mesh: mesh, scene: scene, dense: layout.dense, layout: layout.atlas,
+        charts: layout.charts)
     }
     let painting = TexturePainting(
-      options: options.painting, weights: colors.weights, leveling: colors.leveling,
-      gains: colors.gains, views: views, source: source, magnification: layout.magnification)
+      options: options.painting, weights: layout.weights, leveling: layout.leveling,
+      gains: colors.gains, views: views, source: source, magnification: layout.atlas.magnification)
     let maps = try images(
-      of: layout, scene: scene, baking, painting, context.part(from: 0.39, to: 1))
-    return notes.step("assembly") { assembled(mesh, layout, maps) }
+      of: layout.atlas, scene: scene, baking, painting, context.part(from: 0.39, to: 1))
+    return notes.step("assembly") { assembled(mesh, layout.atlas, maps) }
   }
 
-  /// What decides the colors of the faces.
+  /// The views that may color the faces, and the one chosen for each.
   private struct FaceColors {
     var gains: [ExposureGain]
     var rated: RatedViews
     var labels: [Int32]
-    var weights: CornerWeights
-    var leveling: LevelingOffsets
   }
 
-  /// Chooses the views of each face, and levels their colors.
+  /// Chooses the views of each face.
   private func colors(
     of mesh: Mesh, _ topology: MeshTopology, _ seen: FaceViews, _ source: ViewSource,
     isCropped: Bool, _ context: StageContext
@@ -141,16 +133,47 @@ package struct TextureMapping: Sendable {
       try ViewSelection(options: options.selection)
         .run(rated, mesh: mesh, topology: topology, context.part(from: 0.22, to: 0.26))
     }
-    let weights = try notes.step("blending") {
-      try ViewBlending(options: options.blending).run(
-        rated, labels: labels, mesh: mesh, topology: topology, context.part(from: 0.26, to: 0.27))
-    }
-    let leveling = try notes.step("leveling") {
-      try ColorLeveling(options: options.leveling).run(
-        rated, weights: weights, mesh: mesh, topology: topology, context.part(from: 0.27, to: 0.3))
-    }
-    return FaceColors(
-      gains: gains, rated: rated, labels: labels, weights: weights, leveling: leveling)
+    return FaceColors(gains: gains, rated: rated, labels: labels)
+  }
+
+  /// Where the faces lie in the textures, how their photos are blended there, and the surface that
+  /// the maps show.
+  private struct Layout {
+    var charts: [Int32]
+    var atlas: AtlasLayout
+    var weights: CornerWeights
+    var leveling: LevelingOffsets
+    var dense: MapBaking.DenseSurface?
+  }
+
+  /// Lays out the textures while another thread levels the colors and prepares the dense surface.
+  private func layout(
+    of mesh: Mesh, _ dense: Mesh, _ topology: MeshTopology, _ colors: FaceColors,
+    _ context: StageContext
+  ) throws -> Layout {
+    let (rated, labels) = (colors.rated, colors.labels)
+    let notes = context.notes
+    let ((charts, atlas), (weights, leveling), surface) = try context.control.concurrently(
+      { control in
+        let context = StageContext(control: control, notes: notes)
+        let map = try Charting(options: options.charting)
+          .run(mesh, rated: rated, labels: labels, context.part(from: 0, to: 0.3))
+        let packing = AtlasPacking(
+          options: .init(
+            maximumSide: options.textureSide, maximumAtlases: options.maximumAtlases))
+        return (map.charts, try packing.run(map, context.part(from: 0.3, to: 1)))
+      },
+      { control in
+        let context = StageContext(control: control, notes: notes)
+        let weights = try ViewBlending(options: options.blending).run(
+          rated, labels: labels, mesh: mesh, topology: topology, context.part(from: 0, to: 0.3))
+        let leveling = try ColorLeveling(options: options.leveling).run(
+          rated, weights: weights, mesh: mesh, topology: topology, context.part(from: 0.3, to: 1))
+        return (weights, leveling)
+      },
+      { try MapBaking(options: options.baking).denseSurface(dense, for: options.maps, $0) })
+    return Layout(
+      charts: charts, atlas: atlas, weights: weights, leveling: leveling, dense: surface)
   }
 
   /// The mesh's scene with the occluders appended after its triangles; nil without occluders.

@@ -64,20 +64,19 @@ struct TransientOccluders: Sendable {
   private func rated(
     _ views: FaceViews, without isOccluder: [Bool]?, _ context: StageContext
   ) throws -> (medians: [SIMD3<Float>], excess: [Float]) {
-    var medians = [SIMD3<Float>](repeating: .zero, count: views.faceCount)
-    var excess = [Float](repeating: 0, count: views.entries.count)
-    for face in 0..<views.faceCount {
-      if face % 16384 == 0 { try context.step(face, of: views.faceCount) }
-      let entries = views.range(of: face).filter { !(isOccluder?[$0] ?? false) }
-      medians[face] = rate(entries, of: views, &excess)
-    }
-    return (medians, excess)
+    let rated = try context.control.parallelMap(
+      views.faceCount, inUnitsOf: FaceViews.parallelUnit
+    ) { rate($0, of: views, without: isOccluder) }
+    return (rated.map(\.median), rated.flatMap(\.excess))
   }
 
-  /// Evaluates the views of one triangle; returns their median color.
+  /// The median color of one triangle, and the deviation of each of its views.
   private func rate(
-    _ entries: [Int], of views: FaceViews, _ excess: inout [Float]
-  ) -> SIMD3<Float> {
+    _ face: Int, of views: FaceViews, without isOccluder: [Bool]?
+  ) -> (median: SIMD3<Float>, excess: [Float]) {
+    let range = views.range(of: face)
+    let entries = range.filter { !(isOccluder?[$0] ?? false) }
+    var excess = [Float](repeating: 0, count: range.count)
     let colors = entries.map { views.entries[$0].color }
     var median = SIMD3<Float>.zero
     var deviation = SIMD3<Float>.zero
@@ -88,14 +87,14 @@ struct TransientOccluders: Sendable {
     let tolerance = SIMD3<Float>(repeating: options.colorTolerance)
     if entries.count == 2 {
       let share = Self.largest((colors[0] - colors[1]) / tolerance)
-      for entry in entries { excess[entry] = min(1, share) }
+      for entry in entries { excess[entry - range.lowerBound] = min(1, share) }
     } else if entries.count >= options.minimumViews {
       let limit = pointwiseMax(deviation * (1.4826 * options.deviations), tolerance)
       for (entry, color) in zip(entries, colors) {
-        excess[entry] = Self.largest((color - median) / limit)
+        excess[entry - range.lowerBound] = Self.largest((color - median) / limit)
       }
     }
-    return median
+    return (median, excess)
   }
 
   private static func largest(_ v: SIMD3<Float>) -> Float { pointwiseMax(v, -v).max() }

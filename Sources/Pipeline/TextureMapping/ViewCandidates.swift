@@ -43,35 +43,38 @@ struct ViewCandidates: Sendable {
       .run(views, topology: topology, context)
     context.notes.record("outlierViews", Double(isOutlier.count { $0 }))
     views.filter { !isOutlier[$0] }
-    var rated = RatedViews(
-      views: views, qualities: Array(repeating: 0, count: views.entries.count),
-      colors: Array(repeating: nil, count: views.faceCount))
-    for face in 0..<views.faceCount { rate(face, gains, &rated) }
-    return rated
+    let ratings = try context.part(from: 0, to: 0).control.parallelMap(
+      views.faceCount, inUnitsOf: FaceViews.parallelUnit
+    ) { [views] in rate($0, of: views, gains) }
+    return RatedViews(
+      views: views, qualities: ratings.flatMap(\.qualities), colors: ratings.map(\.color))
   }
 
-  /// Computes the qualities and the consensus color of one triangle.
-  private func rate(_ face: Int, _ gains: [ExposureGain], _ rated: inout RatedViews) {
-    let entries = rated.views.range(of: face)
-    guard !entries.isEmpty else { return }
+  /// The qualities of a triangle's views, and its consensus color.
+  private func rate(
+    _ face: Int, of views: FaceViews, _ gains: [ExposureGain]
+  ) -> (qualities: [Float], color: SIMD3<Float>?) {
+    let entries = views.range(of: face)
+    guard !entries.isEmpty else { return ([], nil) }
+    var qualities: [Float] = []
     // A gradient times a length doesn't depend on the distance, only on the focus.
     let sharpness = entries.map {
-      rated.views.entries[$0].gradient * rated.views.entries[$0].area.squareRoot()
+      views.entries[$0].gradient * views.entries[$0].area.squareRoot()
     }
     let typical = max(sharpness.upperMedian ?? 0, 1e-3)
     var (sum, weight) = (SIMD3<Float>.zero, Float(0))
     let range = options.sharpnessRange
     for (index, sharp) in zip(entries, sharpness) {
-      let entry = rated.views.entries[index]
+      let entry = views.entries[index]
       var quality = entry.area * min(max(sharp / typical, range.lowerBound), range.upperBound)
       for _ in 0..<options.cosinePower { quality *= entry.cosine }
       let trust = trust(in: entry, gains[Int(entry.view)])
       quality *= trust
-      rated.qualities[index] = quality
+      qualities.append(quality)
       sum += entry.color * (entry.cosine * trust)
       weight += entry.cosine * trust
     }
-    rated.colors[face] = sum / weight
+    return (qualities, sum / weight)
   }
 
   /// 1, or less if the color may belong to another surface or be overexposed.

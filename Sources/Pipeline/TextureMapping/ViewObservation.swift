@@ -21,16 +21,14 @@ struct ViewObservation: Sendable {
     _ context: StageContext
   ) throws -> FaceViews {
     let faceCount = faceCount ?? scene.triangleCount
-    var byView: [[FaceObservation]] = []
-    for (index, photo) in views.enumerated() {
-      try context.step(index, of: views.count)
-      let view = try source.view(photo, options.maximumPixels)
+    let byView = try context.control.parallelMap(views.count) { index in
+      let view = try source.view(views[index], options.maximumPixels)
       var observations = try scene.observations(
-        in: view, options: options.rays, context.part(from: 0, to: 0).control)
+        in: view, options: options.rays, KernelControl())
       observations.removeAll { $0.face >= Int32(faceCount) }
       let factor = source.areaFactor(of: view)
       for index in observations.indices { observations[index].area *= factor }
-      byView.append(observations)
+      return observations
     }
     var result = FaceViews(faceCount: faceCount, observationsByView: byView)
     limit(&result)
