@@ -122,7 +122,8 @@ struct Poisson: ParsableCommand {
     solver.depth = depth
     let (surface, cost) = try Cost.measuring {
       try solver.surface(
-        positions: cloud.positions, normals: cloud.normals, KernelControl(threadCount: threads))
+        positions: cloud.positions, normals: cloud.normals, KernelControl(threadCount: threads)
+      ).mesh
     }
     try PLY.write(surface, to: URL(fileURLWithPath: output))
     try printJSON(cost)

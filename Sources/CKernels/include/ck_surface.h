@@ -17,6 +17,8 @@ typedef struct {
   int32_t depth;
   /// Side of the cube in which the system is solved, relative to the largest extent of the points.
   double scale;
+  /// Memory that the solver may use; the octree is less deep if it would need more.
+  size_t maximum_bytes;
 } ck_poisson_options;
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points,
@@ -29,6 +31,8 @@ typedef struct {
 ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
                      const ck_control* control, ck_surface** surface);
 
+/// Greatest depth of the octree: less than that of the options if memory does not suffice.
+int32_t ck_surface_depth(const ck_surface* surface);
 /// Number of vertices of the mesh.
 size_t ck_surface_vertex_count(const ck_surface* surface);
 /// Number of triangles of the mesh.

@@ -12,18 +12,20 @@
 struct ck_surface {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<uint32_t, 3>> triangles;
+  int depth;
 };
 
 namespace {
 
 using namespace ck::poisson;
 
-ck_surface reconstruct(Samples samples, int depth, const ck_control* control) {
+ck_surface reconstruct(Samples samples, int depth, size_t maximum_bytes,
+                       const ck_control* control) {
   // The shares of the time, measured on boot and orbit.
   const ck::ProgressPart density(control, 0, 0.07), octree(control, 0.07, 0.2),
       solving(control, 0.2, 0.73), averaging(control, 0.73, 0.75), contouring(control, 0.75, 1);
   estimate_density(samples, depth, density.control());
-  std::vector<Level> levels = make_levels(samples, depth, octree.control());
+  std::vector<Level> levels = make_levels(samples, depth, maximum_bytes, octree.control());
   solve(levels, samples, solving.control());
   const double value = mean_value(levels, samples, averaging.control());
   Contour found = contour(levels, value, contouring.control());
@@ -32,7 +34,7 @@ ck_surface reconstruct(Samples samples, int depth, const ck_control* control) {
       p[a] = static_cast<float>(samples.origin[a] + samples.side * p[a]);
     }
   }
-  return {std::move(found.positions), std::move(found.triangles)};
+  return {std::move(found.positions), std::move(found.triangles), depth};
 }
 
 }  // namespace
@@ -46,9 +48,12 @@ ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_option
     ck::require(options->scale >= 1, "scale must be 1 or more");
     ck::step(control, 0);
     const ck::Strided<float> p(positions), n(normals);
-    *surface = new ck_surface(reconstruct(Samples(p, n, options->scale), options->depth, control));
+    *surface = new ck_surface(reconstruct(Samples(p, n, options->scale), options->depth,
+                                          options->maximum_bytes, control));
   });
 }
+
+int32_t ck_surface_depth(const ck_surface* surface) { return surface->depth; }
 
 size_t ck_surface_vertex_count(const ck_surface* surface) { return surface->positions.size(); }
 

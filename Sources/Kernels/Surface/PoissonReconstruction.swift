@@ -7,6 +7,8 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
   package var depth = 9
   /// Side of the cube in which the system is solved, relative to the largest extent of the points.
   package var scale = 1.1
+  /// Memory that the solver may use, in bytes; the octree is less deep if it would need more.
+  package var maximumBytes = Int.max
 
   package init() {}
 
@@ -14,20 +16,23 @@ package struct PoissonReconstruction: Hashable, Codable, Sendable {
   /// ignored.
   ///
   /// The mesh has positions and triangles only, counter-clockwise seen from the side that the
-  /// normals point to. It has no cracks, and is open only where it leaves the cube.
+  /// normals point to. It has no cracks, and is open only where it leaves the cube. The depth
+  /// is less than `depth` if memory does not suffice.
   package func surface(
     positions: [SIMD3<Float>], normals: [SIMD3<Float>], _ control: KernelControl
-  ) throws -> Mesh {
+  ) throws -> (mesh: Mesh, depth: Int) {
     guard positions.count == normals.count else {
       throw KernelError.invalidArgument("as many normals as positions are needed")
     }
-    var options = ck_poisson_options(depth: Int32(depth), scale: scale)
+    var options = ck_poisson_options(
+      depth: Int32(depth), scale: scale, maximum_bytes: max(0, maximumBytes))
     var handle: OpaquePointer?
     try withKernel(control) { control in
       withSpans(positions, normals) { ck_poisson($0, $1, &options, control, &handle) }
     }
     guard let handle else { throw KernelError.failed("no surface") }
-    return SurfaceHandle(handle).mesh
+    let surface = SurfaceHandle(handle)
+    return (surface.mesh, surface.depth)
   }
 }
 
@@ -38,6 +43,8 @@ private final class SurfaceHandle {
   init(_ raw: OpaquePointer) { self.raw = raw }
 
   deinit { ck_surface_free(raw) }
+
+  var depth: Int { Int(ck_surface_depth(raw)) }
 
   var mesh: Mesh {
     var mesh = Mesh(

@@ -9,4 +9,6 @@ package struct MemoryLimits: Hashable, Sendable {
   package var maximumPhotoSide: Int
   /// Bytes that decoded photos may occupy.
   package var imageMemory: Int
+  /// Bytes that the surface solver may use.
+  package var surfaceMemory: Int
 }

@@ -19,6 +19,9 @@ struct PoissonSurface {
   }
 
   var options = Options()
+  /// Memory of the solver, which lowers the depth if it would need more. Not an option: the same
+  /// options give the same surface on any machine where they fit.
+  var maximumBytes = Machine.current.limits.surfaceMemory
 
   /// The surface and the side of its smallest cells. `spacing` is the sample spacing; both are in
   /// world units. Throws `PipelineError.noSurface`.
@@ -33,19 +36,25 @@ struct PoissonSurface {
     }
     var solver = PoissonReconstruction()
     solver.scale = options.scale
+    solver.maximumBytes = maximumBytes
     let extent = Double((bounds.max - bounds.min).max())
     solver.depth = depth(extent: extent, spacing: spacing)
-    let mesh = try surface(of: cloud, solver, context.control)
+    let (mesh, depth) = try surface(of: cloud, solver, context.control)
     guard !mesh.triangles.isEmpty else {
       throw PipelineError.noSurface(reason: "no surface fits the \(cloud.count) points.")
     }
-    context.notes.record("poissonDepth", Double(solver.depth))
-    return (mesh, options.scale * extent / exp2(Double(solver.depth)))
+    context.notes.record("poissonDepth", Double(depth))
+    if depth < solver.depth {
+      context.notes.warn(
+        "The surface has cells \(1 << (solver.depth - depth)) times as large as the points allow, "
+          + "because it may take \(maximumBytes >> 20) MB of memory. Use a machine with more.")
+    }
+    return (mesh, options.scale * extent / exp2(Double(depth)))
   }
 
   private func surface(
     of cloud: PointCloud, _ solver: PoissonReconstruction, _ control: KernelControl
-  ) throws -> Mesh {
+  ) throws -> (mesh: Mesh, depth: Int) {
     do {
       return try solver.surface(positions: cloud.positions, normals: cloud.normals, control)
     } catch let error as KernelError where error != .outOfMemory {

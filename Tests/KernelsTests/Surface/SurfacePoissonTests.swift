@@ -12,7 +12,7 @@ import Testing
     func surface(depth: Int, _ control: KernelControl = KernelControl()) throws -> Mesh {
       var reconstruction = PoissonReconstruction()
       reconstruction.depth = depth
-      return try reconstruction.surface(positions: positions, normals: normals, control)
+      return try reconstruction.surface(positions: positions, normals: normals, control).mesh
     }
 
     func moved(by offset: SIMD3<Float>, factor: Float) -> Points {
@@ -64,6 +64,26 @@ import Testing
     let limit = 0.1 * side(points, depth: depth)
     #expect(mesh.positions.allSatisfy { abs($0.length - 1) < limit })
     #expect(abs(mesh.volume - 4 * .pi / 3) < 3 * Double(limit))
+  }
+
+  /// Without memory, the octree has the levels that have all cells, whatever the points are.
+  @Test func memoryLimitsTheDepth() throws {
+    let points = Self.sphere(20_000)
+    var reconstruction = PoissonReconstruction()
+    reconstruction.depth = 7
+    func surface(_ bytes: Int) throws -> (mesh: Mesh, depth: Int) {
+      reconstruction.maximumBytes = bytes
+      return try reconstruction.surface(
+        positions: points.positions, normals: points.normals, KernelControl())
+    }
+    let (whole, depth) = try surface(1 << 30)
+    #expect(depth == 7)
+    expectEqual(whole, try points.surface(depth: 7))
+    for (bytes, expected) in [(0, 5), (12 << 20, 6)] {
+      let (mesh, depth) = try surface(bytes)
+      #expect(depth == expected && isClosed(mesh))
+      #expect(mesh.triangles.count < whole.triangles.count / 3)
+    }
   }
 
   /// Levels meet without cracks, and the sparse part is as correct as its samples allow.

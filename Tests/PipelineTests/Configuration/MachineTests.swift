@@ -41,6 +41,7 @@ import Testing
     let large = Machine(totalMemoryBytes: 16 << 30).limits
     #expect(large.maximumPhotos == 1000 && large.maximumPhotoSide == 16384)
     #expect(large.imageMemory == 1 << 30)
+    #expect(large.surfaceMemory > large.imageMemory)
     let small = Machine(totalMemoryBytes: 2 << 30).limits
     #expect(small.maximumPhotos == 268 && small.maximumPhotoSide == 8192)
     #expect(small.imageMemory == 256 << 20)

@@ -59,16 +59,31 @@ void BrickCodes::add(const Coordinates& cell, int before, int after, int side) {
   limit_ = std::max(limit_, 2 * codes_.size());
 }
 
-BrickSet::BrickSet(std::vector<uint64_t> codes) : codes_(std::move(codes)) {
+std::vector<uint64_t> BrickCodes::take() {
+  make_unique(codes_);
+  return std::move(codes_);
+}
+
+BrickSet::BrickSet(std::vector<uint64_t> codes, const ck_control* control)
+    : codes_(std::move(codes)) {
+  constexpr size_t kBlock = 256;
   make_unique(codes_);
   neighbors_.resize(codes_.size());
-  for (size_t b = 0; b < codes_.size(); ++b) {
+  parallel_for_blocks(control, codes_.size(), kBlock, [&](size_t b) {
     const Coordinates c = coordinates(b);
     for (int i = 0; i < 27; ++i) {
       const Coordinates other{c[0] + i % 3 - 1, c[1] + i / 3 % 3 - 1, c[2] + i / 9 - 1};
       neighbors_[b][static_cast<size_t>(i)] = i == 13 ? static_cast<int32_t>(b) : find(other);
     }
+  });
+}
+
+std::vector<uint64_t> merged(const std::vector<std::vector<uint64_t>>& parts) {
+  std::vector<uint64_t> codes;
+  for (const std::vector<uint64_t>& part : parts) {
+    codes.insert(codes.end(), part.begin(), part.end());
   }
+  return codes;
 }
 
 int32_t BrickSet::find(const Coordinates& brick) const {

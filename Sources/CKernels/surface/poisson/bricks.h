@@ -46,19 +46,23 @@ class BrickCodes {
   /// Adds the bricks of the nodes from `before` before to `after` after a cell, per axis, of a
   /// level with `side` cells per axis.
   void add(const Coordinates& cell, int before, int after, int side);
-  std::vector<uint64_t> take() { return std::move(codes_); }
+  /// The codes in ascending order, without repetitions.
+  std::vector<uint64_t> take();
 
  private:
   std::vector<uint64_t> codes_;
   size_t limit_ = 1 << 20;
 };
 
+/// The codes of all parts.
+std::vector<uint64_t> merged(const std::vector<std::vector<uint64_t>>& parts);
+
 /// Bricks of one level in Morton order.
 class BrickSet {
  public:
   BrickSet() = default;
   /// `codes` are the Morton codes of the bricks' coordinates, in any order, with repetitions.
-  explicit BrickSet(std::vector<uint64_t> codes);
+  BrickSet(std::vector<uint64_t> codes, const ck_control* control);
 
   size_t count() const { return codes_.size(); }
   uint64_t code(size_t brick) const { return codes_[brick]; }

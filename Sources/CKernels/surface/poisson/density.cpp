@@ -21,17 +21,20 @@ constexpr double kSamplesPerCell = 1.5;
 constexpr int kCoarsestDensity = 3;
 
 /// The bricks of the nodes that the samples' weights reach.
-BrickSet reached_bricks(const Samples& samples, int depth) {
-  BrickCodes codes;
+BrickSet reached_bricks(const Samples& samples, int depth, const ck_control* control) {
   const int side = 1 << depth;
-  samples.for_cells(0, samples.samples.size(), depth, 0,
-                    [&](const Coordinates& cell) { codes.add(cell, 1, 2, side); });
-  return BrickSet(codes.take());
+  const auto codes = samples.map_blocks(control, [&](size_t first, size_t last) {
+    BrickCodes part;
+    samples.for_cells(first, last, depth, 0,
+                      [&](const Coordinates& cell) { part.add(cell, 1, 2, side); });
+    return part.take();
+  });
+  return BrickSet(merged(codes), control);
 }
 
 /// By the density of one level; returns whether samples are left for which it is too fine.
 bool estimate_density(Samples& samples, int level, int depth, const ck_control* control) {
-  const BrickSet bricks = reached_bricks(samples, level);
+  const BrickSet bricks = reached_bricks(samples, level, control);
   Field<1> counts(bricks);
   splat(counts, bricks, samples, level, control,
         [](const Sample&) { return std::array<float, 1>{1}; });

@@ -31,17 +31,21 @@ class Neighborhood {
 };
 
 /// The bricks that hold the cells, their nodes, and the nodes around these.
-BrickSet make_bricks(const Level& level, const Samples& samples, const Neighborhood& around) {
-  BrickCodes codes;
+BrickSet make_bricks(const Level& level, const Samples& samples, const Neighborhood& around,
+                     const ck_control* control) {
   if (level.depth <= kFullDepth) {
+    BrickCodes codes;
     codes.add({0, 0, 0}, 0, level.side(), level.side());
-    return BrickSet(codes.take());
+    return BrickSet(codes.take(), control);
   }
-  const auto add = [&](const Coordinates& cell) {
-    codes.add(around.first(cell), 1, around.count() + 1, level.side());
-  };
-  samples.for_cells(0, samples.samples.size(), level.depth, level.least_depth(), add);
-  return BrickSet(codes.take());
+  const auto codes = samples.map_blocks(control, [&](size_t first, size_t last) {
+    BrickCodes part;
+    samples.for_cells(first, last, level.depth, level.least_depth(), [&](const Coordinates& cell) {
+      part.add(around.first(cell), 1, around.count() + 1, level.side());
+    });
+    return part.take();
+  });
+  return BrickSet(merged(codes), control);
 }
 
 void mark_all_cells(Level& level) {
@@ -135,11 +139,13 @@ void gather_samples(Level& level, const Samples& samples, const ck_control* cont
   }
 }
 
-void find_parents(Level& level, const Level& above) {
-  for (size_t b = 0; b < level.bricks.count(); ++b) {
+void find_parents(Level& level, const Level& above, const ck_control* control) {
+  constexpr size_t kBlock = 1024;
+  level.parents.resize(level.bricks.count());
+  parallel_for_blocks(control, level.bricks.count(), kBlock, [&](size_t b) {
     const Coordinates c = level.bricks.coordinates(b);
-    level.parents.push_back(above.bricks.find({c[0] >> 1, c[1] >> 1, c[2] >> 1}));
-  }
+    level.parents[b] = above.bricks.find({c[0] >> 1, c[1] >> 1, c[2] >> 1});
+  });
 }
 
 }  // namespace
@@ -149,24 +155,31 @@ bool Level::has_cell(size_t brick, const Coordinates& at) const {
   return other >= 0 && cells[other][index];
 }
 
-std::vector<Level> make_levels(const Samples& samples, int depth, const ck_control* control) {
+std::vector<Level> make_levels(const Samples& samples, int& depth, size_t maximum_bytes,
+                               const ck_control* control) {
   std::vector<Level> levels;
+  size_t all_bricks = 0;
   for (int d = kFirstDepth; d <= std::max(depth, kFirstDepth); ++d) {
     const ProgressPart part(control, static_cast<double>(d - kFirstDepth) / (depth + 1),
                             static_cast<double>(d + 1 - kFirstDepth) / (depth + 1));
     Level level;
     level.depth = d;
     const Neighborhood around(depth - d);
-    level.bricks = make_bricks(level, samples, around);
+    level.bricks = make_bricks(level, samples, around, part.control());
     const size_t count = level.bricks.count();
     if (count == 0) break;
+    all_bricks += count;
+    if (d > kFullDepth && all_bricks > maximum_bytes / kBytesPerBrick) {
+      depth = d - 1;
+      break;
+    }
     level.cells.resize(count);
     level.nodes.resize(count);
     d <= kFullDepth ? mark_all_cells(level)
                     : mark_sampled_cells(level, samples, around, part.control());
     mark_nodes(level, part.control());
     gather_samples(level, samples, part.control());
-    if (!levels.empty()) find_parents(level, levels.back());
+    if (!levels.empty()) find_parents(level, levels.back(), part.control());
     levels.push_back(std::move(level));
   }
   return levels;

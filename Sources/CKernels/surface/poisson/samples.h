@@ -55,6 +55,18 @@ struct Samples {
     }
   }
 
+  /// The results of `body(first, last)` for consecutive parts of the samples, in their order.
+  template <typename Body>
+  auto map_blocks(const ck_control* control, Body&& body) const {
+    constexpr size_t kBlock = 1 << 15;
+    const size_t count = samples.size();
+    std::vector<decltype(body(size_t{0}, count))> results((count + kBlock - 1) / kBlock);
+    parallel_for(control, results.size(), [&](size_t i) {
+      results[i] = body(i * kBlock, std::min(count, (i + 1) * kBlock));
+    });
+    return results;
+  }
+
  private:
   void move_to_cube(Sample& sample) const;
   void sort();
