@@ -29,6 +29,9 @@ enum ConfigurationFingerprint {
     Exclusion("ingestion.memoryBudget", "the processing pixels that follow from it are hashed"),
     Exclusion("ingestion.bytesPerPixel", "the processing pixels that follow from it are hashed"),
     Exclusion("pointCloudGeneration.cacheBytes", "it bounds a cache"),
+    Exclusion(
+      "meshGeneration.poisson.maximumBytes",
+      "only a surface that does not fit into memory depends on it, with a warning"),
   ]
 
   /// The stage that reads the options of a member. A member that is missing here counts for all

@@ -39,6 +39,7 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
     ingestion.maximumPhotos = limits.maximumPhotos
     ingestion.inspection.limits.maximumSide = limits.maximumPhotoSide
     ingestion.memoryBudget = limits.imageMemory
+    meshGeneration.poisson.maximumBytes = limits.surfaceMemory
   }
 }
 

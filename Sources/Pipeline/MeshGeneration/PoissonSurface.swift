@@ -14,14 +14,13 @@ struct PoissonSurface {
     var scale = 1.1
     /// Minimum number of points.
     var minimumPoints = 20
+    /// Memory of the solver, in bytes; cells are larger if it would need more.
+    var maximumBytes = Int.max
 
     init() {}
   }
 
   var options = Options()
-  /// Memory of the solver, which lowers the depth if it would need more. Not an option: the same
-  /// options give the same surface on any machine where they fit.
-  var maximumBytes = Machine.current.limits.surfaceMemory
 
   /// The surface and the side of its smallest cells. `spacing` is the sample spacing; both are in
   /// world units. Throws `PipelineError.noSurface`.
@@ -36,7 +35,7 @@ struct PoissonSurface {
     }
     var solver = PoissonReconstruction()
     solver.scale = options.scale
-    solver.maximumBytes = maximumBytes
+    solver.maximumBytes = options.maximumBytes
     let extent = Double((bounds.max - bounds.min).max())
     solver.depth = depth(extent: extent, spacing: spacing)
     let (mesh, depth) = try surface(of: cloud, solver, context.control)
@@ -47,7 +46,8 @@ struct PoissonSurface {
     if depth < solver.depth {
       context.notes.warn(
         "The surface has cells \(1 << (solver.depth - depth)) times as large as the points allow, "
-          + "because it may take \(maximumBytes >> 20) MB of memory. Use a machine with more.")
+          + "because it may take \(options.maximumBytes >> 20) MB of memory. Use a machine "
+          + "with more.")
     }
     return (mesh, options.scale * extent / exp2(Double(depth)))
   }
