@@ -64,7 +64,9 @@ private struct UnregisteredPhotoDiagnosis {
   /// A sentence without its subject, the name of the photo, and without the final period.
   func reason(_ photo: Int) -> String {
     let verified = links[photo].filter { $0.needed == nil }
-    if let group = others.first(where: { $0.isRegistered(photo) }) { return separate(group) }
+    if let group = others.first(where: { $0.isRegistered(photo) }) {
+      return separate(photo, in: group)
+    }
     if features[photo].count < FeatureExtraction.fewFeatures {
       return "shows hardly any texture (\(features[photo].count) features); "
         + "take it sharper, in better light, or with something textured next to the object"
@@ -92,8 +94,10 @@ private struct UnregisteredPhotoDiagnosis {
       + "where \(needed) are needed; \(advice)"
   }
 
-  private func separate(_ group: SparseMap) -> String {
+  /// Only the reason of the group's first photo says what is missing.
+  private func separate(_ photo: Int, in group: SparseMap) -> String {
     let members = group.registered.sorted()
+    if photo != members[0] { return "belongs to the separate group of \(name(members[0]))" }
     return "belongs to a separate group of \(members.count) photos "
       + "(\(name(members[0])) to \(name(members[members.count - 1]))) that could not be joined "
       + "with the rest" + closest(members) + "; add photos between the two groups"

@@ -108,7 +108,12 @@ import Testing
     #expect(result.registered.map(\.index) == Array(0..<10))
     #expect(result.unregistered.map(\.sampleID) == Array(10..<16))
     #expect(result.unregistered.allSatisfy { $0.fault == .notRegistered })
-    #expect(result.unregistered.allSatisfy { $0.reason.contains("separate group of 6 photos") })
+    let first = try #require(result.unregistered.first)
+    #expect(first.reason.contains("separate group of 6 photos"))
+    #expect(
+      result.unregistered.dropFirst().allSatisfy {
+        $0.reason == "\($0.name) belongs to the separate group of \(first.name)."
+      })
   }
 
   @Test(arguments: MappingMethod.allCases)
