@@ -62,8 +62,9 @@ std::vector<uint8_t> encode_jpeg(const ck_pixels& pixels, int quality) {
   jpeg_create_compress(&encoder);
   const bool complete = write(encoder, errors, pixels, quality, &file, &count);
   jpeg_destroy_compress(&encoder);
-  const std::unique_ptr<unsigned char, decltype(&std::free)> owner(file, std::free);
+  // Until the file is complete, libjpeg may have freed the memory that `file` refers to.
   if (!complete) throw std::runtime_error(errors.message);
+  const std::unique_ptr<unsigned char, decltype(&std::free)> owner(file, std::free);
   return std::vector<uint8_t>(file, file + count);
 }
 

@@ -50,6 +50,7 @@ class SurfaceFit {
   /// Searches for the nearest triangle around a nearby vertex, except for samples whose projection
   /// lies inside their triangle.
   void find_faces(bool is_first, const ck_control* control);
+  /// The same for one sample.
   void find_face(bool is_first, Sample& s) const;
   /// Projects a sample onto a triangle; returns the squared distance.
   double place(Sample* s, uint32_t face) const;

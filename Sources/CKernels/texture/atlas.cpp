@@ -12,7 +12,7 @@ namespace {
 /// Tolerance of the barycentric weights of a texel center in a triangle, so that none is missed
 /// between two triangles; weight from which a center counts as covered twice.
 constexpr float kInsideTolerance = 1e-4f, kOverlapWeight = 1e-2f;
-/// Number of rows that a thread works on at a time.
+/// Number of rows that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kRows = 64;
 
 /// Assigns every texel whose center lies in a triangle to it; of several triangles the first one

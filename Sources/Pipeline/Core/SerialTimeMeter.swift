@@ -25,8 +25,8 @@ package final class SerialTimeMeter: Sendable {
     }
   }
 
-  /// Seconds between two samples: several ticks of the kernel, at which the time of running threads
-  /// is counted.
+  /// Seconds between two samples. Chosen: several ticks of the kernel, which counts the time of
+  /// running threads at each of them.
   private static let interval = 0.02
 
   private let state = Locked(State())
@@ -61,8 +61,9 @@ package final class SerialTimeMeter: Sendable {
   /// Adds the time since the last sample, if fewer than two threads were busy in it. Between one
   /// and two threads on average, both are taken to have been busy for a part of it.
   private func sample() {
-    let now = Sample.now
     state.withLock { state in
+      // In the lock, so that samples of different threads are in order.
+      let now = Sample.now
       state.serialSeconds += Self.serialSeconds(
         in: now.seconds - state.last.seconds, cpuSeconds: now.cpuSeconds - state.last.cpuSeconds)
       state.last = now

@@ -119,7 +119,7 @@ package struct ImageAlignment: Sendable {
   func viewGraph(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> MatchedPhotos {
-    let features = try context.notes.step("feature") {
+    let features = try context.notes.step("features") {
       try FeatureExtraction(options.features).run(
         photos, images: decodingOnce(images), context.part(from: 0, to: 0.55))
     }

@@ -88,7 +88,7 @@ struct IsolationSamples {
   }
 
   /// The plane that the object stands on. Where the surroundings have little texture, a face of the
-  /// object may be the dominant plane: its top, which what it stands on lies below.
+  /// object may be the dominant plane: its top. What it stands on lies below.
   private func support(of region: [Int], _ context: StageContext) throws -> SupportPlane? {
     let detection = SupportPlaneDetection(options: options.support)
     guard let (found, division) = plane(of: region, detection) else { return nil }
@@ -124,16 +124,16 @@ struct IsolationSamples {
 
   /// Whether all that is seen is one object, on `support` if there is one.
   private func isBounded(on support: SupportPlane?, _ context: StageContext) throws -> Bool {
-    let isOff = cloud.positions.map { position in
+    let isOffSupport = cloud.positions.map { position in
       support.map { abs($0.height(of: SIMD3<Double>(position))) > $0.band } ?? true
     }
     let isNear = cloud.positions.indices.map {
-      isOff[$0] && Double(coverage[$0]) >= options.objectCoverage
+      isOffSupport[$0] && Double(coverage[$0]) >= options.objectCoverage
         && Double(distance[$0]) < options.reach
     }
     guard let isObject = try object(isNear, on: nil, context) else { return false }
     return Double(isObject.count { $0 })
-      >= options.minimumBoundedShare * Double(isOff.count { $0 })
+      >= options.minimumBoundedShare * Double(isOffSupport.count { $0 })
   }
 
   /// The candidates in the main component and in those that belong to it; nil without any.

@@ -4,9 +4,10 @@ import Kernels
 struct FaceViews: Sendable {
   /// Observations of triangle i: `entries[offsets[i]..<offsets[i + 1]]`, ascending by view.
   private(set) var offsets: [Int32]
-  /// Number of triangles that a thread works on at a time: a few milliseconds.
-  static let parallelUnit = 2048
   var entries: [FaceObservation]
+
+  /// Number of triangles that a thread works on at a time. Chosen: a few milliseconds.
+  static let parallelUnit = 2048
 
   var faceCount: Int { offsets.count - 1 }
 

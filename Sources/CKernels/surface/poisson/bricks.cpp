@@ -66,6 +66,7 @@ std::vector<uint64_t> BrickCodes::take() {
 
 BrickSet::BrickSet(std::vector<uint64_t> codes, const ck_control* control)
     : codes_(std::move(codes)) {
+  // About a millisecond. Chosen.
   constexpr size_t kBlock = 256;
   make_unique(codes_);
   neighbors_.resize(codes_.size());

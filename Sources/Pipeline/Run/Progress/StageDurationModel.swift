@@ -4,7 +4,8 @@ import Foundation
 ///
 /// Fitted to ten runs with two threads and 8 to 40 photos of 0.5 to 6 megapixels, at all detail
 /// levels from preview to full; meshing scaled to boot, orbit and saharov32 at reduced and boot at
-/// medium since its solver uses all threads. Texture mapping is mostly single-threaded.
+/// medium since its solver uses all threads. Those of meshing and texture mapping hold for two
+/// threads.
 package struct StageDurationModel: Sendable {
   /// The work that yields cameras and sparse points.
   package enum AlignmentWork: Sendable {

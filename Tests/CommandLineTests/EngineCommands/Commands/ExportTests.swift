@@ -73,6 +73,12 @@ import Testing
       RunReport.self, from: Data(contentsOf: folder.appendingPathComponent("r.json")))
     #expect(report.stages.map(\.name) == ["preProcessing", "textureMapping", "optimization"])
     #expect(report.warnings.count == 1)
+    for stage in report.stages {
+      #expect(stage.serialSeconds <= stage.seconds + 0.05)
+      #expect(stage.steps.allSatisfy { $0.seconds <= stage.seconds + 0.05 })
+    }
+    let steps = Set(report.stages.flatMap(\.steps).map(\.name))
+    #expect(steps.isSuperset(of: ["simplification", "labels", "layout", "painting", "export"]))
     let left = try FileManager.default.subpathsOfDirectory(atPath: folder.path + "/work").sorted()
     #expect(
       left == [
