@@ -64,19 +64,16 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(
       name: "CKernels",
       dependencies: [
-        "CCeres", "CDeflate", "CEigen", "CEmbree", "CGlog", "CHEIF", "CJPEG", "CLittleCMS",
-        "CNanoflann", "COpenCV", "CPNG", "CTIFF", "CWebP", "CXXHash",
+        "CDeflate", "CEigen", "CEmbree", "CHEIF", "CJPEG", "CLittleCMS", "CNanoflann", "COpenCV",
+        "CPNG", "CTIFF", "CWebP", "CXXHash",
       ],
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
-        .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"),
-        .linkedLibrary("ceres"), .linkedLibrary("embree3"),
+        .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"), .linkedLibrary("embree3"),
       ]),
-    systemLibrary("CCeres", apt: ["libceres-dev"]),
     systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
     systemLibrary("CEigen", pkgConfig: "eigen3", apt: ["libeigen3-dev"]),
     systemLibrary("CEmbree", apt: ["libembree-dev"]),
-    systemLibrary("CGlog", pkgConfig: "libglog", apt: ["libgoogle-glog-dev"]),
     systemLibrary("CHEIF", pkgConfig: "libheif", apt: ["libheif-dev"]),
     systemLibrary("CJPEG", pkgConfig: "libjpeg", apt: ["libjpeg-dev"]),
     systemLibrary("CLittleCMS", pkgConfig: "lcms2", apt: ["liblcms2-dev"]),

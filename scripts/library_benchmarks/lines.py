@@ -16,7 +16,7 @@ COMPONENTS = {
     "two-view solvers and RANSAC": ["CKernels/two_view/*"],
     "P3P and resection": ["CKernels/resection/*"],
     "rotation averaging, global positioning": ["CKernels/global/*"],
-    "bundle adjustment on Ceres, triangulation": ["CKernels/bundle/*"],
+    "bundle adjustment, triangulation": ["CKernels/bundle/*"],
     "least squares matching": ["CKernels/refinement/*"],
     "photo refinement": ["CKernels/surface/photo_refinement*"],
     "simplifier and surface fit": ["CKernels/mesh/*"],

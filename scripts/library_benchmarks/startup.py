@@ -19,12 +19,11 @@ LIBRARIES = {
     "Embree, libjpeg, libpng, libdeflate, xxHash, lcms2": SMALL,
     "libtiff and libwebp": ["tiff", "webp"],
     "libheif": ["heif"],
-    "Ceres and glog": ["ceres", "glog"],
     "OpenCV core and imgproc": OPENCV,
-    "all": [*SMALL, *IMAGES, "ceres", "glog", *OPENCV],
+    "all": [*SMALL, *IMAGES, *OPENCV],
 }
 # Transitive dependencies under the GPL, or with parts under it.
-GPL = ["libx265", "libjbig", "libspqr", "libcholmod"]
+GPL = ["libx265", "libjbig"]
 
 
 def run(arguments):

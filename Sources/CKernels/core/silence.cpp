@@ -1,5 +1,3 @@
-#include <glog/logging.h>
-
 #include <iostream>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
@@ -13,5 +11,4 @@ void ck_silence_libraries(void) {
   cv::setNumThreads(1);
   // OpenCV's decoders bypass its logger and write to this stream.
   std::cerr.rdbuf(nullptr);
-  FLAGS_minloglevel = google::GLOG_FATAL;
 }

@@ -115,12 +115,13 @@ typedef struct {
   bool converged;
 } ck_bundle_summary;
 
-/// Minimizes the Huber loss of the reprojection errors (Triggs et al., "Bundle adjustment: a modern
-/// synthesis", 1999) with Ceres.
+/// Minimizes the Huber loss of the reprojection errors by Levenberg–Marquardt iterations in which
+/// the points are eliminated (Triggs et al., "Bundle adjustment: a modern synthesis", 1999,
+/// section 6.1).
 ///
-/// The ratio of fx and fy is constant. Runs on one thread so that the sums do not depend on the
-/// number of threads. Returns `ck_failed` if the solver fails or a camera diverges; then, and after
-/// cancellation, cameras and poses are unchanged, but points may have moved.
+/// The ratio of fx and fy is constant. The result does not depend on the number of threads. Returns
+/// `ck_failed` if an error is not finite at the start or a camera diverges; then, and after
+/// cancellation, the scene is unchanged.
 ck_status ck_bundle_adjust(ck_bundle* bundle, const ck_bundle_options* options,
                            const ck_control* control, ck_bundle_summary* summary);
 

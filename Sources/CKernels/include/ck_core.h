@@ -92,7 +92,7 @@ const char* ck_last_error(void);
 /// changes, not forgery.
 uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 
-/// Suppresses the messages of OpenCV and glog, and everything that C++ code writes to `std::cerr`,
+/// Suppresses the messages of OpenCV, and everything that C++ code writes to `std::cerr`,
 /// and limits OpenCV to one thread, for the whole process.
 ///
 /// To be called once from the `main` of an executable, before the first kernel: kernels themselves

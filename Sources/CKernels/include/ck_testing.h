@@ -24,7 +24,7 @@ ck_status ck_test_parallel_for(size_t count, size_t available_threads, size_t fa
 /// its address space for good: to be called in a process of its own.
 ck_status ck_test_failure_without_memory(const char* message);
 
-/// Whether `std::cerr` has a stream buffer and glog and OpenCV log at their default levels: false
+/// Whether `std::cerr` has a stream buffer and OpenCV logs at its default level: false
 /// after `ck_silence_libraries`.
 bool ck_test_is_logging(void);
 

@@ -2,7 +2,7 @@ import CKernels
 import SceneModel
 
 /// Jointly optimizes cameras, poses and points: minimizes the Huber loss of the reprojection errors
-/// (Triggs et al., "Bundle adjustment: a modern synthesis", 1999), using Ceres.
+/// (Triggs et al., "Bundle adjustment: a modern synthesis", 1999).
 package struct BundleAdjustment: Sendable {
   /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {

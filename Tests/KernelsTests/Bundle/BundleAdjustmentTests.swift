@@ -100,19 +100,107 @@ import Testing
     #expect(poses.maximumRotationError < 1e-4 + 0.012 * noise)
   }
 
-  @Test func resultDoesNotDependOnThreads() throws {
+  /// A scene in which every photo has a camera of its own: points link cameras with each other.
+  private func perturbedCameras(_ scene: SyntheticScene) -> BundleAdjustment.Problem {
+    var problem = perturbed(scene)
+    let count = scene.poses.count
+    problem.photos.cameras = Array(repeating: problem.photos.cameras[0], count: count)
+    problem.photos.cameraOfPhoto = (0..<count).map(Int32.init)
+    problem.cameraFreedom = Array(repeating: [.focalLength, .k1], count: count)
+    problem.cameraPriors = Array(repeating: BundleAdjustment.CameraPrior(), count: count)
+    return problem
+  }
+
+  @Test func camerasOfTheirOwnAreRecovered() throws {
+    let scene = SyntheticScene()
+    var problem = perturbedCameras(scene)
+    for index in problem.photos.cameras.indices {
+      problem.photos.cameras[index].principalPoint = scene.camera.principalPoint
+    }
+    try BundleAdjustment().run(&problem)
+    for camera in problem.photos.cameras {
+      #expect(abs(camera.focalLength.x - scene.camera.focalLength.x) < 0.1)
+    }
+    let poses = PoseComparison(estimated: problem.photos.poses, true: scene.poses)
+    #expect(poses.maximumCenterError < 1e-3)
+  }
+
+  /// Limits of photos for dense and for direct solvers: one for each of the three solvers.
+  static let solverLimits = [(60, 1000), (0, 1000), (0, 0)]
+
+  @Test(arguments: solverLimits)
+  func resultDoesNotDependOnThreads(dense: Int, direct: Int) throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.5
-    var problems = [perturbed(SyntheticScene(options)), perturbed(SyntheticScene(options))]
-    for threads in 1...2 {
-      try BundleAdjustment().run(
-        &problems[threads - 1], control: KernelControl(threadCount: threads))
+    let scene = SyntheticScene(options)
+    for start in [perturbed(scene), perturbedCameras(scene)] {
+      var solver = BundleAdjustment()
+      solver.options.densePhotoLimit = dense
+      solver.options.directPhotoLimit = direct
+      let found = try [1, 2, 3, 8].map { threads in
+        var problem = start
+        try solver.run(&problem, control: KernelControl(threadCount: threads))
+        return problem
+      }
+      for other in found.dropFirst() {
+        #expect(other.points == found[0].points)
+        #expect(other.photos.poses == found[0].photos.poses)
+        #expect(other.photos.cameras == found[0].photos.cameras)
+      }
     }
-    let isSame =
-      problems[0].points == problems[1].points
-      && problems[0].photos.poses == problems[1].photos.poses
-      && problems[0].photos.cameras == problems[1].photos.cameras
-    #expect(isSame)
+  }
+
+  /// Dense and sparse factorizations and conjugate gradients find the same minimum.
+  @Test func solversAgree() throws {
+    var options = SyntheticScene.Options()
+    options.pixelNoise = 0.5
+    let scene = SyntheticScene(options)
+    for start in [perturbed(scene), perturbedCameras(scene)] {
+      let costs = try Self.solverLimits.map { dense, direct in
+        var problem = start
+        var solver = BundleAdjustment()
+        solver.options.densePhotoLimit = dense
+        solver.options.directPhotoLimit = direct
+        solver.options.maximumIterations = 200
+        solver.options.functionTolerance = 1e-9
+        return try solver.run(&problem).finalCost
+      }
+      #expect(abs(costs[1] - costs[0]) < 1e-5 * costs[0])
+      #expect(abs(costs[2] - costs[0]) < 1e-5 * costs[0])
+    }
+  }
+
+  /// At the minimum of a robust cost with outliers and priors, every small change raises the cost.
+  @Test func minimumIsStationary() throws {
+    var options = SyntheticScene.Options()
+    options.pixelNoise = 0.5
+    var problem = perturbed(SyntheticScene(options))
+    for index in stride(from: 0, to: problem.observations.count, by: 17) {
+      problem.observations[index].pixel += [40, -25]
+    }
+    problem.cameraPriors[0].focalLength = 1300
+    problem.cameraPriors[0].focalLengthDeviation = 0.01
+    problem.cameraPriors[0].radialDeviation = 0.1
+    var solver = BundleAdjustment()
+    solver.options.maximumIterations = 200
+    solver.options.functionTolerance = 1e-13
+    let minimum = try solver.run(&problem).finalCost
+
+    /// The cost after a change, without any iteration.
+    func cost(_ change: (inout BundleAdjustment.Problem) -> Void) throws -> Double {
+      var changed = problem
+      change(&changed)
+      var evaluation = BundleAdjustment()
+      evaluation.options.maximumIterations = 0
+      return try evaluation.run(&changed).initialCost
+    }
+    for sign in [-1.0, 1.0] {
+      #expect(try cost { $0.photos.cameras[0].focalLength *= 1 + sign * 1e-3 } > minimum)
+      #expect(try cost { $0.photos.cameras[0].principalPoint.y += sign } > minimum)
+      #expect(try cost { $0.photos.cameras[0].distortion.x += sign * 1e-3 } > minimum)
+      #expect(try cost { $0.photos.poses[5]?.translation.z += sign * 1e-3 } > minimum)
+      #expect(try cost { $0.points[11].x += sign * 1e-3 } > minimum)
+    }
   }
 
   @Test func constantParametersAreUnchanged() throws {

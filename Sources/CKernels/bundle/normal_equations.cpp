@@ -1,0 +1,365 @@
+#include "bundle/normal_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace ck {
+namespace {
+
+/// Units of parallel work. Their size decides how sums are rounded; chosen so that a unit takes
+/// about a millisecond, far more than it takes to start a thread.
+constexpr size_t kPointsPerChunk = 1024, kLinksPerChunk = 2048;
+/// Poses of a unit of work: so many that they have about this many observations.
+constexpr size_t kObservationsPerUnit = 2000;
+/// Bounds of the diagonal elements that damping is proportional to, as in Ceres.
+constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
+
+/// Adds the damping to a diagonal. Parameters that nothing depends on get 1, so that they keep
+/// their values.
+template <typename Matrix>
+void damp(Matrix& matrix, double damping) {
+  for (int i = 0; i < matrix.rows(); ++i) {
+    double& value = matrix(i, i);
+    value += value == 0 ? 1 : damping * std::clamp(value, kMinimumDiagonal, kMaximumDiagonal);
+  }
+}
+
+}  // namespace
+
+/// A part of the row of a camera in the reduced system.
+struct NormalEquations::CameraSum {
+  ReducedSystem::CameraCamera diagonal = ReducedSystem::CameraCamera::Zero();
+  std::vector<ReducedSystem::CameraCamera> eliminated;
+  Prior gradient = Prior::Zero(), right = Prior::Zero();
+};
+
+NormalEquations::NormalEquations(const ck_bundle& bundle, const BundleLayout& layout,
+                                 double huber_width, const ck_control* control)
+    : layout_(layout),
+      huber_width_(huber_width),
+      quiet_{nullptr, nullptr, thread_count(control)},
+      terms_(layout.observations.size()),
+      links_(layout.link_points.size()),
+      prior_residuals_(layout.cameras.size()),
+      inverses_(layout.is_point_free.size()),
+      gradients_(layout.is_point_free.size()) {
+  for (size_t i = 0; i < layout.cameras.size(); ++i) {
+    const ck_camera_prior& prior = bundle.camera_priors[layout.cameras[i]];
+    Prior mean = Prior::Zero(), deviation = Prior::Zero();
+    mean.head<3>() << prior.focal_length, prior.cx, prior.cy;
+    deviation.head<5>() << prior.focal_length * prior.focal_deviation,
+        prior.principal_point_deviation, prior.principal_point_deviation, prior.radial_deviation,
+        prior.radial_deviation;
+    for (int k = 0; k < kCameraSize; ++k) {
+      deviation[k] = deviation[k] > 0 ? 1 / deviation[k] : 0;
+    }
+    prior_means_.push_back(mean);
+    prior_weights_.push_back(deviation);
+  }
+}
+
+/// Calls `sum(point)` for all points and adds the values.
+template <typename Sum>
+double NormalEquations::sum_over_points(Sum&& sum) const {
+  const size_t count = layout_.is_point_free.size();
+  std::vector<double> sums((count + kPointsPerChunk - 1) / kPointsPerChunk, 0.0);
+  parallel_for(&quiet_, sums.size(), [&](size_t chunk) {
+    const size_t end = std::min(count, (chunk + 1) * kPointsPerChunk);
+    for (size_t point = chunk * kPointsPerChunk; point < end; ++point) sums[chunk] += sum(point);
+  });
+  double total = 0;
+  for (const double value : sums) total += value;
+  return total;
+}
+
+NormalEquations::Prior NormalEquations::deviations(const ck_camera& camera, size_t block) const {
+  Prior values;
+  values << camera.fx, camera.cx, camera.cy, camera.k1, camera.k2, camera.p1, camera.p2;
+  return prior_weights_[block].cwiseProduct(values - prior_means_[block]);
+}
+
+double NormalEquations::cost(const BundleParameters& parameters) const {
+  std::vector<Pose> poses;
+  for (size_t i = 0; i < parameters.rotations.size(); ++i) poses.push_back(parameters.pose(i));
+  double total = sum_over_points([&](size_t point) {
+    double sum = 0;
+    for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
+      const auto& o = layout_.observations[k];
+      const double r = reprojection_error(parameters.cameras[size_t(o.camera)],
+                                          poses[size_t(o.photo)], parameters.points[point], o.pixel)
+                           .norm();
+      sum += r <= huber_width_ ? r * r : huber_width_ * (2 * r - huber_width_);
+    }
+    return sum;
+  });
+  for (size_t i = 0; i < layout_.cameras.size(); ++i) {
+    total += deviations(parameters.cameras[layout_.cameras[i]], i).squaredNorm();
+  }
+  return total / 2;
+}
+
+void NormalEquations::linearize(const BundleParameters& parameters) {
+  std::vector<Pose> poses;
+  for (size_t i = 0; i < parameters.rotations.size(); ++i) poses.push_back(parameters.pose(i));
+  parallel_for_blocks(&quiet_, layout_.is_point_free.size(), kPointsPerChunk, [&](size_t point) {
+    for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
+      const auto& o = layout_.observations[k];
+      Reprojection& term = terms_[k];
+      term = reproject(parameters.cameras[size_t(o.camera)], poses[size_t(o.photo)],
+                       parameters.points[point], o.pixel);
+      // Iteratively reweighted least squares: the weight is the derivative of the loss by the
+      // squared error.
+      const double r = term.residual.norm();
+      const double weight = r <= huber_width_ ? 1 : std::sqrt(huber_width_ / r);
+      term.residual *= weight;
+      term.by_pose *= weight;
+      term.by_point *= weight;
+      term.by_camera *= weight;
+      if (o.pose_block >= 0 && layout_.fixed_axes[size_t(o.pose_block)] >= 0) {
+        term.by_pose.col(3 + layout_.fixed_axes[size_t(o.pose_block)]).setZero();
+      }
+      for (int i = 0; o.camera_block >= 0 && i < kCameraSize; ++i) {
+        if (!layout_.free_parameters[size_t(o.camera_block)][size_t(i)]) {
+          term.by_camera.col(i).setZero();
+        }
+      }
+    }
+    link(point);
+  });
+  for (size_t i = 0; i < layout_.cameras.size(); ++i) {
+    prior_residuals_[i] = deviations(parameters.cameras[layout_.cameras[i]], i);
+  }
+}
+
+/// Sums the products of the derivatives by a point and by its cameras.
+void NormalEquations::link(size_t point) {
+  const Lists& all = layout_.cameras_of_point;
+  for (size_t m = all.starts[point]; m < all.starts[point + 1]; ++m) {
+    links_[m].setZero();
+    for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
+      if (layout_.observations[k].camera_block != all.values[m]) continue;
+      links_[m].noalias() += terms_[k].by_point.transpose() * terms_[k].by_camera;
+    }
+  }
+}
+
+void NormalEquations::reduce(double damping, ReducedSystem& system) {
+  gradient_norm_ = eliminate_points(damping);
+  // Units of poses with about the same number of observations.
+  std::vector<size_t> starts{0};
+  const Lists& own = layout_.observations_of_pose;
+  for (size_t pose = 1; pose <= layout_.pose_count(); ++pose) {
+    if (pose == layout_.pose_count() ||
+        own.starts[pose] - own.starts[starts.back()] >= kObservationsPerUnit) {
+      starts.push_back(pose);
+    }
+  }
+  std::vector<double> norms(layout_.pose_count(), 0.0);
+  parallel_for(&quiet_, starts.size() - 1, [&](size_t unit) {
+    for (size_t pose = starts[unit]; pose < starts[unit + 1]; ++pose) {
+      norms[pose] = add_pose(pose, damping, system);
+    }
+  });
+  for (const double norm : norms) gradient_norm_ = std::max(gradient_norm_, norm);
+  gradient_norm_ = std::max(gradient_norm_, add_cameras(damping, system));
+}
+
+/// Computes the blocks of the points; returns the largest component of their gradients.
+double NormalEquations::eliminate_points(double damping) {
+  std::vector<double> norms(layout_.is_point_free.size(), 0.0);
+  parallel_for_blocks(&quiet_, norms.size(), kPointsPerChunk, [&](size_t point) {
+    if (!layout_.is_point_free[point]) return;
+    Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+    Vector3 gradient = Vector3::Zero();
+    for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
+      block.noalias() += terms_[k].by_point.transpose() * terms_[k].by_point;
+      gradient.noalias() += terms_[k].by_point.transpose() * terms_[k].residual;
+    }
+    damp(block, damping);
+    inverses_[point] = block.inverse();
+    gradients_[point] = gradient;
+    norms[point] = gradient.cwiseAbs().maxCoeff();
+  });
+  return norms.empty() ? 0 : *std::max_element(norms.begin(), norms.end());
+}
+
+/// Computes the row of a pose; returns the largest component of its gradient.
+double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& system) const {
+  system.poses[pose].clear();
+  system.pose_cameras[pose].clear();
+  ReducedSystem::PosePose diagonal = ReducedSystem::PosePose::Zero();
+  Eigen::Matrix<double, kPoseSize, 1> gradient, eliminated;
+  gradient.setZero();
+  eliminated.setZero();
+  const Lists& own = layout_.observations_of_pose;
+  for (size_t i = own.starts[pose]; i < own.starts[pose + 1]; ++i) {
+    const auto k = size_t(own.values[i]);
+    const auto& o = layout_.observations[k];
+    const Reprojection& term = terms_[k];
+    diagonal.noalias() += term.by_pose.transpose() * term.by_pose;
+    gradient.noalias() += term.by_pose.transpose() * term.residual;
+    if (o.camera_block >= 0) {
+      system.pose_cameras[pose].at(o.camera_block).noalias() +=
+          term.by_pose.transpose() * term.by_camera;
+    }
+    if (!layout_.is_point_free[size_t(o.point)]) continue;
+    Eigen::Matrix<double, 2, 3> by_point = term.by_point * inverses_[size_t(o.point)];
+    const Vector2 pulled = by_point * gradients_[size_t(o.point)];
+    eliminated.noalias() += term.by_pose.transpose() * pulled;
+    add_observation(k, by_point, pose, system);
+  }
+  damp(diagonal, damping);
+  system.poses[pose].blocks.front() += diagonal;
+  system.right.segment<kPoseSize>(system.pose_offset(pose)) = eliminated - gradient;
+  return gradient.cwiseAbs().maxCoeff();
+}
+
+/// Subtracts what the elimination of the point of observation k contributes to the row of its pose.
+/// `by_point` is the derivative by the point times the point's inverted block.
+void NormalEquations::add_observation(size_t k, Eigen::Matrix<double, 2, 3>& by_point, size_t pose,
+                                      ReducedSystem& system) const {
+  const Reprojection& term = terms_[k];
+  const auto point = size_t(layout_.observations[k].point);
+  for (size_t other = layout_.point_starts[point]; other < layout_.point_starts[point + 1];
+       ++other) {
+    const int32_t block = layout_.observations[other].pose_block;
+    if (block < int32_t(pose)) continue;
+    const Eigen::Matrix2d product = by_point * terms_[other].by_point.transpose();
+    const Eigen::Matrix<double, 2, kPoseSize> by_pose = product * terms_[other].by_pose;
+    system.poses[pose].at(block).noalias() -= term.by_pose.transpose() * by_pose;
+  }
+  const Lists& all = layout_.cameras_of_point;
+  for (size_t m = all.starts[point]; m < all.starts[point + 1]; ++m) {
+    const Eigen::Matrix<double, 2, kCameraSize> by_camera = by_point * links_[m];
+    system.pose_cameras[pose].at(all.values[m]).noalias() -= term.by_pose.transpose() * by_camera;
+  }
+}
+
+/// Computes the rows of the cameras; returns the largest component of their gradients.
+double NormalEquations::add_cameras(double damping, ReducedSystem& system) const {
+  struct Unit {
+    size_t camera, chunk;
+  };
+  std::vector<Unit> units;
+  for (size_t camera = 0; camera < layout_.camera_count(); ++camera) {
+    const Lists& own = layout_.observations_of_camera;
+    const size_t count = own.starts[camera + 1] - own.starts[camera];
+    for (size_t chunk = 0; chunk * kLinksPerChunk < count; ++chunk)
+      units.push_back({camera, chunk});
+  }
+  std::vector<CameraSum> sums(units.size());
+  parallel_for(&quiet_, units.size(),
+               [&](size_t i) { sums[i] = camera_sum(units[i].camera, units[i].chunk, system); });
+  double norm = 0;
+  for (size_t camera = 0, i = 0; camera < layout_.camera_count(); ++camera) {
+    auto& row = system.cameras[camera];
+    row.clear();
+    CameraSum total;
+    for (; i < units.size() && units[i].camera == camera; ++i) {
+      total.diagonal += sums[i].diagonal;
+      total.gradient += sums[i].gradient;
+      total.right += sums[i].right;
+      for (size_t k = 0; k < row.blocks.size(); ++k) row.blocks[k] -= sums[i].eliminated[k];
+    }
+    const Prior& weight = prior_weights_[camera];
+    for (int k = 0; k < kCameraSize; ++k) {
+      if (!layout_.free_parameters[camera][size_t(k)]) continue;
+      total.diagonal(k, k) += weight[k] * weight[k];
+      total.gradient[k] += weight[k] * prior_residuals_[camera][k];
+    }
+    damp(total.diagonal, damping);
+    row.blocks.front() += total.diagonal;
+    system.right.segment<kCameraSize>(system.camera_offset(camera)) = total.right - total.gradient;
+    norm = std::max(norm, total.gradient.cwiseAbs().maxCoeff());
+  }
+  return norm;
+}
+
+/// The sums over a chunk of a camera's observations and links.
+NormalEquations::CameraSum NormalEquations::camera_sum(size_t camera, size_t chunk,
+                                                       const ReducedSystem& system) const {
+  CameraSum sum;
+  const auto& columns = system.cameras[camera].columns;
+  sum.eliminated.assign(columns.size(), ReducedSystem::CameraCamera::Zero());
+  const auto range = [&](const Lists& lists) {
+    const size_t begin = lists.starts[camera] + chunk * kLinksPerChunk,
+                 end = lists.starts[camera + 1];
+    return std::pair(std::min(begin, end), std::min(begin + kLinksPerChunk, end));
+  };
+  const auto [first, last] = range(layout_.observations_of_camera);
+  for (size_t i = first; i < last; ++i) {
+    const Reprojection& term = terms_[size_t(layout_.observations_of_camera.values[i])];
+    sum.diagonal.noalias() += term.by_camera.transpose() * term.by_camera;
+    sum.gradient.noalias() += term.by_camera.transpose() * term.residual;
+  }
+  const auto [first_link, last_link] = range(layout_.links_of_camera);
+  const Lists& all = layout_.cameras_of_point;
+  for (size_t i = first_link; i < last_link; ++i) {
+    const auto link = size_t(layout_.links_of_camera.values[i]);
+    const auto point = size_t(layout_.link_points[link]);
+    const Eigen::Matrix<double, kCameraSize, 3> product =
+        links_[link].transpose() * inverses_[point];
+    sum.right.noalias() += product * gradients_[point];
+    size_t column = 0;
+    for (size_t m = link; m < all.starts[point + 1]; ++m) {
+      while (columns[column] != all.values[m]) ++column;
+      sum.eliminated[column].noalias() += product * links_[m];
+    }
+  }
+  return sum;
+}
+
+BundleStep NormalEquations::complete(const ReducedSystem& system,
+                                     const Eigen::VectorXd& cameras) const {
+  BundleStep step{cameras, std::vector<Vector3>(layout_.is_point_free.size(), Vector3::Zero())};
+  parallel_for_blocks(&quiet_, step.points.size(), kPointsPerChunk, [&](size_t point) {
+    if (!layout_.is_point_free[point]) return;
+    Vector3 sum = gradients_[point];
+    for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
+      const int32_t pose = layout_.observations[k].pose_block;
+      if (pose < 0) continue;
+      const Vector2 moved =
+          terms_[k].by_pose * cameras.segment<kPoseSize>(system.pose_offset(size_t(pose)));
+      sum.noalias() += terms_[k].by_point.transpose() * moved;
+    }
+    const Lists& all = layout_.cameras_of_point;
+    for (size_t m = all.starts[point]; m < all.starts[point + 1]; ++m) {
+      sum.noalias() +=
+          links_[m] * cameras.segment<kCameraSize>(system.camera_offset(size_t(all.values[m])));
+    }
+    step.points[point] = -(inverses_[point] * sum);
+  });
+  return step;
+}
+
+double NormalEquations::predicted_decrease(const ReducedSystem& system,
+                                           const BundleStep& step) const {
+  double total = sum_over_points([&](size_t point) {
+    double sum = 0;
+    for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
+      const auto& o = layout_.observations[k];
+      const Reprojection& term = terms_[k];
+      Vector2 moved = term.by_point * step.points[point];
+      if (o.pose_block >= 0) {
+        moved += term.by_pose *
+                 step.cameras.segment<kPoseSize>(system.pose_offset(size_t(o.pose_block)));
+      }
+      if (o.camera_block >= 0) {
+        moved += term.by_camera *
+                 step.cameras.segment<kCameraSize>(system.camera_offset(size_t(o.camera_block)));
+      }
+      sum -= moved.dot(2 * term.residual + moved);
+    }
+    return sum;
+  });
+  for (size_t camera = 0; camera < layout_.camera_count(); ++camera) {
+    const Prior moved = prior_weights_[camera].cwiseProduct(
+        step.cameras.segment<kCameraSize>(system.camera_offset(camera)));
+    total -= moved.dot(2 * prior_residuals_[camera] + moved);
+  }
+  return total / 2;
+}
+
+}  // namespace ck

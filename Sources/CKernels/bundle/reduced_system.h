@@ -1,0 +1,91 @@
+#pragma once
+
+#include <vector>
+
+#include "bundle/layout.h"
+#include "core/eigen_sparse.h"
+
+namespace ck {
+
+/// The reduced camera system: a symmetric matrix of blocks for free poses, then free cameras, and
+/// its right side.
+///
+/// The upper triangle is stored by rows. Which blocks exist follows from the layout: those of poses
+/// and cameras that observe a common free point, and of a pose and its camera.
+class ReducedSystem {
+ public:
+  using PosePose = Eigen::Matrix<double, kPoseSize, kPoseSize>;
+  using PoseCamera = Eigen::Matrix<double, kPoseSize, kCameraSize>;
+  using CameraCamera = Eigen::Matrix<double, kCameraSize, kCameraSize>;
+
+  /// The blocks of one row, in the order of their columns.
+  template <typename Block>
+  struct Row {
+    std::vector<int32_t> columns;
+    std::vector<Block> blocks;
+
+    /// The block of a column that the row has.
+    Block& at(int32_t column);
+    void clear();
+  };
+
+  ReducedSystem(const BundleLayout& layout, const ck_control* control);
+
+  /// The number of unknowns.
+  Eigen::Index size() const { return camera_offset(cameras.size()); }
+  Eigen::Index pose_offset(size_t pose) const { return Eigen::Index(kPoseSize * pose); }
+  Eigen::Index camera_offset(size_t camera) const {
+    return Eigen::Index(kPoseSize * poses.size() + kCameraSize * camera);
+  }
+
+  /// Calls `body(row, column, block)` for every block of the upper triangle, with the offsets of
+  /// its first unknowns.
+  template <typename Body>
+  void for_each_block(Body&& body) const {
+    for (size_t i = 0; i < poses.size(); ++i) {
+      for (size_t k = 0; k < poses[i].columns.size(); ++k) {
+        body(pose_offset(i), pose_offset(size_t(poses[i].columns[k])), poses[i].blocks[k]);
+      }
+      for (size_t k = 0; k < pose_cameras[i].columns.size(); ++k) {
+        body(pose_offset(i), camera_offset(size_t(pose_cameras[i].columns[k])),
+             pose_cameras[i].blocks[k]);
+      }
+    }
+    for (size_t i = 0; i < cameras.size(); ++i) {
+      for (size_t k = 0; k < cameras[i].columns.size(); ++k) {
+        body(camera_offset(i), camera_offset(size_t(cameras[i].columns[k])), cameras[i].blocks[k]);
+      }
+    }
+  }
+
+  /// Columns not less than the row, of which the first is the row itself.
+  std::vector<Row<PosePose>> poses;
+  std::vector<Row<PoseCamera>> pose_cameras;
+  std::vector<Row<CameraCamera>> cameras;
+  Eigen::VectorXd right;
+};
+
+/// Solves reduced camera systems with the same blocks: as dense matrices up to a number of poses,
+/// as sparse ones up to another, and by conjugate gradients above it.
+class ReducedSolver {
+ public:
+  ReducedSolver(const ReducedSystem& system, const ck_bundle_options& options)
+      : system_(system), options_(options) {}
+
+  /// The solution; empty if the matrix is not positive definite.
+  Eigen::VectorXd solve();
+
+ private:
+  Eigen::VectorXd solve_dense() const;
+  Eigen::VectorXd solve_sparse();
+  Eigen::VectorXd solve_iteratively() const;
+  /// The matrix times a vector.
+  Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
+
+  const ReducedSystem& system_;
+  const ck_bundle_options& options_;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Upper> sparse_;
+  bool is_analyzed_ = false;
+};
+
+}  // namespace ck
