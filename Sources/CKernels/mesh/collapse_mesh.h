@@ -14,10 +14,15 @@ namespace ck::mesh {
 
 /// A mesh with vertex–triangle incidence. The corners (3 · triangle + 0…2) at a vertex form a ring
 /// (circular list), so that two vertices can be merged without allocation.
+///
+/// Threads may change parts of a mesh that have no vertex in common. Searches mark vertices with
+/// numbers that they count up in a `Marks`; a thread needs one of its own.
 class CollapseMesh {
  public:
   using Face = std::array<uint32_t, 3>;
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  /// The last number that marked a vertex.
+  using Marks = uint32_t;
 
   /// No triangle may use a vertex twice.
   CollapseMesh(std::vector<Point> points, std::vector<Face> faces)
@@ -85,8 +90,8 @@ class CollapseMesh {
 
   /// Calls `body(vertex)` once for each neighbor of `v`; returns the number of its triangles.
   template <typename Body>
-  size_t for_neighbors(uint32_t v, Body&& body) {
-    const uint32_t mark = ++mark_;
+  size_t for_neighbors(uint32_t v, Marks& marks, Body&& body) {
+    const uint32_t mark = ++marks;
     size_t count = 0;
     for_faces(v, [&](uint32_t f) {
       ++count;
@@ -104,17 +109,17 @@ class CollapseMesh {
   }
 
   /// Whether `v` is on the boundary: its triangles do not form a closed fan.
-  bool is_border(uint32_t v) {
+  bool is_border(uint32_t v, Marks& marks) {
     size_t around = 0;
-    return for_neighbors(v, [&](uint32_t) { ++around; }) != around;
+    return for_neighbors(v, marks, [&](uint32_t) { ++around; }) != around;
   }
 
   /// Whether merging `a` and `b` preserves the manifold (link condition): their common neighbors
   /// are those of the shared triangles, and two boundaries do not meet.
-  bool can_join(uint32_t a, uint32_t b) {
+  bool can_join(uint32_t a, uint32_t b, Marks& marks) {
     size_t around_a = 0, around_b = 0, common = 0;
-    const size_t faces_a = for_neighbors(a, [&](uint32_t) { ++around_a; });
-    const uint32_t mark_a = mark_, mark_b = ++mark_;
+    const size_t faces_a = for_neighbors(a, marks, [&](uint32_t) { ++around_a; });
+    const uint32_t mark_a = marks, mark_b = ++marks;
     size_t faces_b = 0, shared = 0;
     for_faces(b, [&](uint32_t f) {
       ++faces_b;
@@ -176,7 +181,6 @@ class CollapseMesh {
   std::vector<Point> points_;
   std::vector<Face> faces_;
   std::vector<uint32_t> next_, first_, marks_;
-  uint32_t mark_ = 0;
 };
 
 }  // namespace ck::mesh

@@ -14,6 +14,9 @@ namespace {
 constexpr size_t kRounds = 2, kSweeps = 2;
 /// Number of samples that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kBlock = 8192;
+/// The same for vertices.
+constexpr size_t kVertices = 512;
+constexpr uint8_t kLastColor = 63, kUncolored = 255;
 /// Regularization weight, as a fraction of the weight of the planes, for directions that the
 /// samples do not determine, for example within a plane.
 constexpr double kPull = 2e-3;
@@ -60,7 +63,7 @@ Point unit(const Point& n) {
 }  // namespace
 
 SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& representatives,
-                       CollapseMesh* mesh)
+                       CollapseMesh* mesh, CollapseMesh::Marks marks)
     : mesh_(*mesh), initial_normals_(mesh->face_count()), normals_(mesh->face_count()) {
   samples_.reserve(input.triangle_count + input.positions.count);
   std::vector<double> areas(input.positions.count, 0);
@@ -78,10 +81,11 @@ SurfaceFit::SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& repr
     if (mesh_.is_alive(f)) initial_normals_[f] = unit(mesh_.normal(mesh_.face(f)));
   }
   for (uint32_t v = 0; v < mesh_.vertex_count(); ++v) {
-    if (!mesh_.is_used(v) || mesh_.is_border(v)) continue;
+    if (!mesh_.is_used(v) || mesh_.is_border(v, marks)) continue;
     movable_.push_back(v);
-    starts_.push_back(mesh_.point(v));
   }
+  color(marks);
+  for (const uint32_t v : movable_) starts_.push_back(mesh_.point(v));
 }
 
 void SurfaceFit::add(const Point& position, double area, uint32_t representative) {
@@ -94,17 +98,54 @@ void SurfaceFit::add(const Point& position, double area, uint32_t representative
                       representative});
 }
 
+void SurfaceFit::color(CollapseMesh::Marks marks) {
+  std::vector<std::vector<uint32_t>> by_color;
+  // One color for each vertex; the bits of those that its neighbors have.
+  std::vector<uint8_t> colors(mesh_.vertex_count(), kUncolored);
+  for (const uint32_t v : movable_) {
+    uint64_t taken = 0;
+    mesh_.for_neighbors(v, marks, [&](uint32_t w) {
+      if (colors[w] != kUncolored) taken |= uint64_t(1) << colors[w];
+    });
+    // Vertices with more than 63 colors around them share the last one, which is not parallel.
+    uint8_t color = 0;
+    while (color < kLastColor && (taken >> color & 1)) ++color;
+    colors[v] = color;
+    if (by_color.size() <= color) by_color.resize(color + size_t(1));
+    by_color[color].push_back(v);
+  }
+  movable_.clear();
+  colors_ = {0};
+  for (const auto& vertices : by_color) {
+    movable_.insert(movable_.end(), vertices.begin(), vertices.end());
+    colors_.push_back(movable_.size());
+  }
+}
+
+template <typename Body>
+void SurfaceFit::for_movable(const ck_control* control, Body&& body) {
+  const ProgressPart end(control, 1, 1);
+  for (size_t color = 0; color + 1 < colors_.size(); ++color) {
+    const size_t count = colors_[color + 1] - colors_[color];
+    const size_t block = color == kLastColor ? count : kVertices;
+    parallel_for_blocks(end.control(), count, block,
+                        [&](size_t i) { body(colors_[color] + i); });
+  }
+}
+
 void SurfaceFit::run(const ck_control* control) {
   for (size_t round = 0; round < kRounds; ++round) {
     find_faces(round == 0, control);
     group();
     step(control, 1);
-    for (size_t sweep = 0; sweep < kSweeps; ++sweep) move_vertices();
+    for (size_t sweep = 0; sweep < kSweeps; ++sweep) {
+      for_movable(control, [&](size_t i) { fit_vertex(movable_[i]); });
+    }
   }
-  for (size_t i = 0; i < movable_.size(); ++i) {
+  for_movable(control, [&](size_t i) {
     const uint32_t v = movable_[i];
     move(v, starts_[i] + (mesh_.point(v) - starts_[i]) * kPart);
-  }
+  });
 }
 
 void SurfaceFit::find_faces(bool is_first, const ck_control* control) {
@@ -155,30 +196,26 @@ void SurfaceFit::group() {
   }
 }
 
-/// Moves one vertex after the other to the position where the samples are nearest to the planes of
-/// its triangles, in the least squares sense.
-void SurfaceFit::move_vertices() {
-  for (const uint32_t v : movable_) {
-    Quadric q;  // As a function of the displacement.
-    mesh_.for_faces(v, [&](uint32_t i) {
-      const auto& f = mesh_.face(i);
-      const Point &n = normals_[i], &a = mesh_.point(f[0]);
-      const double height_b = dot(n, mesh_.point(f[1]) - a);
-      const double height_c = dot(n, mesh_.point(f[2]) - a);
-      const size_t corner = f[0] == v ? 0 : f[1] == v ? 1 : 2;
-      double weight = 0, pull = 0;
-      for (uint32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
-        const Sample& s = samples_[order_[k]];
-        const Point p = {s.position[0], s.position[1], s.position[2]};
-        const double height = dot(n, p - a) - s.weights[1] * height_b - s.weights[2] * height_c;
-        const double share = static_cast<double>(s.area) * s.weights[corner];
-        weight += share * s.weights[corner];
-        pull += share * height;
-      }
-      q.add_direction(n, weight, pull);
-    });
-    move(v, mesh_.point(v) + q.minimizer({0, 0, 0}, kPull));
-  }
+void SurfaceFit::fit_vertex(uint32_t v) {
+  Quadric q;  // As a function of the displacement.
+  mesh_.for_faces(v, [&](uint32_t i) {
+    const auto& f = mesh_.face(i);
+    const Point &n = normals_[i], &a = mesh_.point(f[0]);
+    const double height_b = dot(n, mesh_.point(f[1]) - a);
+    const double height_c = dot(n, mesh_.point(f[2]) - a);
+    const size_t corner = f[0] == v ? 0 : f[1] == v ? 1 : 2;
+    double weight = 0, pull = 0;
+    for (uint32_t k = offsets_[i]; k < offsets_[i + 1]; ++k) {
+      const Sample& s = samples_[order_[k]];
+      const Point p = {s.position[0], s.position[1], s.position[2]};
+      const double height = dot(n, p - a) - s.weights[1] * height_b - s.weights[2] * height_c;
+      const double share = static_cast<double>(s.area) * s.weights[corner];
+      weight += share * s.weights[corner];
+      pull += share * height;
+    }
+    q.add_direction(n, weight, pull);
+  });
+  move(v, mesh_.point(v) + q.minimizer({0, 0, 0}, kPull));
 }
 
 void SurfaceFit::move(uint32_t v, const Point& p) {

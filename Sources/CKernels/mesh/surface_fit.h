@@ -31,9 +31,9 @@ struct InputMesh {
 class SurfaceFit {
  public:
   /// `representatives` holds for each vertex of `input` the vertex of `mesh` that it was merged
-  /// into.
+  /// into, `marks` the last mark in `mesh`.
   SurfaceFit(const InputMesh& input, const std::vector<uint32_t>& representatives,
-             CollapseMesh* mesh);
+             CollapseMesh* mesh, CollapseMesh::Marks marks);
 
   void run(const ck_control* control);
 
@@ -56,7 +56,15 @@ class SurfaceFit {
   double place(Sample* s, uint32_t face) const;
   /// Groups the samples by triangle and updates the normals.
   void group();
-  void move_vertices();
+  /// Sorts the movable vertices by color, such that no two neighbors have the same.
+  void color(CollapseMesh::Marks marks);
+  /// Calls `body(i)` for the movable vertices, color by color: the vertices of a color do not depend
+  /// on each other.
+  template <typename Body>
+  void for_movable(const ck_control* control, Body&& body);
+  /// Moves a vertex to the position where the samples are nearest to the planes of its triangles, in
+  /// the least squares sense.
+  void fit_vertex(uint32_t v);
   /// Moves a vertex unless that rotates a triangle too far.
   void move(uint32_t v, const Point& p);
 
@@ -66,6 +74,7 @@ class SurfaceFit {
   std::vector<Point> initial_normals_;     ///< unit normals before the first move
   std::vector<Point> normals_;             ///< unit normals when the samples were last projected
   std::vector<uint32_t> movable_;
+  std::vector<size_t> colors_;  ///< the first movable vertex of each color, and the end
   std::vector<Point> starts_;  ///< initial positions of the movable vertices
 };
 
