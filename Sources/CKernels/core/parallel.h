@@ -48,6 +48,11 @@ struct StandardThreads {
   }
 };
 
+/// Number of times that a parallel loop reports progress and looks for cancellation at least, if it
+/// has The number of times that a long parallel loop reports progress and looks for cancellation:
+/// both take a lock of the caller, which costs more than a short iteration. Chosen.
+constexpr size_t kReports = 128;
+
 /// Calls `body(i)` for every i in 0..<count on the control's threads and reports progress.
 ///
 /// The calling thread takes part; if the system refuses to create more threads, those that exist do
@@ -58,11 +63,13 @@ template <typename Body, typename Create = StandardThreads>
 void parallel_for(const ck_control* control, size_t count, Body&& body,
                   const Create& create = Create()) {
   const size_t threads = std::min<size_t>(static_cast<size_t>(thread_count(control)), count);
+  const size_t stride = std::max<size_t>(1, count / kReports);
+  const auto run = [&](size_t i) {
+    if (i % stride == 0) step(control, static_cast<double>(i) / static_cast<double>(count));
+    body(i);
+  };
   if (threads <= 1) {
-    for (size_t i = 0; i < count; ++i) {
-      step(control, static_cast<double>(i) / static_cast<double>(count));
-      body(i);
-    }
+    for (size_t i = 0; i < count; ++i) run(i);
     return;
   }
   std::atomic<size_t> next{0};
@@ -74,8 +81,7 @@ void parallel_for(const ck_control* control, size_t count, Body&& body,
       const size_t i = next.fetch_add(1);
       if (i >= count) return;
       try {
-        step(control, static_cast<double>(i) / static_cast<double>(count));
-        body(i);
+        run(i);
       } catch (...) {
         std::lock_guard<std::mutex> lock(mutex);
         if (!error) error = std::current_exception();

@@ -35,7 +35,8 @@ void MeshCells::find_cells(const CollapseMesh& mesh, size_t alive, size_t faces_
       high[k] = std::max(high[k], mesh.point(v)[k]);
     }
   }
-  const double across = std::ceil(std::sqrt(double(alive) / (kCrossedCells * double(faces_per_cell))));
+  const double across =
+      std::ceil(std::sqrt(double(alive) / (kCrossedCells * double(faces_per_cell))));
   const Point extent = high - low;
   const double size = std::max({extent[0], extent[1], extent[2], 1e-300}) / std::max(1.0, across);
   const double shift = is_shifted ? 0.5 : 0;

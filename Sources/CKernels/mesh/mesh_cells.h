@@ -9,20 +9,21 @@
 
 namespace ck::mesh {
 
-/// The triangles of a mesh in the cells of a cubic grid: parts that threads may simplify at the same
-/// time.
+/// The triangles of a mesh in the cells of a cubic grid: parts that threads may simplify at the
+/// same time.
 ///
 /// The grid follows from the mesh alone, and so does the result.
 class MeshCells {
  public:
-  /// Cells have about `faces_per_cell` of the `alive` triangles. With `is_shifted`, they are shifted
-  /// by half of their size along all axes, so that the edges between cells get inside.
+  /// Cells have about `faces_per_cell` of the `alive` triangles. With `is_shifted`, they are
+  /// shifted by half of their size along all axes, so that the edges between cells get inside.
   MeshCells(const CollapseMesh& mesh, size_t alive, size_t faces_per_cell, bool is_shifted,
             const ck_control* control);
 
   size_t count() const { return starts_.size() - 1; }
 
-  bool is_empty(size_t cell) const { return starts_[cell] == starts_[cell + 1]; }
+  size_t face_count(size_t cell) const { return starts_[cell + 1] - starts_[cell]; }
+  bool is_empty(size_t cell) const { return face_count(cell) == 0; }
 
   /// Calls `body(face)` for the triangles of a cell.
   template <typename Body>

@@ -26,14 +26,16 @@ constexpr double kLengthWeight = 1e-9;
 constexpr size_t kBlock = 8192;
 /// Triangles of a cell. Chosen: some ten milliseconds of work, and most vertices are inside.
 constexpr size_t kFacesPerCell = 8192;
-/// Cells are left when this many times the triangles of the result are left: then edges between cells
-/// compete with the others on equal terms. Chosen.
+/// A mesh that would have fewer cells is simplified as a whole. Chosen.
+constexpr size_t kFewestCells = 4;
+/// Cells are left when this many times the triangles of the result are left: then edges between
+/// cells compete with the others on equal terms. Chosen.
 constexpr double kGoal = 1.25;
 /// The first limit of the costs in cells is the median of this many edges.
 constexpr size_t kSampledEdges = 10'000;
 /// With limits that grow as this power of the ratio of triangles to the goal, a round does not
-/// overshoot: half as many triangles have four times the squared distance on twice the area, so costs
-/// grow as the third power.
+/// overshoot: half as many triangles have four times the squared distance on twice the area, so
+/// costs grow as the third power.
 constexpr double kGrowth = 2;
 /// A round that removes a smaller share of the triangles is the last in cells. Chosen.
 constexpr double kLeastProgress = 0.02;
@@ -103,16 +105,18 @@ void Simplifier::run(size_t maximum, double cosine, const ck_control* control) {
 /// Rounds in two grids in turn, as long as they make progress.
 void Simplifier::run_in_cells(size_t goal, const ck_control* control) {
   const ProgressPart start(control, 0, 0);
-  if (alive_ < 2 * goal) return;
+  if (alive_ < std::max(2 * goal, kFewestCells * kFacesPerCell)) return;
   float limit = initial_limit();
   for (bool is_shifted = false; alive_ > goal; is_shifted = !is_shifted) {
     const MeshCells cells(mesh_, alive_, kFacesPerCell, is_shifted, start.control());
+    // Where many edges cost the same, a limit of the cost alone might remove too much.
+    const double share = 1 - double(goal) / double(alive_);
     std::vector<CollapseMesh::Marks> marks(cells.count(), marks_);
     std::vector<size_t> counts(cells.count(), 0);
     parallel_for(start.control(), cells.count(), [&](size_t cell) {
       if (cells.is_empty(cell)) return;
       Front front{&cells, cell, limit, marks_, {}, 0};
-      run_in_cell(front);
+      run_in_cell(front, size_t(share * double(cells.face_count(cell))));
       marks[cell] = front.marks;
       counts[cell] = front.removed;
     });
@@ -140,12 +144,12 @@ float Simplifier::initial_limit() const {
   return costs.empty() ? 0 : *middle;
 }
 
-void Simplifier::run_in_cell(Front& front) {
+void Simplifier::run_in_cell(Front& front, size_t maximum) {
   front.cells->for_faces(front.cell, [&](uint32_t face) {
     for_edges(face, [&](uint32_t a, uint32_t b) { push(front, a, b); });
   });
   Collapse c;
-  while (front.queue.pop(&c)) {
+  while (front.removed < maximum && front.queue.pop(&c)) {
     if (is_current(c)) collapse(front, c);
   }
 }

@@ -15,17 +15,17 @@
 
 namespace ck::mesh {
 
-/// Quadric edge collapse (Garland and Heckbert, "Surface simplification using quadric error metrics",
-/// 1997) with component removal and a final fit.
+/// Quadric edge collapse (Garland and Heckbert, "Surface simplification using quadric error
+/// metrics", 1997) with component removal and a final fit.
 class Simplifier {
  public:
   explicit Simplifier(const InputMesh& input);
 
-  /// Collapses the cheapest edges until at most `maximum` triangles are left; a triangle's normal may
-  /// not rotate by more than the angle of `cosine`.
+  /// Collapses the cheapest edges until at most `maximum` triangles are left; a triangle's normal
+  /// may not rotate by more than the angle of `cosine`.
   ///
-  /// Most collapses happen in cells of a grid, in parallel and up to a common cost, which rises from
-  /// round to round; the last ones across the whole mesh.
+  /// Most collapses happen in cells of a grid, in parallel and up to a common cost, which rises
+  /// from round to round; the last ones across the whole mesh.
   void run(size_t maximum, double cosine, const ck_control* control);
 
   /// Removes the smallest components until at most `maximum` triangles and `maximum_pieces`
@@ -72,8 +72,8 @@ class Simplifier {
     }
   }
 
-  /// Calls `body(a, b)` with a < b for the edges of a triangle; inner edges are left to one of their
-  /// two triangles.
+  /// Calls `body(a, b)` with a < b for the edges of a triangle; inner edges are left to one of
+  /// their two triangles.
   template <typename Body>
   void for_edges(uint32_t face, Body&& body) const {
     const CollapseMesh::Face& f = mesh_.face(face);
@@ -95,7 +95,7 @@ class Simplifier {
   float cost(uint32_t a, uint32_t b, const Target& t) const;
   float initial_limit() const;
   void run_in_cells(size_t goal, const ck_control* control);
-  void run_in_cell(Front& front);
+  void run_in_cell(Front& front, size_t maximum);
   void run_everywhere(size_t maximum, const ck_control* control);
   void fill(Front& front, const ck_control* control);
   void push(Front& front, const Collapse& c, float cost);

@@ -128,8 +128,7 @@ void SurfaceFit::for_movable(const ck_control* control, Body&& body) {
   for (size_t color = 0; color + 1 < colors_.size(); ++color) {
     const size_t count = colors_[color + 1] - colors_[color];
     const size_t block = color == kLastColor ? count : kVertices;
-    parallel_for_blocks(end.control(), count, block,
-                        [&](size_t i) { body(colors_[color] + i); });
+    parallel_for_blocks(end.control(), count, block, [&](size_t i) { body(colors_[color] + i); });
   }
 }
 

@@ -58,12 +58,12 @@ class SurfaceFit {
   void group();
   /// Sorts the movable vertices by color, such that no two neighbors have the same.
   void color(CollapseMesh::Marks marks);
-  /// Calls `body(i)` for the movable vertices, color by color: the vertices of a color do not depend
-  /// on each other.
+  /// Calls `body(i)` for the movable vertices, color by color: the vertices of a color do not
+  /// depend on each other.
   template <typename Body>
   void for_movable(const ck_control* control, Body&& body);
-  /// Moves a vertex to the position where the samples are nearest to the planes of its triangles, in
-  /// the least squares sense.
+  /// Moves a vertex to the position where the samples are nearest to the planes of its triangles,
+  /// in the least squares sense.
   void fit_vertex(uint32_t v);
   /// Moves a vertex unless that rotates a triangle too far.
   void move(uint32_t v, const Point& p);
@@ -75,7 +75,7 @@ class SurfaceFit {
   std::vector<Point> normals_;             ///< unit normals when the samples were last projected
   std::vector<uint32_t> movable_;
   std::vector<size_t> colors_;  ///< the first movable vertex of each color, and the end
-  std::vector<Point> starts_;  ///< initial positions of the movable vertices
+  std::vector<Point> starts_;   ///< initial positions of the movable vertices
 };
 
 }  // namespace ck::mesh

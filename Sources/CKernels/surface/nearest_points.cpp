@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <nanoflann.hpp>
 #include <vector>
 
@@ -14,36 +15,180 @@ namespace {
 
 /// Queries per unit of work.
 constexpr size_t kChunk = 4096;
+/// Points of a tree, and the number of trees from which on they get more: so that trees are built
+/// by many threads, and a search hardly has to look at more than one. Chosen.
+constexpr size_t kTreePoints = 1 << 15, kMostTrees = 32;
 
-/// The finite points and their indices in the input, as nanoflann's trees read them.
-class FinitePoints {
+struct Point {
+  std::array<float, 3> position;
+  /// In the input.
+  int32_t index;
+};
+
+/// The nearest points found so far, the nearest first.
+class Nearest {
  public:
-  explicit FinitePoints(const ck::Strided<float>& points) {
-    for (size_t i = 0; i < points.count; ++i) {
-      if (!points.is_finite(i)) continue;
-      indices_.push_back(static_cast<int32_t>(i));
-      positions_.push_back({points[i][0], points[i][1], points[i][2]});
-    }
+  /// Points at a squared distance of `limit` or more are ignored.
+  Nearest(size_t count, double limit) : limit_(limit), squared_(count), indices_(count) {
+    squared_.back() = limit;
   }
 
-  bool is_empty() const { return indices_.empty(); }
-  int32_t index(uint32_t number) const { return indices_[number]; }
+  /// Starts a new search.
+  void clear() {
+    found_ = 0;
+    squared_.back() = limit_;
+  }
+  /// Sets the points that the numbers of `addPoint` refer to.
+  void look_in(const Point* points) { points_ = points; }
+  double squared(size_t k) const { return squared_[k]; }
+  int32_t index(size_t k) const { return indices_[k]; }
+  size_t size() const { return found_; }
 
-  size_t kdtree_get_point_count() const { return positions_.size(); }
-  float kdtree_get_pt(uint32_t number, size_t axis) const { return positions_[number][axis]; }
+  // What nanoflann calls.
+  using DistanceType = double;
+  bool full() const { return found_ == squared_.size(); }
+  double worstDist() const { return squared_.back(); }
+  bool addPoint(double squared, uint32_t number) {
+    // nanoflann compares with the distance that was the worst some points ago.
+    if (squared >= worstDist()) return true;
+    size_t k = full() ? found_ - 1 : found_++;
+    for (; k > 0 && squared < squared_[k - 1]; --k) {
+      squared_[k] = squared_[k - 1];
+      indices_[k] = indices_[k - 1];
+    }
+    squared_[k] = squared;
+    indices_[k] = points_[number].index;
+    return true;
+  }
+
+ private:
+  double limit_;
+  std::vector<double> squared_;
+  std::vector<int32_t> indices_;
+  const Point* points_ = nullptr;
+  size_t found_ = 0;
+};
+
+/// A part of the points with a tree, which nanoflann builds on one thread.
+class PartTree {
+ public:
+  PartTree(const Point* points, size_t count) : points_(points), count_(count), tree_(3, *this) {
+    tree_.buildIndex();
+    low_ = high_ = points[0].position;
+    for (size_t i = 1; i < count; ++i) {
+      for (size_t a = 0; a < 3; ++a) {
+        low_[a] = std::min(low_[a], points[i].position[a]);
+        high_[a] = std::max(high_[a], points[i].position[a]);
+      }
+    }
+  }
+  PartTree(const PartTree&) = delete;
+  PartTree& operator=(const PartTree&) = delete;
+
+  /// The squared distance of a position from the box around the points.
+  double squared_distance(const float* p) const {
+    double sum = 0;
+    for (size_t a = 0; a < 3; ++a) {
+      const double outside = std::max({0.0, double(low_[a]) - p[a], double(p[a]) - high_[a]});
+      sum += outside * outside;
+    }
+    return sum;
+  }
+
+  void search(const float* position, Nearest& nearest) const {
+    nearest.look_in(points_);
+    tree_.findNeighbors(nearest, position, nanoflann::SearchParams());
+  }
+
+  // What nanoflann calls.
+  size_t kdtree_get_point_count() const { return count_; }
+  float kdtree_get_pt(uint32_t number, size_t axis) const { return points_[number].position[axis]; }
   template <typename Box>
   bool kdtree_get_bbox(Box&) const {
     return false;
   }
 
  private:
-  std::vector<int32_t> indices_;
-  std::vector<std::array<float, 3>> positions_;
+  using Tree =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, PartTree, double>,
+                                          PartTree, 3, uint32_t>;
+
+  const Point* points_;
+  size_t count_;
+  Tree tree_;
+  std::array<float, 3> low_, high_;
 };
 
-using Tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<float, FinitePoints, double>,
-                                        FinitePoints, 3, uint32_t>;
+/// The finite points in parts of about the same size, each with a tree, built in parallel.
+class Forest {
+ public:
+  Forest(const ck::Strided<float>& points, const ck_control* control) {
+    for (size_t i = 0; i < points.count; ++i) {
+      if (!points.is_finite(i)) continue;
+      points_.push_back({{points[i][0], points[i][1], points[i][2]}, static_cast<int32_t>(i)});
+    }
+    if (points_.empty()) return;
+    const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
+    std::vector<size_t> starts{0, points_.size()};
+    while (points_.size() / (starts.size() - 1) > kTreePoints && starts.size() <= kMostTrees) {
+      starts = halved(starts, &quiet);
+    }
+    trees_.resize(starts.size() - 1);
+    ck::parallel_for(&quiet, trees_.size(), [&](size_t i) {
+      trees_[i] = std::make_unique<PartTree>(points_.data() + starts[i], starts[i + 1] - starts[i]);
+    });
+  }
+
+  void search(const float* position, Nearest& nearest) const {
+    nearest.clear();
+    if (trees_.empty()) return;
+    size_t first = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t i = 0; i < trees_.size() && least > 0; ++i) {
+      const double squared = trees_[i]->squared_distance(position);
+      if (squared < least) first = i;
+      least = std::min(least, squared);
+    }
+    trees_[first]->search(position, nearest);
+    for (size_t i = 0; i < trees_.size(); ++i) {
+      if (i == first || !(trees_[i]->squared_distance(position) < nearest.worstDist())) continue;
+      trees_[i]->search(position, nearest);
+    }
+  }
+
+ private:
+  /// Halves every part across the longest side of its box.
+  std::vector<size_t> halved(const std::vector<size_t>& starts, const ck_control* control) {
+    std::vector<size_t> result(2 * starts.size() - 1, points_.size());
+    ck::parallel_for(control, starts.size() - 1, [&](size_t i) {
+      result[2 * i] = starts[i];
+      result[2 * i + 1] = (starts[i] + starts[i + 1]) / 2;
+      halve(starts[i], result[2 * i + 1], starts[i + 1]);
+    });
+    return result;
+  }
+
+  void halve(size_t begin, size_t middle, size_t end) {
+    std::array<float, 3> low = points_[begin].position, high = low;
+    for (size_t i = begin; i < end; ++i) {
+      for (size_t a = 0; a < 3; ++a) {
+        low[a] = std::min(low[a], points_[i].position[a]);
+        high[a] = std::max(high[a], points_[i].position[a]);
+      }
+    }
+    size_t axis = 0;
+    for (size_t a = 1; a < 3; ++a) {
+      if (high[a] - low[a] > high[axis] - low[axis]) axis = a;
+    }
+    const auto at = [&](size_t i) { return points_.begin() + std::ptrdiff_t(i); };
+    std::nth_element(at(begin), at(middle), at(end), [axis](const Point& a, const Point& b) {
+      return a.position[axis] < b.position[axis];
+    });
+  }
+
+  std::vector<Point> points_;
+  std::vector<std::unique_ptr<PartTree>> trees_;
+};
 
 }  // namespace
 
@@ -59,26 +204,20 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
     const size_t width = static_cast<size_t>(count), query_count = queries.count;
     std::fill(indices, indices + query_count * width, -1);
     std::fill(distances, distances + query_count * width, std::numeric_limits<float>::infinity());
-    const FinitePoints finite(points);
-    if (finite.is_empty()) return;
     ck::step(control, 0);
-    Tree tree(3, finite);
-    tree.buildIndex();
+    const Forest forest(points, control);
     const ck::Strided<float> q(queries);
     ck::parallel_for(control, (query_count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      std::vector<uint32_t> found(width);
-      std::vector<double> squared(width);
+      // The largest distance is included.
+      Nearest nearest(width,
+                      std::nextafter(reach * reach, std::numeric_limits<double>::infinity()));
       const size_t end = std::min(query_count, (chunk + 1) * kChunk);
       for (size_t i = chunk * kChunk; i < end; ++i) {
         if (!q.is_finite(i)) continue;
-        nanoflann::KNNResultSet<double, uint32_t> nearest(width);
-        nearest.init(found.data(), squared.data());
-        // Until that many are found, the last one's distance is the limit, which is included.
-        squared.back() = std::nextafter(reach * reach, std::numeric_limits<double>::infinity());
-        tree.findNeighbors(nearest, q[i], nanoflann::SearchParams());
+        forest.search(q[i], nearest);
         for (size_t k = 0; k < nearest.size(); ++k) {
-          indices[i * width + k] = finite.index(found[k]);
-          distances[i * width + k] = static_cast<float>(std::sqrt(squared[k]));
+          indices[i * width + k] = nearest.index(k);
+          distances[i * width + k] = static_cast<float>(std::sqrt(nearest.squared(k)));
         }
       }
     });

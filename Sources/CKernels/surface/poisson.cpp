@@ -48,7 +48,7 @@ ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_option
     ck::require(options->scale >= 1, "scale must be 1 or more");
     ck::step(control, 0);
     const ck::Strided<float> p(positions), n(normals);
-    *surface = new ck_surface(reconstruct(Samples(p, n, options->scale), options->depth,
+    *surface = new ck_surface(reconstruct(Samples(p, n, options->scale, control), options->depth,
                                           options->maximum_bytes, control));
   });
 }

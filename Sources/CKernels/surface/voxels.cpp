@@ -7,9 +7,13 @@
 #include "ck_surface.h"
 #include "core/disjoint_sets.h"
 #include "core/guard.h"
+#include "core/parallel_sort.h"
 #include "core/span.h"
 
 namespace {
+
+/// Number of points that a thread works on at a time. Chosen: less than a millisecond.
+constexpr size_t kBlock = 1 << 14;
 
 /// Grid cell: level, x, y, z.
 using Cell = std::array<int32_t, 4>;
@@ -20,14 +24,15 @@ int32_t coordinate(float value, double size) {
   return static_cast<int32_t>(std::min(limit, std::max(-limit, std::floor(value / size))));
 }
 
-std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const int8_t* levels) {
+std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const int8_t* levels,
+                           const ck_control* control) {
   std::vector<Cell> cells(points.count);
-  for (size_t i = 0; i < points.count; ++i) {
+  ck::parallel_for_blocks(control, points.count, kBlock, [&](size_t i) {
     const int32_t level = levels ? levels[i] : 0;
     const double side = std::ldexp(size, level);
     const float* p = points[i];
     cells[i] = {level, coordinate(p[0], side), coordinate(p[1], side), coordinate(p[2], side)};
-  }
+  });
   return cells;
 }
 
@@ -41,8 +46,8 @@ std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cel
     numbers[i] = -1;
     if (points.is_finite(i)) order.push_back(static_cast<uint32_t>(i));
   }
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return cells[a] < cells[b]; });
+  const auto is_before = [&](uint32_t a, uint32_t b) { return cells[a] < cells[b]; };
+  ck::parallel_sort(order, is_before, control);
   ck::step(control, 0.5);
   std::vector<Cell> distinct;
   for (uint32_t i : order) {
@@ -95,7 +100,9 @@ ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* leve
     ck::require(std::isfinite(cell_size) && cell_size > 0, "the cell size must be positive");
     ck::require(count < (size_t{1} << 31), "too many points");
     ck::step(control, 0);
-    const auto distinct = number(points, cells_of(points, cell_size, levels), cells, control);
+    const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
+    const auto distinct =
+        number(points, cells_of(points, cell_size, levels, &quiet), cells, control);
     *cell_count = distinct.size();
     if (!components) return;
     ck::require(component_count, "null pointer");

@@ -21,12 +21,18 @@ package struct Silhouettes: Sendable {
     package init() {}
   }
 
-  private struct View: Sendable {
-    var rotation: Matrix3
-    var translation: SIMD3<Double>
-    var camera: Camera
+  /// A class, because millions of points are looked up in every view: a structure would be copied.
+  private final class View: Sendable {
+    let rotation: Matrix3
+    let translation: SIMD3<Double>
+    let camera: Camera
     /// Dilated by the margin.
-    var mask: RasterImage
+    let mask: RasterImage
+
+    init(pose: RigidTransform, camera: Camera, mask: RasterImage) {
+      (rotation, translation) = (pose.rotation.matrix, pose.translation)
+      (self.camera, self.mask) = (camera, mask)
+    }
   }
 
   /// Share of the registered photos that have a mask.
@@ -36,11 +42,13 @@ package struct Silhouettes: Sendable {
 
   /// Nil if no registered photo has a mask.
   package init?(
-    _ reconstruction: Reconstruction, images: ImageStore, options: Options = Options()
+    _ reconstruction: Reconstruction, images: ImageStore, options: Options = Options(),
+    _ control: KernelControl = KernelControl()
   ) throws {
     guard images.hasMasks else { return nil }
     let registered = reconstruction.registered
-    views = try registered.compactMap { photo in
+    views = try control.parallelMap(registered.count) { index -> View? in
+      let photo = registered[index]
       guard let pose = reconstruction.poses[photo.index],
         let mask = try images.pinholeMask(
           photo, of: reconstruction, maximumPixels: options.maximumPixels)
@@ -49,9 +57,8 @@ package struct Silhouettes: Sendable {
         of: photo, in: reconstruction, maximumPixels: options.maximumPixels)
       let margin = max(1, options.margin * Double(max(mask.width, mask.height)))
       return View(
-        rotation: pose.rotation.matrix, translation: pose.translation, camera: camera,
-        mask: try mask.dilated(by: Int(margin.rounded())))
-    }
+        pose: pose, camera: camera, mask: try mask.dilated(by: Int(margin.rounded())))
+    }.compactMap { $0 }
     guard !views.isEmpty else { return nil }
     share = Double(views.count) / Double(registered.count)
     self.options = options

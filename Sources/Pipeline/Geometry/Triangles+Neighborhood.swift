@@ -6,8 +6,14 @@ extension [Triangle] {
   func vertices(within edges: Int, of set: [Bool]) -> [Bool] {
     var isNear = set
     for _ in 0..<edges {
-      let reached = filter { $0.vertices.contains { isNear[$0] } }
-      for triangle in reached { for vertex in triangle.vertices { isNear[vertex] = true } }
+      var reached: [Int] = []
+      for triangle in self {
+        let (a, b, c) = (Int(triangle.a), Int(triangle.b), Int(triangle.c))
+        guard isNear[a] || isNear[b] || isNear[c], !(isNear[a] && isNear[b] && isNear[c])
+        else { continue }
+        reached += [a, b, c]
+      }
+      for vertex in reached { isNear[vertex] = true }
     }
     return isNear
   }

@@ -106,12 +106,13 @@ struct MeshCleaning {
     let nearest = try NearestPoints(
       of: mesh.positions, in: samples.positions, neighbors: options.colorNeighbors, control)
     let unit = max(samples.medianFootprint ?? 1, .leastNormalMagnitude)
-    return mesh.positions.indices.map { vertex in
+    let softening = options.colorSoftening
+    return try control.parallelMap(mesh.positions.count, inUnitsOf: 8192) { vertex in
       var (sum, weights) = (SIMD3<Float>(), Float(0))
       for k in 0..<nearest.neighbors {
         let slot = vertex * nearest.neighbors + k
         guard nearest.indices[slot] >= 0 else { break }
-        let weight = 1 / (nearest.distances[slot] / unit + options.colorSoftening)
+        let weight = 1 / (nearest.distances[slot] / unit + softening)
         sum += weight * SIMD3<Float>(samples.colors[Int(nearest.indices[slot])])
         weights += weight
       }

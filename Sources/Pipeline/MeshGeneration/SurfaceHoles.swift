@@ -22,17 +22,7 @@ struct SurfaceHoles: Sendable {
     }
     isBoundary = isKept
     // Holes that touch only at a vertex are separate: faces of one hole share edges.
-    var numbers: [SIMD2<UInt32>: UInt32] = [:]
-    let byEdges = removed.map { face in
-      let edges = mesh.triangles[face].edges.map { edge -> UInt32 in
-        let key = SIMD2(min(edge.x, edge.y), max(edge.x, edge.y))
-        let number = numbers[key] ?? UInt32(numbers.count)
-        numbers[key] = number
-        return number
-      }
-      return Triangle(edges[0], edges[1], edges[2])
-    }
-    let components = MeshComponents(byEdges, vertexCount: numbers.count)
+    let components = MeshComponents(sharingEdges: removed.map { mesh.triangles[$0] })
     count = components.count
     members = Members(of: components.components, count: components.count)
     isEnclosed = Self.areEnclosed(mesh, removed, components, isKept)

@@ -47,21 +47,38 @@ struct VoxelDownsampling {
     let grid = try VoxelGrid(
       cloud.positions, cellSize: size, levels: levels, context.control.part(from: 0, to: 0.7))
     try context.control.step(0.7)
-    return average(cloud, grid, size)
+    return try average(cloud, grid, size, context.control.part(from: 0.7, to: 1))
   }
 
   /// One mean point per occupied grid cell, with the union of its members' photos.
-  private func average(_ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double) -> Result {
+  private func average(
+    _ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double, _ control: KernelControl
+  ) throws -> Result {
     let members = Members(of: grid.cells, count: grid.cellCount)
+    let chunk = 8192
+    let parts = try control.parallelMap((grid.cellCount + chunk - 1) / chunk) { part in
+      average(
+        part * chunk..<min(grid.cellCount, (part + 1) * chunk), of: members, cloud, Float(size))
+    }
     var result = PointCloud()
     result.positions.reserveCapacity(grid.cellCount)
     result.normals.reserveCapacity(grid.cellCount)
-    var weights: [Int32] = []
-    weights.reserveCapacity(grid.cellCount)
+    for part in parts { result.append(part) }
+    return Result(
+      cloud: result, sampleOfPoint: grid.cells,
+      weights: (0..<grid.cellCount).map { Int32(members[$0].count) }, voxelSize: size)
+  }
+
+  /// The mean points of some cells; `fallback` is the footprint of a point if none of its cell has
+  /// one.
+  private func average(
+    _ cells: Range<Int>, of members: Members, _ cloud: PointCloud, _ fallback: Float
+  ) -> PointCloud {
+    var result = PointCloud()
     var photos: [UInt16] = []
-    for cell in 0..<grid.cellCount {
+    for cell in cells {
       let points = members[cell]
-      append(points, of: cloud, to: &result, fallback: Float(size))
+      append(points, of: cloud, to: &result, fallback: fallback)
       photos.removeAll(keepingCapacity: true)
       for point in points { photos.append(contentsOf: cloud.visiblePhotos(of: Int(point))) }
       photos.sort()
@@ -71,10 +88,8 @@ struct VoxelDownsampling {
         last = photo
       }
       result.photoOffsets.append(UInt32(result.photoIndices.count))
-      weights.append(Int32(points.count))
     }
-    return Result(
-      cloud: result, sampleOfPoint: grid.cells, weights: weights, voxelSize: size)
+    return result
   }
 
   /// Appends the weighted mean of some points, without their photos; `fallback` is the footprint if

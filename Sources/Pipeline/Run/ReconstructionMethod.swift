@@ -120,7 +120,8 @@ struct ReconstructionMethod {
     let (photos, reconstruction) = (scene.photos, scene.reconstruction)
     return try recorder.run(.meshGeneration, images: photos.images) { context in
       let silhouettes = try context.notes.step("silhouettes") {
-        try Silhouettes(reconstruction, images: photos.images)
+        try Silhouettes(
+          reconstruction, images: photos.images, context.control.part(from: 0, to: 0))
       }
       let share = configuration.photoRefinement == nil ? 1 : 0.4
       let mesh = try MeshGeneration(configuration.meshGeneration)

@@ -46,7 +46,7 @@ struct TangentFrames: Sendable {
     return (((b - a) * e2.y - (c - a) * e1.y) / determinant).normalized
   }
 
-  private static func angle(_ mesh: Mesh, _ vertices: [Int], _ corner: Int) -> Float {
+  private static func angle(_ mesh: Mesh, _ vertices: Triple<Int>, _ corner: Int) -> Float {
     let p = mesh.positions[vertices[corner]]
     return Mesh.angle(
       mesh.positions[vertices[(corner + 1) % 3]] - p,

@@ -1,7 +1,9 @@
 #include "surface/poisson/contour.h"
 
 #include <algorithm>
+#include <functional>
 
+#include "core/parallel_sort.h"
 #include "surface/poisson/field.h"
 #include "surface/poisson/leaves.h"
 #include "surface/poisson/marching_cubes.h"
@@ -10,16 +12,30 @@ namespace ck::poisson {
 
 namespace {
 
+/// Parts that a thread works on at a time. Chosen: they take some ten microseconds each.
+constexpr size_t kBlock = 64;
+
 /// Two leaves with the surface between them: the ids, the lower one first.
 using LeafPair = uint64_t;
 
-/// The surface around the nodes of a brick.
+struct Vertex {
+  LeafPair pair;
+  std::array<float, 3> position;
+
+  bool operator<(const Vertex& other) const { return pair < other.pair; }
+};
+
+/// The surface around the nodes of a brick: its vertices in ascending order.
 struct Part {
-  /// The vertices in ascending order, and their positions.
-  std::vector<LeafPair> vertices;
-  std::vector<std::array<float, 3>> positions;
+  std::vector<Vertex> vertices;
   std::vector<std::array<LeafPair, 3>> triangles;
 };
+
+/// Removes repeated vertices of a sorted list.
+void remove_repeated(std::vector<Vertex>& sorted) {
+  const auto is_same = [](const Vertex& a, const Vertex& b) { return a.pair == b.pair; };
+  sorted.erase(std::unique(sorted.begin(), sorted.end(), is_same), sorted.end());
+}
 
 class BrickContour {
  public:
@@ -31,16 +47,12 @@ class BrickContour {
       if (!level_.nodes[b_][i] || !find_leaves(local_coordinates(i))) continue;
       for (const MarchingCubes::Triangle& t : MarchingCubes::shared().triangles(inside_)) add(t);
     }
-    sort_vertices();
+    std::sort(part_.vertices.begin(), part_.vertices.end());
+    remove_repeated(part_.vertices);
     return std::move(part_);
   }
 
  private:
-  struct Vertex {
-    LeafPair pair;
-    std::array<float, 3> position;
-  };
-
   /// Finds the leaves around a node; false if it is a node of finer leaves, too, if the surface
   /// does not pass between them, or if it leaves the cube there.
   bool find_leaves(const Coordinates& node) {
@@ -91,18 +103,8 @@ class BrickContour {
       vertex.position[i] =
           static_cast<float>(first.center[i] + t * (second.center[i] - first.center[i]));
     }
-    vertices_.push_back(vertex);
+    part_.vertices.push_back(vertex);
     return vertex.pair;
-  }
-
-  void sort_vertices() {
-    std::sort(vertices_.begin(), vertices_.end(),
-              [](const Vertex& a, const Vertex& b) { return a.pair < b.pair; });
-    for (const Vertex& v : vertices_) {
-      if (!part_.vertices.empty() && part_.vertices.back() == v.pair) continue;
-      part_.vertices.push_back(v.pair);
-      part_.positions.push_back(v.position);
-    }
   }
 
   const Level& level_;
@@ -111,7 +113,6 @@ class BrickContour {
   /// The leaves around the current node, and those of them inside the surface, as bits.
   std::array<Leaf, 8> corners_;
   int inside_ = 0;
-  std::vector<Vertex> vertices_;
   Part part_;
 };
 
@@ -132,45 +133,50 @@ std::vector<Part> make_parts(const std::vector<Level>& levels, double value,
   return parts;
 }
 
-size_t position(const std::vector<LeafPair>& sorted, LeafPair pair) {
-  return static_cast<size_t>(std::lower_bound(sorted.begin(), sorted.end(), pair) - sorted.begin());
+size_t position(const std::vector<Vertex>& sorted, LeafPair pair) {
+  const auto found = std::lower_bound(sorted.begin(), sorted.end(), Vertex{pair, {}});
+  return static_cast<size_t>(found - sorted.begin());
+}
+
+/// All vertices in ascending order. Parts that share a vertex agree on its position.
+std::vector<Vertex> merged_vertices(const std::vector<Part>& parts, const ck_control* control) {
+  std::vector<size_t> starts{0};
+  for (const Part& part : parts) starts.push_back(starts.back() + part.vertices.size());
+  std::vector<Vertex> vertices(starts.back());
+  parallel_for_blocks(control, parts.size(), kBlock, [&](size_t i) {
+    std::copy(parts[i].vertices.begin(), parts[i].vertices.end(),
+              vertices.begin() + std::ptrdiff_t(starts[i]));
+  });
+  parallel_sort(vertices, std::less<>(), control);
+  remove_repeated(vertices);
+  return vertices;
 }
 
 }  // namespace
 
 Contour contour(const std::vector<Level>& levels, double value, const ck_control* control) {
-  const ProgressPart first(control, 0, 0.7), second(control, 0.7, 1);
+  const ProgressPart first(control, 0, 0.7), second(control, 0.7, 0.7), third(control, 0.7, 1);
   const std::vector<Part> parts = make_parts(levels, value, first.control());
-  std::vector<LeafPair> vertices;
+  const std::vector<Vertex> vertices = merged_vertices(parts, second.control());
   std::vector<size_t> starts{0};
-  for (const Part& part : parts) {
-    vertices.insert(vertices.end(), part.vertices.begin(), part.vertices.end());
-    starts.push_back(starts.back() + part.triangles.size());
-  }
-  std::sort(vertices.begin(), vertices.end());
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (const Part& part : parts) starts.push_back(starts.back() + part.triangles.size());
   Contour result;
   result.positions.resize(vertices.size());
   result.triangles.resize(starts.back());
-  std::vector<std::vector<uint32_t>> numbers(parts.size());
-  parallel_for(second.control(), parts.size(), [&](size_t i) {
+  parallel_for_blocks(second.control(), vertices.size(), kBlock * kBlock,
+                      [&](size_t v) { result.positions[v] = vertices[v].position; });
+  parallel_for_blocks(third.control(), parts.size(), kBlock, [&](size_t i) {
     const Part& part = parts[i];
-    for (LeafPair v : part.vertices) {
-      numbers[i].push_back(static_cast<uint32_t>(position(vertices, v)));
+    std::vector<uint32_t> numbers;
+    for (const Vertex& v : part.vertices) {
+      numbers.push_back(static_cast<uint32_t>(position(vertices, v.pair)));
     }
     for (size_t t = 0; t < part.triangles.size(); ++t) {
       for (size_t k = 0; k < 3; ++k) {
-        result.triangles[starts[i] + t][k] =
-            numbers[i][position(part.vertices, part.triangles[t][k])];
+        result.triangles[starts[i] + t][k] = numbers[position(part.vertices, part.triangles[t][k])];
       }
     }
   });
-  // Parts that share a vertex agree on its position.
-  for (size_t i = 0; i < parts.size(); ++i) {
-    for (size_t v = 0; v < numbers[i].size(); ++v) {
-      result.positions[numbers[i][v]] = parts[i].positions[v];
-    }
-  }
   return result;
 }
 

@@ -23,7 +23,8 @@ Leaves::Leaves(const std::vector<Level>& levels, double surface, const ck_contro
                  [&](size_t b) { find_values(l, b, static_cast<float>(surface)); });
   }
   for (size_t l = 1; l < levels.size(); ++l) {
-    for (size_t b = 0; b < levels[l].bricks.count(); ++b) mark_parents(l, b);
+    // Bricks with the same parent have different colors.
+    for_colors(levels[l].bricks, 2, control, [&](size_t b) { mark_parents(l, b); });
   }
 }
 

@@ -11,6 +11,9 @@ namespace ck::poisson {
 
 namespace {
 
+/// Number of values that a thread adds at a time. Chosen: less than a millisecond.
+constexpr size_t kBlock = 1 << 18;
+
 /// A vector field whose values are those at the nodes, times the area of a cell's face.
 using NormalField = Field<3>;
 
@@ -107,7 +110,8 @@ void make_right_hand_sides(std::vector<Level>& levels, const Samples& samples,
     add_integrals(finer, levels[l], part.control());
     if (l + 1 == levels.size()) break;
     field = splatted_normals(levels[l], finest, samples, part.control());
-    for (size_t i = 0; i < finer.values.size(); ++i) field.values[i] += finer.values[i];
+    parallel_for_blocks(half.control(), finer.values.size(), kBlock,
+                        [&](size_t i) { field.values[i] += finer.values[i]; });
   }
 }
 

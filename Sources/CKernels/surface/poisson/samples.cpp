@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "core/guard.h"
+#include "core/parallel_sort.h"
 
 namespace ck::poisson {
 
-Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale) {
+namespace {
+
+/// Number of samples that a thread works on at a time. Chosen: less than a millisecond.
+constexpr size_t kBlock = 1 << 14;
+
+}  // namespace
+
+Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale,
+                 const ck_control* control) {
   std::array<double, 3> low, high;
   low.fill(std::numeric_limits<double>::infinity());
   high.fill(-std::numeric_limits<double>::infinity());
@@ -30,18 +40,21 @@ Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale)
   for (size_t a = 0; a < 3; ++a) side = std::max(side, scale * (high[a] - low[a]));
   if (!(side > 0)) throw Degenerate("all points are at one position");
   for (size_t a = 0; a < 3; ++a) origin[a] = (low[a] + high[a]) / 2 - side / 2;
-  for (Sample& s : samples) move_to_cube(s);
-  sort();
+  const ck_control quiet{nullptr, nullptr, thread_count(control)};
+  parallel_for_blocks(&quiet, samples.size(), kBlock, [&](size_t i) { move_to_cube(samples[i]); });
+  sort(&quiet);
 }
 
 /// Samples of one cell stay in the order of the input.
-void Samples::sort() {
-  std::vector<std::pair<uint64_t, size_t>> order;
-  for (size_t i = 0; i < samples.size(); ++i) order.emplace_back(samples[i].code, i);
-  std::sort(order.begin(), order.end());
-  std::vector<Sample> sorted;
-  sorted.reserve(samples.size());
-  for (const auto& [code, i] : order) sorted.push_back(samples[i]);
+void Samples::sort(const ck_control* control) {
+  std::vector<std::pair<uint64_t, size_t>> order(samples.size());
+  parallel_for_blocks(control, order.size(), kBlock, [&](size_t i) {
+    order[i] = {samples[i].code, i};
+  });
+  parallel_sort(order, std::less<>(), control);
+  std::vector<Sample> sorted(samples.size());
+  parallel_for_blocks(control, order.size(), kBlock,
+                      [&](size_t i) { sorted[i] = samples[order[i].second]; });
   samples = std::move(sorted);
 }
 

@@ -37,7 +37,8 @@ struct Samples {
 
   /// `scale` is the side of the cube relative to the largest extent of the points. Throws
   /// `Degenerate` if fewer than four are left, or all at one position.
-  Samples(const Strided<float>& positions, const Strided<float>& normals, double scale);
+  Samples(const Strided<float>& positions, const Strided<float>& normals, double scale,
+          const ck_control* control);
 
   /// The samples in a brick of a level: from `first` to before `second`.
   std::pair<size_t, size_t> range(uint64_t brick_code, int depth) const;
@@ -70,7 +71,7 @@ struct Samples {
 
  private:
   void move_to_cube(Sample& sample) const;
-  void sort();
+  void sort(const ck_control* control);
 };
 
 /// The quadratic B-spline weights of the 27 nodes around a position.
