@@ -65,6 +65,23 @@ extension KernelControl {
     return Array(units.joined())
   }
 
+  /// Maps the elements of an array like `parallelMap`, and empties it: `body` owns its element, and
+  /// may change it in place; its memory is free when `body` returns.
+  package func parallelMap<Element: Sendable, Result: Sendable>(
+    draining elements: inout [Element],
+    _ body: @escaping @Sendable (Int, inout Element) throws -> Result
+  ) throws -> [Result] {
+    let waiting = Locked<[Element?]>(elements)
+    let count = elements.count
+    elements = []
+    return try parallelMap(count) { index in
+      guard var element = waiting.withLock({ $0[index].take() }) else {
+        preconditionFailure("an element is mapped once")
+      }
+      return try body(index, &element)
+    }
+  }
+
   /// Runs three independent calls on the control's threads.
   package func concurrently<First: Sendable, Second: Sendable, Third: Sendable>(
     _ first: @escaping @Sendable (KernelControl) throws -> First,

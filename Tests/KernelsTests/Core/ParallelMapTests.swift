@@ -17,6 +17,19 @@ import Testing
     }
   }
 
+  @Test(arguments: [1, 2, 3, 8]) func drainedElementsAreMappedOnce(threads: Int) throws {
+    let control = KernelControl(threadCount: threads)
+    var elements = (0..<100).map { [$0] }
+    let sums = try control.parallelMap(draining: &elements) { index, element in
+      element.append(index)
+      return element.reduce(0, +)
+    }
+    #expect(sums == (0..<100).map { 2 * $0 })
+    #expect(elements.isEmpty)
+    var none: [Int] = []
+    #expect(try control.parallelMap(draining: &none) { $0 + $1 }.isEmpty)
+  }
+
   @Test(arguments: [1, 4]) func theLowestFailureIsThrown(threads: Int) {
     let control = KernelControl(threadCount: threads)
     #expect(throws: Failure(index: 3)) {
