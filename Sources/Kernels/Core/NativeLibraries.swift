@@ -8,4 +8,8 @@ package enum NativeLibraries {
   /// To be called from the `main` of an executable: kernels themselves do not change settings of
   /// the process.
   package static func silence() { ck_silence_libraries() }
+
+  /// Returns memory that was freed to the system. The allocator keeps most of it for later
+  /// allocations of a similar size, which adds to the peak memory if they are of another size.
+  package static func releaseFreeMemory() { ck_release_free_memory() }
 }
