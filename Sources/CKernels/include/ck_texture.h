@@ -9,6 +9,13 @@ extern "C" {
 
 // Texel coordinates have their origin at the corner of the top-left texel, y down.
 
+/// Two nodes of a graph that should have the same label.
+typedef struct {
+  uint32_t nodes[2];
+  /// Cost of different labels.
+  float weight;
+} ck_label_edge;
+
 /// A labeling problem: every node of a graph gets one of its candidate labels.
 typedef struct {
   size_t node_count;
@@ -19,18 +26,18 @@ typedef struct {
   /// Cost of each candidate.
   const float* costs;
   size_t edge_count;
-  /// Two nodes per edge.
-  const uint32_t* edges;
-  /// Cost of an edge whose nodes have different labels.
-  const float* edge_weights;
+  const ck_label_edge* edges;
 } ck_label_problem;
 
 /// Selects one candidate label for every node such that the sum of the nodes' costs and of the
-/// weights of edges between different labels is small: a Potts model, minimized by sequential
-/// tree-reweighted message passing (Kolmogorov, PAMI 2006).
+/// weights of edges between different labels is small: a Potts model, minimized by tree-reweighted
+/// message passing (Kolmogorov, PAMI 2006).
+///
+/// A node has fewer than 65,535 candidates. Fastest if nodes that an edge joins have close indices.
 ///
 /// An iteration passes messages forward and backward once. `choices` receives the index of each
-/// node's selected candidate among its candidates, −1 for nodes without candidates.
+/// node's selected candidate among its candidates, −1 for nodes without candidates; it does not
+/// depend on the number of threads.
 ck_status ck_select_labels(const ck_label_problem* problem, size_t iterations,
                            const ck_control* control, int32_t* choices);
 

@@ -48,6 +48,7 @@ package final class RayScene: Sendable {
         handle, &rawView, view.image.pixels, view.mask?.pixels, &rawOptions, control, &raw)
     }
     var result: [FaceObservation] = []
+    result.reserveCapacity(raw.count { $0.area > 0 })
     for (face, value) in raw.enumerated() where value.area > 0 {
       result.append(
         FaceObservation(

@@ -3,55 +3,69 @@ import CKernels
 /// Assigns one label to each node of a graph, at a cost per label and per edge between different
 /// labels.
 ///
-/// Potts model, minimized by sequential tree-reweighted message passing (Kolmogorov, PAMI 2006).
+/// Potts model, minimized by tree-reweighted message passing (TRW-S; Kolmogorov, PAMI 2006).
 package struct LabelSelection: Sendable {
-  /// A pair of nodes that should have the same label.
-  package struct Edge: Hashable, Sendable {
-    /// Index of a node.
-    package var a: UInt32
-    /// Index of the other node.
-    package var b: UInt32
-    /// Cost of different labels at the two ends.
-    package var weight: Float
-
-    package init(_ a: UInt32, _ b: UInt32, weight: Float) {
-      (self.a, self.b, self.weight) = (a, b, weight)
-    }
-  }
-
   /// Candidates of node i are `offsets[i]..<offsets[i + 1]`.
   private var offsets: [UInt32] = [0]
   private var labels: [Int32] = []
   private var costs: [Float] = []
-  /// The smoothness terms.
-  package var edges: [Edge] = []
+  private var edges: [ck_label_edge] = []
 
   package init() {}
 
-  /// Adds the next node; labels must be in ascending order.
-  package mutating func addNode(_ candidates: some Sequence<(label: Int32, cost: Float)>) {
-    for candidate in candidates {
-      labels.append(candidate.label)
-      costs.append(candidate.cost)
-    }
-    offsets.append(UInt32(labels.count))
+  private var nodeCount: Int { offsets.count - 1 }
+
+  /// Makes room for `edges` edges, and nodes with a total number of candidates.
+  package mutating func reserve(nodes: Int, candidates: Int, edges: Int) {
+    offsets.reserveCapacity(nodes + 1)
+    labels.reserveCapacity(candidates)
+    costs.reserveCapacity(candidates)
+    self.edges.reserveCapacity(edges)
   }
 
-  /// The label of each node; −1 for nodes without candidates.
+  /// Adds nodes with the given numbers of candidates; `labels` and `costs` hold the candidates of
+  /// all, the labels in ascending order for each node.
+  package mutating func addNodes(candidateCounts: [Int], labels: [Int32], costs: [Float]) {
+    precondition(
+      labels.count == costs.count && labels.count == candidateCounts.reduce(0, +),
+      "candidates are missing")
+    self.labels += labels
+    self.costs += costs
+    for count in candidateCounts { offsets.append(offsets[offsets.count - 1] + UInt32(count)) }
+  }
+
+  /// Adds a pair of nodes that should have the same label; `weight` is the cost of different ones.
+  package mutating func addEdge(_ a: UInt32, _ b: UInt32, weight: Float) {
+    edges.append(ck_label_edge(nodes: (a, b), weight: weight))
+  }
+
+  /// The label of each node; −1 for nodes without candidates. Doesn't depend on the number of
+  /// threads.
   package func run(iterations: Int, _ control: KernelControl) throws -> [Int32] {
-    let count = offsets.count - 1
-    var choices = [Int32](repeating: -1, count: count)
-    let (offsets, labels) = (KernelArray(offsets), KernelArray(labels))
-    let (costs, pairs) = (KernelArray(costs), KernelArray(edges.flatMap { [$0.a, $0.b] }))
-    let weights = KernelArray(edges.lazy.map(\.weight))
-    try withExtendedLifetime((offsets, labels, costs, pairs, weights)) {
-      var problem = ck_label_problem(
-        node_count: count, offsets: offsets.base, labels: labels.base, costs: costs.base,
-        edge_count: weights.count, edges: pairs.base, edge_weights: weights.base)
+    var choices = [Int32](repeating: -1, count: nodeCount)
+    try withProblem { problem in
       try withKernel(control) { ck_select_labels(&problem, iterations, $0, &choices) }
     }
-    return choices.enumerated().map { node, choice in
-      choice < 0 ? -1 : self.labels[Int(self.offsets[node]) + Int(choice)]
+    for (node, choice) in choices.enumerated() where choice >= 0 {
+      choices[node] = labels[Int(offsets[node]) + Int(choice)]
+    }
+    return choices
+  }
+
+  /// Calls `body` with the C representation, valid only during the call; the arrays are too large
+  /// to copy.
+  private func withProblem(_ body: (inout ck_label_problem) throws -> Void) rethrows {
+    try offsets.withUnsafeBufferPointer { offsets in
+      try labels.withUnsafeBufferPointer { labels in
+        try costs.withUnsafeBufferPointer { costs in
+          try edges.withUnsafeBufferPointer { edges in
+            var problem = ck_label_problem(
+              node_count: nodeCount, offsets: offsets.baseAddress, labels: labels.baseAddress,
+              costs: costs.baseAddress, edge_count: edges.count, edges: edges.baseAddress)
+            try body(&problem)
+          }
+        }
+      }
     }
   }
 }

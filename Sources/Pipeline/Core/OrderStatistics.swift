@@ -16,4 +16,12 @@ extension Array where Element: Comparable {
     guard !isEmpty else { return nil }
     return sorted()[Swift.min(count - 1, Swift.max(0, Int(q * Double(count))))]
   }
+
+  /// Sorts the elements, and returns the upper median; nil for an empty array. Unlike `upperMedian`
+  /// it allocates nothing for few elements.
+  mutating func sortedUpperMedian() -> Element? {
+    guard !isEmpty else { return nil }
+    sort()
+    return self[count / 2]
+  }
 }

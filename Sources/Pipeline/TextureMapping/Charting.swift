@@ -92,8 +92,7 @@ struct Charting: Sendable {
     var sums = [Float](repeating: 0, count: count)
     var seenAreas = [Float](repeating: 0, count: count)
     for face in charts.indices where labels[face] >= 0 && areas[face] > 0 {
-      guard let index = rated.views.index(of: face, in: labels[face]) else { continue }
-      let entry = rated.views.entries[index]
+      guard let entry = rated.view(labels[face], of: face) else { continue }
       // Foreshortening reduces the resolution in one direction only.
       sums[Int(charts[face])] +=
         (entry.area / (areas[face] * entry.cosine)).squareRoot()

@@ -90,8 +90,8 @@ struct ColorLeveling: Sendable {
   ) -> SIMD3<Float>? {
     var (sum, weight) = (SIMD3<Float>.zero, Float(0))
     for face in topology.triangles(around: vertex) {
-      guard let index = rated.views.index(of: Int(face), in: view) else { continue }
-      sum += rated.views.entries[index].color * areas[Int(face)]
+      guard let entry = rated.view(view, of: Int(face)) else { continue }
+      sum += entry.color * areas[Int(face)]
       weight += areas[Int(face)]
     }
     return weight > 0 ? sum / weight : nil

@@ -59,8 +59,7 @@ struct ExposureCompensation: Sendable {
     to system: inout PairwiseDifferences
   ) {
     var items: [(view: Int, log: Double, weight: Double)] = []
-    for index in views.range(of: face) {
-      let entry = views.entries[index]
+    for entry in views.entries(of: face) {
       let value = entry.color[channel]
       guard entry.cosine >= options.minimumCosine, value > options.linearRange.lowerBound,
         value < options.linearRange.upperBound

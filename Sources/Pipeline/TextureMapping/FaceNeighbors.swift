@@ -19,8 +19,8 @@ struct FaceNeighbors: Sendable {
 
   /// Flood fill from `start` over the same view's entries of adjacent triangles that `accepts`.
   func flood(
-    from start: [Int], in views: FaceViews, where accepts: (Int) -> Bool
-  ) -> [Int] {
+    from start: [FaceViews.Index], in views: FaceViews, where accepts: (FaceViews.Index) -> Bool
+  ) -> [FaceViews.Index] {
     var group = start
     var next = 0
     while next < group.count {
@@ -31,8 +31,10 @@ struct FaceNeighbors: Sendable {
   }
 
   /// Calls `body` with the same view's entries of the triangles adjacent to that of `entry`.
-  func forEach(adjacentTo entry: Int, in views: FaceViews, _ body: (Int) -> Void) {
-    let (face, view) = (Int(views.entries[entry].face), views.entries[entry].view)
+  func forEach(
+    adjacentTo entry: FaceViews.Index, in views: FaceViews, _ body: (FaceViews.Index) -> Void
+  ) {
+    let (face, view) = (Int(views[entry].face), views[entry].view)
     for slot in 3 * face..<3 * face + 3 where faces[slot] >= 0 {
       if let other = views.index(of: Int(faces[slot]), in: view) { body(other) }
     }

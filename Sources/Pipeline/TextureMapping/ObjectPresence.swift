@@ -44,7 +44,7 @@ struct ObjectPresence: Sendable {
     let poses = views.map { reconstruction.poses[$0.index] ?? .identity }
     for face in 0..<faces.faceCount {
       let center = SIMD3<Double>(mesh.center(of: mesh.triangles[face]))
-      for entry in faces.entries[faces.range(of: face)] {
+      for entry in faces.entries(of: face) {
         let view = Int(entry.view)
         let size = SIMD2(Double(cameras[view].width), Double(cameras[view].height))
         let offset = cameras[view].project(poses[view] * center) / size - 0.5

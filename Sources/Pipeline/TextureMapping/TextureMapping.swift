@@ -74,13 +74,14 @@ package struct TextureMapping: Sendable {
     let scene = try notes.step("rayScene") {
       try RayScene(mesh, context.part(from: 0, to: 0).control)
     }
-    let seen = try notes.step("observation") {
+    var seen = try notes.step("observation") {
       try ViewObservation(options: options.observation).run(
         try occluded(mesh, by: occluders, context) ?? scene, faceCount: mesh.triangles.count,
         views: views, source: source, context.part(from: 0, to: 0.19))
     }
     let colors = try colors(
-      of: mesh, topology, seen, source, isCropped: !occluders.triangles.isEmpty, context)
+      of: mesh, topology, draining: &seen, source, isCropped: !occluders.triangles.isEmpty,
+      context)
     let layout = try notes.step("layout") {
       try self.layout(of: mesh, dense, topology, colors, context.part(from: 0.26, to: 0.39))
     }
@@ -104,23 +105,16 @@ package struct TextureMapping: Sendable {
     var labels: [Int32]
   }
 
-  /// Chooses the views of each face.
+  /// Chooses the views of each face. `seen` is left empty.
   private func colors(
-    of mesh: Mesh, _ topology: MeshTopology, _ seen: FaceViews, _ source: ViewSource,
-    isCropped: Bool, _ context: StageContext
+    of mesh: Mesh, _ topology: MeshTopology, draining seen: inout FaceViews,
+    _ source: ViewSource, isCropped: Bool, _ context: StageContext
   ) throws -> FaceColors {
     let notes = context.notes
     let views = source.reconstruction.registered
     let gains = try notes.step("exposure") {
       try ExposureCompensation(options: options.exposure)
         .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
-    }
-    var candidates = options.candidates
-    candidates.outliers.minimumRegionPixels = max(
-      candidates.outliers.minimumRegionPixels, options.minimumRegionShare * source.pixelsPerPhoto)
-    let rated = try notes.step("candidates") {
-      try ViewCandidates(options: candidates)
-        .run(seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
     }
     // A user who cropped the model decided what is in it.
     if let presence = options.presence, !isCropped {
@@ -129,9 +123,24 @@ package struct TextureMapping: Sendable {
           .run(mesh, seen: seen, views: views, source.reconstruction, notes)
       }
     }
+    var candidates = options.candidates
+    candidates.outliers.minimumRegionPixels = max(
+      candidates.outliers.minimumRegionPixels, options.minimumRegionShare * source.pixelsPerPhoto)
+    var rated = try notes.step("candidates") {
+      defer { NativeLibraries.releaseFreeMemory() }
+      return try ViewCandidates(options: candidates)
+        .run(
+          draining: &seen, gains: gains, topology: topology, context.part(from: 0.21, to: 0.22))
+    }
     let labels = try notes.step("labels") {
       try ViewSelection(options: options.selection)
         .run(rated, mesh: mesh, topology: topology, context.part(from: 0.22, to: 0.26))
+    }
+    try notes.step("restriction") {
+      defer { NativeLibraries.releaseFreeMemory() }
+      try ViewBlending(options: options.blending).restrict(
+        &rated, labels: labels, mesh: mesh, topology: topology,
+        context.part(from: 0.26, to: 0.26).control)
     }
     return FaceColors(gains: gains, rated: rated, labels: labels)
   }

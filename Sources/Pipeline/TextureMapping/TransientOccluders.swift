@@ -32,69 +32,122 @@ struct TransientOccluders: Sendable {
 
   var options = Options()
 
+  /// How far a view is from the median color of a triangle's views.
+  private enum Deviation: UInt8 {
+    case small
+    /// Above the low threshold.
+    case elevated
+    /// Above the tolerance.
+    case outlier
+  }
+
+  private typealias Index = FaceViews.Index
+
   /// Whether each entry is rejected. A triangle whose views are all rejected only for their
   /// proximity to occluders keeps them; one whose views all show occluders keeps none.
   func run(
     _ views: FaceViews, topology: MeshTopology, _ context: StageContext
-  ) throws -> [Bool] {
-    let first = try rated(views, without: nil, context)
+  ) throws -> EntryValues<Bool> {
+    let control = context.control
+    let deviations = EntryValues(
+      blocks: try control.parallelMap(views.blocks.count) { self.deviations(in: views.blocks[$0]) })
     let neighbors = FaceNeighbors(topology, faceCount: views.faceCount)
-    var isOccluder = [Bool](repeating: false, count: views.entries.count)
-    var occluderRegions: [[Int]] = []
-    for occluder in occluders(first.excess, views, neighbors) {
+    var isOccluder = EntryValues(repeating: false, for: views)
+    var occluderRegions: [[Index]] = []
+    for occluder in occluders(deviations, views, neighbors) {
       for entry in occluder { isOccluder[entry] = true }
-      let occluderColor = OccluderColor(
-        occluder.filter { first.excess[$0] > 1 }, views, first.medians)
+      let color = occluderColor(occluder.filter { deviations[$0] == .outlier }, views)
       occluderRegions.append(
-        extend(occluder, over: views, neighbors, first.excess, occluderColor, &isOccluder))
+        extend(occluder, over: views, neighbors, deviations, color, &isOccluder))
     }
-    // Two occluders can outvote the surface of a triangle; without them it is re-evaluated.
-    let second = try rated(views, without: isOccluder, context)
-    for entry in views.entries.indices where second.excess[entry] > 1 { isOccluder[entry] = true }
+    isOccluder.blocks = try control.parallelMap(draining: &isOccluder.blocks) { index, marks in
+      addOutliers(in: views.blocks[index], deviations.blocks[index], to: &marks)
+      return marks
+    }
     var isOutlier = isOccluder
     for occluder in occluderRegions { grow(occluder, views, neighbors, &isOutlier) }
-    for face in 0..<views.faceCount where views.range(of: face).allSatisfy({ isOutlier[$0] }) {
-      for entry in views.range(of: face) { isOutlier[entry] = isOccluder[entry] }
+    isOutlier.blocks = try control.parallelMap(draining: &isOutlier.blocks) {
+      [isOccluder] index, marks in
+      let block = views.blocks[index]
+      for face in 0..<block.faceCount {
+        let range = block.range(of: face)
+        guard range.allSatisfy({ marks[$0] }) else { continue }
+        for entry in range { marks[entry] = isOccluder.blocks[index][entry] }
+      }
+      return marks
     }
     return isOutlier
   }
 
-  /// The median color of each triangle, and each view's deviation from it relative to the
-  /// tolerance. With two views neither is an outlier, but their difference is recorded.
-  private func rated(
-    _ views: FaceViews, without isOccluder: [Bool]?, _ context: StageContext
-  ) throws -> (medians: [SIMD3<Float>], excess: [Float]) {
-    let rated = try context.control.parallelMap(
-      views.faceCount, inUnitsOf: FaceViews.parallelUnit
-    ) { rate($0, of: views, without: isOccluder) }
-    return (rated.map(\.median), rated.flatMap(\.excess))
+  /// The deviations of a block's entries.
+  private func deviations(in block: FaceViews.Block) -> [Deviation] {
+    var result = [Deviation](repeating: .small, count: block.entries.count)
+    var scratch: [Float] = []
+    for face in 0..<block.faceCount {
+      rate(block.range(of: face), in: block, &result, &scratch)
+    }
+    return result
   }
 
-  /// The median color of one triangle, and the deviation of each of its views.
-  private func rate(
-    _ face: Int, of views: FaceViews, without isOccluder: [Bool]?
-  ) -> (median: SIMD3<Float>, excess: [Float]) {
-    let range = views.range(of: face)
-    let entries = range.filter { !(isOccluder?[$0] ?? false) }
-    var excess = [Float](repeating: 0, count: range.count)
-    let colors = entries.map { views.entries[$0].color }
-    var median = SIMD3<Float>.zero
-    var deviation = SIMD3<Float>.zero
-    for channel in 0..<3 {
-      median[channel] = colors.map { $0[channel] }.upperMedian ?? 0
-      deviation[channel] = colors.map { abs($0[channel] - median[channel]) }.upperMedian ?? 0
-    }
-    let tolerance = SIMD3<Float>(repeating: options.colorTolerance)
-    if entries.count == 2 {
-      let share = Self.largest((colors[0] - colors[1]) / tolerance)
-      for entry in entries { excess[entry - range.lowerBound] = min(1, share) }
-    } else if entries.count >= options.minimumViews {
-      let limit = pointwiseMax(deviation * (1.4826 * options.deviations), tolerance)
-      for (entry, color) in zip(entries, colors) {
-        excess[entry - range.lowerBound] = Self.largest((color - median) / limit)
+  /// Marks the outliers among the views that show no known occluder: two occluders can outvote the
+  /// surface of a triangle.
+  private func addOutliers(
+    in block: FaceViews.Block, _ deviations: [Deviation], to isOccluder: inout [Bool]
+  ) {
+    var deviations = deviations
+    var scratch: [Float] = []
+    for face in 0..<block.faceCount {
+      let range = block.range(of: face)
+      if range.contains(where: { isOccluder[$0] }) {
+        let entries = range.filter { !isOccluder[$0] }
+        for entry in entries { deviations[entry] = .small }
+        rate(entries, in: block, &deviations, &scratch)
+        for entry in entries where deviations[entry] == .outlier { isOccluder[entry] = true }
+      } else {
+        for entry in range where deviations[entry] == .outlier { isOccluder[entry] = true }
       }
     }
-    return (median, excess)
+  }
+
+  /// Determines how far views of one triangle deviate from their median color, relative to the
+  /// tolerance. With two views neither is an outlier, but their difference is rated.
+  private func rate(
+    _ entries: some Collection<Int>, in block: FaceViews.Block,
+    _ deviations: inout [Deviation], _ scratch: inout [Float]
+  ) {
+    let tolerance = SIMD3<Float>(repeating: options.colorTolerance)
+    if entries.count == 2 {
+      let colors = entries.map { block.entries[$0].color }
+      let difference = colors[0] - colors[1]
+      guard Self.largest(difference / tolerance) > options.lowThresholdShare else { return }
+      for entry in entries { deviations[entry] = .elevated }
+    } else if entries.count >= options.minimumViews {
+      let median = Self.median(entries, &scratch) { block.entries[$0].color }
+      let deviation = Self.median(entries, &scratch) {
+        let difference = block.entries[$0].color - median
+        return pointwiseMax(difference, -difference)
+      }
+      let limit = pointwiseMax(deviation * (1.4826 * options.deviations), tolerance)
+      for entry in entries {
+        let share = Self.largest((block.entries[entry].color - median) / limit)
+        deviations[entry] =
+          share > 1 ? .outlier : share > options.lowThresholdShare ? .elevated : .small
+      }
+    }
+  }
+
+  /// The median of each channel; `scratch` holds one channel at a time.
+  private static func median<Element>(
+    _ elements: some Collection<Element>, _ scratch: inout [Float],
+    _ color: (Element) -> SIMD3<Float>
+  ) -> SIMD3<Float> {
+    var median = SIMD3<Float>.zero
+    for channel in 0..<3 {
+      scratch.removeAll(keepingCapacity: true)
+      for element in elements { scratch.append(color(element)[channel]) }
+      median[channel] = scratch.sortedUpperMedian() ?? 0
+    }
+    return median
   }
 
   private static func largest(_ v: SIMD3<Float>) -> Float { pointwiseMax(v, -v).max() }
@@ -102,42 +155,53 @@ struct TransientOccluders: Sendable {
   /// Regions of connected entries of one view above the low threshold that contain a sufficient
   /// area above the high one.
   private func occluders(
-    _ excess: [Float], _ views: FaceViews, _ neighbors: FaceNeighbors
-  ) -> [[Int]] {
-    var isVisited = [Bool](repeating: false, count: excess.count)
-    var occluders: [[Int]] = []
-    for seed in excess.indices where excess[seed] > 1 && !isVisited[seed] {
-      isVisited[seed] = true
-      let group = neighbors.flood(from: [seed], in: views) { other in
-        guard !isVisited[other], excess[other] > options.lowThresholdShare,
-          hasEnoughViews(other, views)
-        else { return false }
-        isVisited[other] = true
-        return true
+    _ deviations: EntryValues<Deviation>, _ views: FaceViews, _ neighbors: FaceNeighbors
+  ) -> [[Index]] {
+    var isVisited = EntryValues(repeating: false, for: views)
+    var occluders: [[Index]] = []
+    for (block, list) in deviations.blocks.enumerated() {
+      for (entry, deviation) in list.enumerated() where deviation == .outlier {
+        let seed = Index(block: Int32(block), entry: Int32(entry))
+        guard !isVisited[seed] else { continue }
+        isVisited[seed] = true
+        let group = neighbors.flood(from: [seed], in: views) { other in
+          guard !isVisited[other], deviations[other] != .small, hasEnoughViews(other, views)
+          else { return false }
+          isVisited[other] = true
+          return true
+        }
+        let area = group.reduce(Float(0)) {
+          $0 + (deviations[$1] == .outlier ? views[$1].area : 0)
+        }
+        if area >= options.minimumRegionPixels { occluders.append(group) }
       }
-      let area = group.reduce(Float(0)) { $0 + (excess[$1] > 1 ? views.entries[$1].area : 0) }
-      if area >= options.minimumRegionPixels { occluders.append(group) }
     }
     return occluders
   }
 
   /// Whether enough views see the entry's triangle for a meaningful median.
-  private func hasEnoughViews(_ entry: Int, _ views: FaceViews) -> Bool {
-    views.range(of: Int(views.entries[entry].face)).count >= options.minimumViews
+  private func hasEnoughViews(_ entry: Index, _ views: FaceViews) -> Bool {
+    viewCount(entry, views) >= options.minimumViews
+  }
+
+  /// The number of views that see the entry's triangle.
+  private func viewCount(_ entry: Index, _ views: FaceViews) -> Int {
+    views.entries(of: Int(views[entry].face)).count
   }
 
   /// Grows an occluder region by color over triangles that too few views see, or that other
   /// occluders also hide. Returns the whole region.
   private func extend(
-    _ occluder: [Int], over views: FaceViews, _ neighbors: FaceNeighbors, _ excess: [Float],
-    _ occluderColor: OccluderColor, _ isOccluder: inout [Bool]
-  ) -> [Int] {
+    _ occluder: [Index], over views: FaceViews, _ neighbors: FaceNeighbors,
+    _ deviations: EntryValues<Deviation>, _ occluderColor: OccluderColor,
+    _ isOccluder: inout EntryValues<Bool>
+  ) -> [Index] {
     neighbors.flood(from: occluder, in: views) { other in
       guard !isOccluder[other] else { return false }
-      let isAlone = views.range(of: Int(views.entries[other].face)).count == 1
+      let isAlone = viewCount(other, views) == 1
       let mayDiffer =
-        !hasEnoughViews(other, views) && (isAlone || excess[other] > options.lowThresholdShare)
-      let share = occluderColor.share(of: views.entries[other].color)
+        !hasEnoughViews(other, views) && (isAlone || deviations[other] != .small)
+      let share = occluderColor.share(of: views[other].color)
       guard share > (mayDiffer ? options.unverifiedColorSimilarity : options.colorSimilarity) else {
         return false
       }
@@ -148,11 +212,12 @@ struct TransientOccluders: Sendable {
 
   /// Marks the rings of triangles around an occluder region.
   private func grow(
-    _ occluder: [Int], _ views: FaceViews, _ neighbors: FaceNeighbors, _ isOutlier: inout [Bool]
+    _ occluder: [Index], _ views: FaceViews, _ neighbors: FaceNeighbors,
+    _ isOutlier: inout EntryValues<Bool>
   ) {
     var front = occluder
     for _ in 0..<options.rings {
-      var next: [Int] = []
+      var next: [Index] = []
       for entry in front {
         neighbors.forEach(adjacentTo: entry, in: views) { other in
           guard !isOutlier[other] else { return }
@@ -164,18 +229,24 @@ struct TransientOccluders: Sendable {
     }
   }
 
+  /// The color of an occluder with the given entries, and of the surface behind it.
+  private func occluderColor(_ entries: [Index], _ views: FaceViews) -> OccluderColor {
+    var color = OccluderColor()
+    var scratch: [Float] = []
+    let share = 1 / Float(max(1, entries.count))
+    for entry in entries {
+      let observation = views[entry]
+      color.occluder += observation.color * share
+      color.surface +=
+        Self.median(views.entries(of: Int(observation.face)), &scratch, \.color) * share
+    }
+    return color
+  }
+
   /// The mean color of an occluder and of the surface behind it.
   private struct OccluderColor {
-    private var occluder = SIMD3<Float>.zero
-    private var surface = SIMD3<Float>.zero
-
-    init(_ entries: [Int], _ views: FaceViews, _ medians: [SIMD3<Float>]) {
-      let share = 1 / Float(max(1, entries.count))
-      for entry in entries {
-        occluder += views.entries[entry].color * share
-        surface += medians[Int(views.entries[entry].face)] * share
-      }
-    }
+    var occluder = SIMD3<Float>.zero
+    var surface = SIMD3<Float>.zero
 
     /// Position of a color on the line from the surface's color, 0, to the occluder's, 1.
     func share(of color: SIMD3<Float>) -> Float {

@@ -1,3 +1,4 @@
+import Kernels
 import SceneModel
 
 /// Blends between photos: weights of the photos at the corners, interpolated over the triangles.
@@ -35,6 +36,34 @@ struct ViewBlending: Sendable {
     return result
   }
 
+  /// Removes the views that the method doesn't use: all but those chosen for the triangle or one
+  /// that shares a vertex with it.
+  func restrict(
+    _ rated: inout RatedViews, labels: [Int32], mesh: Mesh, topology: MeshTopology,
+    _ control: KernelControl
+  ) throws {
+    // With rings, views spread further.
+    guard options.rings == 0 else { return }
+    try rated.views.updateBlocks(control) { index, block in
+      let faces = FaceBlocks.faces(of: index, faceCount: mesh.triangles.count)
+      var isUsed = [Bool](repeating: false, count: block.entries.count)
+      var used: [Int32] = []
+      for (face, triangle) in mesh.triangles[faces].enumerated() {
+        used.removeAll(keepingCapacity: true)
+        for vertex in triangle.vertices {
+          for other in topology.triangles(around: vertex)
+          where !used.contains(labels[Int(other)]) {
+            used.append(labels[Int(other)])
+          }
+        }
+        for entry in block.range(of: face) {
+          isUsed[entry] = used.contains(block.entries[entry].view)
+        }
+      }
+      block.filter { entry, _ in isUsed[entry] }
+    }
+  }
+
   /// Averages the shares of each vertex with those of its neighbors.
   private func spread(
     _ shares: [[CornerWeights.Share]], _ topology: MeshTopology
@@ -70,7 +99,7 @@ struct ViewBlending: Sendable {
   ) -> [CornerWeights.Share] {
     if label < 0 { return [.init(view: -1, weight: 1)] }
     if shares.count == 1, shares[0].view == label { return shares }
-    let seen = shares.filter { $0.view >= 0 && rated.views.index(of: face, in: $0.view) != nil }
+    let seen = shares.filter { $0.view >= 0 && rated.view($0.view, of: face) != nil }
     return seen.isEmpty ? [.init(view: label, weight: 1)] : merged(seen)
   }
 }

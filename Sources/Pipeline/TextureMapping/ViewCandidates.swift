@@ -24,57 +24,74 @@ struct ViewCandidates: Sendable {
 
   var options = Options()
 
-  /// The views without outliers, a quality for each entry, and the consensus color of each
-  /// triangle.
+  /// The views without outliers, with a quality of each, and the consensus color of each triangle.
+  /// `views` is left empty.
   func run(
-    _ views: FaceViews, gains: [ExposureGain], topology: MeshTopology, _ context: StageContext
+    draining views: inout FaceViews, gains: [ExposureGain], topology: MeshTopology,
+    _ context: StageContext
   ) throws -> RatedViews {
-    var views = views
-    let all = views.entries
-    views.filter { index in
-      let entry = all[index]
-      return entry.isInterior || entry.cosine >= options.minimumCosineAtOutline
-    }
-    for index in views.entries.indices {
-      let entry = views.entries[index]
-      views.entries[index].color = gains[Int(entry.view)].apply(entry.color)
+    let control = context.part(from: 0, to: 0).control
+    try views.updateBlocks(control) { [options] _, block in
+      block.filter { _, entry in
+        entry.isInterior || entry.cosine >= options.minimumCosineAtOutline
+      }
+      for index in block.entries.indices {
+        let entry = block.entries[index]
+        block.entries[index].color = gains[Int(entry.view)].apply(entry.color)
+      }
     }
     let isOutlier = try TransientOccluders(options: options.outliers)
       .run(views, topology: topology, context)
-    context.notes.record("outlierViews", Double(isOutlier.count { $0 }))
-    views.filter { !isOutlier[$0] }
-    let ratings = try context.part(from: 0, to: 0).control.parallelMap(
-      views.faceCount, inUnitsOf: FaceViews.parallelUnit
-    ) { [views] in rate($0, of: views, gains) }
+    context.notes.record(
+      "outlierViews", Double(isOutlier.blocks.reduce(0) { $0 + $1.count { $0 } }))
+    let rated = try views.drainBlocks(control) { index, block in
+      block.filter { entry, _ in !isOutlier.blocks[index][entry] }
+      return rate(block, gains)
+    }
     return RatedViews(
-      views: views, qualities: ratings.flatMap(\.qualities), colors: ratings.map(\.color))
+      views: FaceEntries(blocks: rated.map(\.views)), colors: rated.flatMap(\.colors))
   }
 
-  /// The qualities of a triangle's views, and its consensus color.
+  /// The views of a block of triangles with their qualities, and the triangles' consensus colors.
   private func rate(
-    _ face: Int, of views: FaceViews, _ gains: [ExposureGain]
-  ) -> (qualities: [Float], color: SIMD3<Float>?) {
-    let entries = views.range(of: face)
-    guard !entries.isEmpty else { return ([], nil) }
-    var qualities: [Float] = []
-    // A gradient times a length doesn't depend on the distance, only on the focus.
-    let sharpness = entries.map {
-      views.entries[$0].gradient * views.entries[$0].area.squareRoot()
+    _ block: FaceViews.Block, _ gains: [ExposureGain]
+  ) -> (views: FaceEntries<RatedView>.Block, colors: [SIMD3<Float>?]) {
+    var views: [RatedView] = []
+    views.reserveCapacity(block.entries.count)
+    var sharpness: [Float] = []
+    let colors = (0..<block.faceCount).map { face -> SIMD3<Float>? in
+      let range = block.range(of: face)
+      guard !range.isEmpty else { return nil }
+      // A gradient times a length doesn't depend on the distance, only on the focus.
+      sharpness.removeAll(keepingCapacity: true)
+      for entry in block.entries[range] {
+        sharpness.append(entry.gradient * entry.area.squareRoot())
+      }
+      let typical = max(sharpness.sortedUpperMedian() ?? 0, 1e-3)
+      var (sum, weight) = (SIMD3<Float>.zero, Float(0))
+      for entry in block.entries[range] {
+        let trust = trust(in: entry, gains[Int(entry.view)])
+        let quality = quality(of: entry, typicalSharpness: typical) * trust
+        views.append(
+          RatedView(
+            view: entry.view, quality: quality, area: entry.area, cosine: entry.cosine,
+            color: entry.color))
+        sum += entry.color * (entry.cosine * trust)
+        weight += entry.cosine * trust
+      }
+      return sum / weight
     }
-    let typical = max(sharpness.upperMedian ?? 0, 1e-3)
-    var (sum, weight) = (SIMD3<Float>.zero, Float(0))
+    let counts = (0..<block.faceCount).lazy.map { block.range(of: $0).count }
+    return (.init(counts: counts, entries: views), colors)
+  }
+
+  /// How well a view shows a triangle, if its color can be trusted.
+  private func quality(of entry: FaceObservation, typicalSharpness typical: Float) -> Float {
     let range = options.sharpnessRange
-    for (index, sharp) in zip(entries, sharpness) {
-      let entry = views.entries[index]
-      var quality = entry.area * min(max(sharp / typical, range.lowerBound), range.upperBound)
-      for _ in 0..<options.cosinePower { quality *= entry.cosine }
-      let trust = trust(in: entry, gains[Int(entry.view)])
-      quality *= trust
-      qualities.append(quality)
-      sum += entry.color * (entry.cosine * trust)
-      weight += entry.cosine * trust
-    }
-    return (qualities, sum / weight)
+    let sharp = entry.gradient * entry.area.squareRoot()
+    var quality = entry.area * min(max(sharp / typical, range.lowerBound), range.upperBound)
+    for _ in 0..<options.cosinePower { quality *= entry.cosine }
+    return quality
   }
 
   /// 1, or less if the color may belong to another surface or be overexposed.

@@ -21,31 +21,25 @@ struct ViewObservation: Sendable {
     _ context: StageContext
   ) throws -> FaceViews {
     let faceCount = faceCount ?? scene.triangleCount
+    var pieces = try pieces(scene, faceCount: faceCount, views: views, source: source, context)
+    return try FaceViews(
+      draining: &pieces, faceCount: faceCount, maximumCount: options.maximumViews,
+      context.part(from: 1, to: 1).control)
+  }
+
+  /// The observations of the first `faceCount` triangles by block of triangles, then by view.
+  private func pieces(
+    _ scene: RayScene, faceCount: Int, views: [ID<Photo>], source: ViewSource,
+    _ context: StageContext
+  ) throws -> [[[FaceObservation]]] {
     let byView = try context.control.parallelMap(views.count) { index in
       let view = try source.view(views[index], options.maximumPixels)
       var observations = try scene.observations(
         in: view, options: options.rays, KernelControl())
-      observations.removeAll { $0.face >= Int32(faceCount) }
       let factor = source.areaFactor(of: view)
       for index in observations.indices { observations[index].area *= factor }
-      return observations
+      return FaceViews.pieces(of: observations, faceCount: faceCount)
     }
-    var result = FaceViews(faceCount: faceCount, observationsByView: byView)
-    limit(&result)
-    return result
-  }
-
-  /// Keeps the largest observations of each triangle.
-  private func limit(_ views: inout FaceViews) {
-    var isKept = [Bool](repeating: true, count: views.entries.count)
-    for face in 0..<views.faceCount {
-      let range = views.range(of: face)
-      guard range.count > options.maximumViews else { continue }
-      let order = range.sorted {
-        (views.entries[$0].area, $1) > (views.entries[$1].area, $0)
-      }
-      for index in order[options.maximumViews...] { isKept[index] = false }
-    }
-    views.filter { isKept[$0] }
+    return (0..<FaceBlocks.count(faceCount: faceCount)).map { block in byView.map { $0[block] } }
   }
 }

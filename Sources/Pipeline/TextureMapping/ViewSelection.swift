@@ -10,8 +10,9 @@ struct ViewSelection: Sendable {
     var smoothness: Float = 0.5
     /// Bounds of an edge's length relative to the mean, for this cost.
     var lengthRange: ClosedRange<Float> = 0.2...3
-    /// Number of iterations of TRW-S.
-    var iterations = 20
+    /// Number of iterations of TRW-S. With the kernel's order of the triangles, 22 reach the energy
+    /// of 20 in ascending order (boot, 3 million triangles).
+    var iterations = 22
   }
 
   var options = Options()
@@ -21,15 +22,11 @@ struct ViewSelection: Sendable {
     _ rated: RatedViews, mesh: Mesh, topology: MeshTopology, _ context: StageContext
   ) throws -> [Int32] {
     var selection = LabelSelection()
-    for face in 0..<rated.views.faceCount {
-      let range = rated.views.range(of: face)
-      let best = range.map { rated.qualities[$0] }.max() ?? 0
-      selection.addNode(
-        range.map { index in
-          let share = best > 0 ? rated.qualities[index] / best : 1
-          return (label: rated.views.entries[index].view, cost: 1 - share)
-        })
-    }
+    selection.reserve(
+      nodes: mesh.triangles.count,
+      candidates: rated.views.blocks.reduce(0) { $0 + $1.entries.count },
+      edges: topology.edges.count)
+    try addNodes(rated, to: &selection, context)
     let lengths = topology.edges.map { edge in
       (mesh.positions[Int(edge.low)] - mesh.positions[Int(edge.high)]).length
     }
@@ -38,12 +35,34 @@ struct ViewSelection: Sendable {
       let bounds = options.lengthRange
       let relative =
         mean > 0 ? min(max(length / mean, bounds.lowerBound), bounds.upperBound) : 1
-      selection.edges.append(
-        .init(
-          UInt32(edge.first), UInt32(edge.second), weight: options.smoothness * relative))
+      selection.addEdge(
+        UInt32(edge.first), UInt32(edge.second), weight: options.smoothness * relative)
     }
     let labels = try selection.run(iterations: options.iterations, context.control)
     context.notes.record("unseenTriangles", Double(labels.count { $0 < 0 }))
     return labels
+  }
+
+  /// Adds the triangles as nodes, with their views as candidates.
+  private func addNodes(
+    _ rated: RatedViews, to selection: inout LabelSelection, _ context: StageContext
+  ) throws {
+    let control = context.part(from: 0, to: 0).control
+    let nodes = try control.parallelMap(rated.views.blocks.count) { index in
+      let block = rated.views.blocks[index]
+      var costs = block.entries.map(\.quality)
+      for face in 0..<block.faceCount {
+        let range = block.range(of: face)
+        let best = range.reduce(Float(0)) { max($0, costs[$1]) }
+        for entry in range { costs[entry] = best > 0 ? 1 - costs[entry] / best : 0 }
+      }
+      return (
+        counts: (0..<block.faceCount).map { block.range(of: $0).count },
+        labels: block.entries.map(\.view), costs: costs
+      )
+    }
+    for part in nodes {
+      selection.addNodes(candidateCounts: part.counts, labels: part.labels, costs: part.costs)
+    }
   }
 }

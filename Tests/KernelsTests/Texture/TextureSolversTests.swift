@@ -6,9 +6,11 @@ import Testing
 @Suite struct TextureSolversTests {
   private func chain(_ costs: [[(label: Int32, cost: Float)]], weight: Float) -> LabelSelection {
     var selection = LabelSelection()
-    for candidates in costs { selection.addNode(candidates) }
+    selection.addNodes(
+      candidateCounts: costs.map(\.count), labels: costs.flatMap { $0.map(\.label) },
+      costs: costs.flatMap { $0.map(\.cost) })
     for index in 1..<costs.count {
-      selection.edges.append(.init(UInt32(index - 1), UInt32(index), weight: weight))
+      selection.addEdge(UInt32(index - 1), UInt32(index), weight: weight)
     }
     return selection
   }

@@ -7,7 +7,7 @@ import Testing
 
 @Suite struct ObjectPresenceTests {
   /// A triangle at a place that all photos see with an area of `area` pixels.
-  private func concerns(at place: SIMD3<Float>, area: Float) -> [String] {
+  private func concerns(at place: SIMD3<Float>, area: Float) throws -> [String] {
     let scene = SyntheticScene().reconstruction
     let mesh = Mesh(
       positions: [place, place + [0.01, 0, 0], place + [0, 0.01, 0]],
@@ -15,7 +15,7 @@ import Testing
     let observation = FaceObservation(
       face: 0, area: area, cosine: 1, gradient: 1, color: SIMD3(repeating: 100))
     let notes = StageNotes()
-    let seen = FaceViews(
+    let seen = try FaceViews(
       faceCount: 1, observationsByView: scene.registered.map { _ in [observation] })
     ObjectPresence().run(mesh, seen: seen, views: scene.registered, scene, notes)
     return notes.concerns
@@ -26,15 +26,15 @@ import Testing
     return Float(camera.width * camera.height)
   }
 
-  @Test func aModelInTheMiddleIsNoConcern() {
-    #expect(concerns(at: .zero, area: 0.1 * pixels).isEmpty)
+  @Test func aModelInTheMiddleIsNoConcern() throws {
+    #expect(try concerns(at: .zero, area: 0.1 * pixels).isEmpty)
   }
 
-  @Test func aSpeckIsAConcern() {
-    #expect(concerns(at: .zero, area: 1e-4 * pixels).count == 1)
+  @Test func aSpeckIsAConcern() throws {
+    #expect(try concerns(at: .zero, area: 1e-4 * pixels).count == 1)
   }
 
-  @Test func aModelBesideTheMiddleIsAConcern() {
-    #expect(concerns(at: [0, 40, 0], area: 0.1 * pixels).count == 1)
+  @Test func aModelBesideTheMiddleIsAConcern() throws {
+    #expect(try concerns(at: [0, 40, 0], area: 0.1 * pixels).count == 1)
   }
 }

@@ -6,8 +6,8 @@ import Testing
 @testable import Pipeline
 
 @Suite struct ViewChoiceTests {
-  private func views(_ entries: [[FaceObservation]]) -> FaceViews {
-    FaceViews(faceCount: 1, observationsByView: entries)
+  private func views(_ entries: [[FaceObservation]]) throws -> FaceViews {
+    try FaceViews(faceCount: 1, observationsByView: entries)
   }
 
   private func observation(
@@ -23,9 +23,16 @@ import Testing
   private func rate(_ entries: [[FaceObservation]]) throws -> RatedViews {
     let mesh = Mesh(
       positions: [.zero, [1, 0, 0], [0, 1, 0]], triangles: [Triangle(0, 1, 2)])
+    var seen = try views(entries)
     return try ViewCandidates().run(
-      views(entries), gains: entries.map { _ in .none }, topology: MeshTopology(mesh),
+      draining: &seen, gains: entries.map { _ in .none }, topology: MeshTopology(mesh),
       StageContext())
+  }
+
+  /// By block, then by triangle and view.
+  private func outliers(_ views: FaceViews, _ mesh: Mesh) throws -> [Bool] {
+    try TransientOccluders().run(views, topology: MeshTopology(mesh), StageContext())
+      .blocks.flatMap { $0 }
   }
 
   @Test func frontalLargeAndUnoccludedViewsAreBetter() throws {
@@ -33,8 +40,9 @@ import Testing
       observation(), observation(cosine: 0.5), observation(area: 50),
       observation(isClear: false),
     ])
-    #expect(rated.qualities.count == 4)
-    for other in 1..<4 { #expect(rated.qualities[0] > rated.qualities[other]) }
+    let qualities = rated.views.entries(of: 0).map(\.quality)
+    #expect(qualities.count == 4)
+    for other in 1..<4 { #expect(qualities[0] > qualities[other]) }
   }
 
   @Test func outlierColorIsRejected() throws {
@@ -42,23 +50,25 @@ import Testing
       observation(), observation(color: [102, 99, 101]), observation(color: [180, 100, 100]),
       observation(color: [98, 101, 100]), observation(color: [101, 100, 97]),
     ])
-    #expect(rated.views.entries.map(\.view) == [0, 1, 3, 4])
+    #expect(rated.views.entries(of: 0).map(\.view) == [0, 1, 3, 4])
     let color = try #require(rated.colors[0])
     #expect((color - SIMD3(repeating: 100)).length < 3)
   }
 
   @Test func twoDifferingViewsAreBothKept() throws {
     let rated = try rate([observation(), observation(color: [10, 200, 30])])
-    #expect(rated.views.entries.count == 2)
+    #expect(rated.views.entries(of: 0).count == 2)
   }
 
   @Test func overexposedViewsRankLower() throws {
     let bright = SIMD3<Float>(245, 240, 230)
+    var seen = try views([observation(color: bright), observation(color: bright * 0.8)])
     let rated = try ViewCandidates().run(
-      views([observation(color: bright), observation(color: bright * 0.8)]),
+      draining: &seen,
       gains: [.none, ExposureGain(factors: SIMD3(repeating: 1.22))],
       topology: MeshTopology(Mesh(positions: [], triangles: [])), StageContext())
-    #expect(rated.qualities[1] > 2 * rated.qualities[0])
+    let qualities = rated.views.entries(of: 0).map(\.quality)
+    #expect(qualities[1] > 2 * qualities[0])
   }
 
   /// A strip of a grid is hidden by an occluder whose middle has the color of the surface.
@@ -77,10 +87,9 @@ import Testing
           color: isHidden ? occluder : gray)
       }
     }
-    let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
-    let isOutlier = try TransientOccluders().run(
-      views, topology: MeshTopology(mesh), StageContext())
-    for (entry, isOutlier) in zip(views.entries, isOutlier) {
+    let views = try FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
+    let isOutlier = try outliers(views, mesh)
+    for (entry, isOutlier) in zip(views.blocks.flatMap(\.entries), isOutlier) {
       let triangle = mesh.triangles[Int(entry.face)]
       let middle = triangle.vertices.reduce(.zero) { $0 + mesh.positions[$1] } / 3
       let distance = abs(middle.x - 0.5)
@@ -106,16 +115,15 @@ import Testing
           color: isHidden ? [180, 60, 60] : SIMD3(repeating: 100))
       }
     }
-    let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
-    let isOutlier = try TransientOccluders().run(
-      views, topology: MeshTopology(mesh), StageContext())
-    for (entry, isOutlier) in zip(views.entries, isOutlier) {
+    let views = try FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
+    let isOutlier = try outliers(views, mesh)
+    for (entry, isOutlier) in zip(views.blocks.flatMap(\.entries), isOutlier) {
       let distance = abs(middle(Int(entry.face)).x - 0.5)
       if entry.view != 1 || distance > 0.3 { #expect(!isOutlier) }
       if entry.view == 1, distance < 0.2 { #expect(isOutlier) }
     }
     // Next to the occluder, the only view stays.
-    let adjacent = zip(views.entries, isOutlier).filter {
+    let adjacent = zip(views.blocks.flatMap(\.entries), isOutlier).filter {
       middle(Int($0.0.face)).y < 0.2 && abs(middle(Int($0.0.face)).x - 0.5) > 0.2
     }
     #expect(adjacent.allSatisfy { !$0.1 })
@@ -130,9 +138,8 @@ import Testing
           color: view == 1 && $0 == 400 ? [180, 60, 60] : SIMD3(repeating: 100))
       }
     }
-    let views = FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
-    let isOutlier = try TransientOccluders().run(
-      views, topology: MeshTopology(mesh), StageContext())
+    let views = try FaceViews(faceCount: mesh.triangles.count, observationsByView: byView)
+    let isOutlier = try outliers(views, mesh)
     #expect(isOutlier.count { $0 } == 1)
   }
 
@@ -152,7 +159,7 @@ import Testing
       }
     }
     let gains = try ExposureCompensation().run(
-      FaceViews(faceCount: 300, observationsByView: byView), viewCount: 3, StageContext())
+      try FaceViews(faceCount: 300, observationsByView: byView), viewCount: 3, StageContext())
     for view in 1..<3 {
       let relative = gains[view].factors * truth[view] / (gains[0].factors * truth[0])
       #expect((relative - .one).length < 0.03)
@@ -167,10 +174,11 @@ import Testing
         FaceObservation(face: Int32($0), area: 10, cosine: 0.8, gradient: 1, color: .one)
       }
     }
-    let rated = try ViewCandidates().run(
-      FaceViews(faceCount: count, observationsByView: byView), gains: [.none, .none],
-      topology: MeshTopology(mesh), StageContext())
+    var seen = try FaceViews(faceCount: count, observationsByView: byView)
+    var rated = try ViewCandidates().run(
+      draining: &seen, gains: [.none, .none], topology: MeshTopology(mesh), StageContext())
     let labels = (0..<count).map { $0 == 0 ? Int32(-1) : Int32($0 * 2 / count) }
+    let before = rated.views.blocks.reduce(0) { $0 + $1.entries.count }
     let weights = try ViewBlending().run(
       rated, labels: labels, mesh: mesh, topology: MeshTopology(mesh), StageContext())
     for corner in 0..<3 * count {
@@ -179,6 +187,13 @@ import Testing
       #expect(shares.allSatisfy { ($0.view == -1) == (corner < 3) })
     }
     #expect((0..<3 * count).contains { weights.shares(of: $0).count == 2 })
+    // The views that it doesn't use can be removed.
+    try ViewBlending().restrict(
+      &rated, labels: labels, mesh: mesh, topology: MeshTopology(mesh), KernelControl())
+    let restricted = try ViewBlending().run(
+      rated, labels: labels, mesh: mesh, topology: MeshTopology(mesh), StageContext())
+    #expect(restricted.shares == weights.shares && restricted.offsets == weights.offsets)
+    #expect(rated.views.blocks.reduce(0) { $0 + $1.entries.count } < before * 3 / 4)
   }
 
   @Test func topologyEdgesReferenceTheirTriangles() {
