@@ -12,7 +12,7 @@ namespace {
 /// about a millisecond, far more than it takes to start a thread.
 constexpr size_t kPointsPerChunk = 1024, kLinksPerChunk = 2048;
 /// Poses of a unit of work: so many that they have about this many observations.
-constexpr size_t kObservationsPerUnit = 2000;
+constexpr size_t kObservationsPerUnit = 1000;
 /// Bounds of the diagonal elements that damping is proportional to, as in Ceres.
 constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
 
@@ -147,23 +147,32 @@ void NormalEquations::link(size_t point) {
 
 void NormalEquations::reduce(double damping, ReducedSystem& system) {
   gradient_norm_ = eliminate_points(damping);
-  // Units of poses with about the same number of observations.
-  std::vector<size_t> starts{0};
-  const Lists& own = layout_.observations_of_pose;
-  for (size_t pose = 1; pose <= layout_.pose_count(); ++pose) {
-    if (pose == layout_.pose_count() ||
-        own.starts[pose] - own.starts[starts.back()] >= kObservationsPerUnit) {
-      starts.push_back(pose);
-    }
-  }
+  const std::vector<PoseUnit> units = pose_units();
   std::vector<double> norms(layout_.pose_count(), 0.0);
-  parallel_for(&quiet_, starts.size() - 1, [&](size_t unit) {
-    for (size_t pose = starts[unit]; pose < starts[unit + 1]; ++pose) {
+  parallel_for(&quiet_, units.size(), [&](size_t i) {
+    for (size_t pose = units[i].begin; pose < units[i].end; ++pose) {
       norms[pose] = add_pose(pose, damping, system);
     }
   });
   for (const double norm : norms) gradient_norm_ = std::max(gradient_norm_, norm);
   gradient_norm_ = std::max(gradient_norm_, add_cameras(damping, system));
+}
+
+/// Poses in units of about the same number of observations. The largest come first, so that threads
+/// finish at about the same time.
+std::vector<NormalEquations::PoseUnit> NormalEquations::pose_units() const {
+  std::vector<PoseUnit> units;
+  const Lists& own = layout_.observations_of_pose;
+  const auto size = [&](const PoseUnit& unit) {
+    return own.starts[unit.end] - own.starts[unit.begin];
+  };
+  for (size_t pose = 0; pose < layout_.pose_count(); ++pose) {
+    if (units.empty() || size(units.back()) >= kObservationsPerUnit) units.push_back({pose, pose});
+    units.back().end = pose + 1;
+  }
+  std::stable_sort(units.begin(), units.end(),
+                   [&](const PoseUnit& a, const PoseUnit& b) { return size(a) > size(b); });
+  return units;
 }
 
 /// Computes the blocks of the points; returns the largest component of their gradients.

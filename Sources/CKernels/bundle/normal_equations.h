@@ -46,12 +46,17 @@ class NormalEquations {
  private:
   using Prior = Eigen::Matrix<double, kCameraSize, 1>;
   struct CameraSum;
+  /// Poses that a thread adds at a time.
+  struct PoseUnit {
+    size_t begin, end;
+  };
 
   template <typename Sum>
   double sum_over_points(Sum&& sum) const;
   Reprojection linearized(const BundleParameters& parameters, size_t k) const;
   void link(size_t point);
   double eliminate_points(double damping);
+  std::vector<PoseUnit> pose_units() const;
   double add_pose(size_t pose, double damping, ReducedSystem& system) const;
   void add_observation(size_t k, Eigen::Matrix<double, 2, 3>& by_point, size_t pose,
                        ReducedSystem& system) const;

@@ -18,18 +18,22 @@ extension Mesh {
     var result = Mesh(positions: positions)
     var owner = [Int](repeating: -1, count: positions.count)
     var copies: [Int: UInt32] = [:]
-    result.triangles = triangles.indices.map { face in
-      let corners = triangles[face].vertices.enumerated().map { corner, vertex -> UInt32 in
-        let fan = fans.root(3 * face + corner)
-        if owner[vertex] < 0 { owner[vertex] = fan }
-        if owner[vertex] == fan { return UInt32(vertex) }
-        if let copy = copies[fan] { return copy }
-        let copy = UInt32(result.positions.count)
-        result.positions.append(positions[vertex])
-        copies[fan] = copy
-        return copy
-      }
-      return Triangle(corners[0], corners[1], corners[2])
+    /// The vertex or the copy of it that belongs to the fan of a corner.
+    func vertex(_ vertex: UInt32, at corner: Int) -> UInt32 {
+      let fan = fans.root(corner)
+      if owner[Int(vertex)] < 0 { owner[Int(vertex)] = fan }
+      if owner[Int(vertex)] == fan { return vertex }
+      if let copy = copies[fan] { return copy }
+      let copy = UInt32(result.positions.count)
+      result.positions.append(positions[Int(vertex)])
+      copies[fan] = copy
+      return copy
+    }
+    result.triangles.reserveCapacity(triangles.count)
+    for (face, t) in triangles.enumerated() {
+      result.triangles.append(
+        Triangle(
+          vertex(t.a, at: 3 * face), vertex(t.b, at: 3 * face + 1), vertex(t.c, at: 3 * face + 2)))
     }
     return result
   }
@@ -44,7 +48,7 @@ private struct PairedEdges {
   private(set) var pairs: [(first: Int, second: Int)] = []
 
   init(of mesh: Mesh) {
-    let corners = mesh.triangles.flatMap { [$0.a, $0.b, $0.c] }
+    let corners = mesh.triangles.flatMap { Triple($0.a, $0.b, $0.c) }
     var counts = [Int32](repeating: 0, count: mesh.positions.count)
     for vertex in corners { counts[Int(vertex)] += 1 }
     var leaving = VertexLists(capacities: counts, empty: Int32(-1))

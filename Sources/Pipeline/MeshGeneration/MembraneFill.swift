@@ -11,9 +11,13 @@ struct MembraneFill: Sendable {
 
   /// `isFixed` has a value for each vertex of the mesh.
   init(_ triangles: [Triangle], isFixed: [Bool]) {
-    let edges = triangles.flatMap(\.edges).flatMap { [$0, SIMD2($0.y, $0.x)] }
-      .filter { !isFixed[Int($0.x)] }
-      .sorted { ($0.x, $0.y) < ($1.x, $1.y) }
+    var edges: [SIMD2<UInt32>] = []
+    edges.reserveCapacity(6 * triangles.count)
+    for edge in triangles.lazy.flatMap(\.edges) {
+      if !isFixed[Int(edge.x)] { edges.append(edge) }
+      if !isFixed[Int(edge.y)] { edges.append([edge.y, edge.x]) }
+    }
+    edges.sort { ($0.x, $0.y) < ($1.x, $1.y) }
     var indices: [UInt32: Int] = [:]
     for edge in edges where indices[edge.x] == nil {
       indices[edge.x] = vertices.count
