@@ -61,7 +61,8 @@ extension ImageAlignment {
     do {
       let distinctive = try match(
         matched, byFeatures: kept, options.search, context.part(from: 0, to: 0.6))
-      let map = try map(distinctive, images: images, context.part(from: 0.6, to: 1))
+      let map = try forAlternatives.map(
+        distinctive, images: images, context.part(from: 0.6, to: 1))
       return MappedPhotos(matched: distinctive, map: map)
     } catch is PipelineError {
       return nil

@@ -153,13 +153,22 @@ package struct ImageAlignment: Sendable {
     else { return map }
     let attempt = StageContext(control: context.control.part(from: 0.8, to: 1))
     do {
-      let (other, _) = try self.map(matched, by: .incremental, images, attempt)
+      let (other, _) = try forAlternatives.map(matched, by: .incremental, images, attempt)
       guard other.replaces(map, minimumShare: options.replacingShare) else { return map }
       context.notes.add(attempt.notes)
       return other
     } catch is PipelineError {
       return map
     }
+  }
+
+  /// Alignment by a map instead of one that may be wrong. That the photos are ambiguous is known
+  /// then, so a single contradiction suffices, if the shares are reached, to reject it as well.
+  var forAlternatives: ImageAlignment {
+    var result = self
+    result.options.sceneAmbiguity.minimumConflicts = 1
+    result.options.sceneAmbiguity.minimumContradicted = 1
+    return result
   }
 
   /// Maps matched photos by one method, and checks the map. Also returns the method that was used.
