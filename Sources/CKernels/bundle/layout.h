@@ -26,7 +26,6 @@ struct Lists {
   std::vector<size_t> starts{0};
   std::vector<int32_t> values;
 
-  size_t count() const { return starts.size() - 1; }
   void end_list() { starts.push_back(values.size()); }
 
   /// The numbers 0..<`keys.size()` grouped by key, ascending; numbers of negative keys are left

@@ -11,7 +11,8 @@ namespace {
 /// Units of parallel work. Their size decides how sums are rounded; chosen so that a unit takes
 /// about a millisecond, far more than it takes to start a thread.
 constexpr size_t kPointsPerChunk = 1024, kLinksPerChunk = 2048;
-/// Poses of a unit of work: so many that they have about this many observations.
+/// Observations of the poses of a unit of work. Chosen: about a millisecond; results do not depend
+/// on it, because the row of a pose is one sum.
 constexpr size_t kObservationsPerUnit = 1000;
 /// Bounds of the diagonal elements that damping is proportional to, as in Ceres.
 constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
@@ -214,7 +215,7 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
           term.by_pose.transpose() * term.by_camera;
     }
     if (!layout_.is_point_free[size_t(o.point)]) continue;
-    Eigen::Matrix<double, 2, 3> by_point = term.by_point * inverses_[size_t(o.point)];
+    const Eigen::Matrix<double, 2, 3> by_point = term.by_point * inverses_[size_t(o.point)];
     const Vector2 pulled = by_point * gradients_[size_t(o.point)];
     eliminated.noalias() += term.by_pose.transpose() * pulled;
     add_observation(k, by_point, pose, system);
@@ -227,8 +228,8 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
 
 /// Subtracts what the elimination of the point of observation k contributes to the row of its pose.
 /// `by_point` is the derivative by the point times the point's inverted block.
-void NormalEquations::add_observation(size_t k, Eigen::Matrix<double, 2, 3>& by_point, size_t pose,
-                                      ReducedSystem& system) const {
+void NormalEquations::add_observation(size_t k, const Eigen::Matrix<double, 2, 3>& by_point,
+                                      size_t pose, ReducedSystem& system) const {
   const Reprojection& term = terms_[k];
   const auto point = size_t(layout_.observations[k].point);
   for (size_t other = layout_.point_starts[point]; other < layout_.point_starts[point + 1];

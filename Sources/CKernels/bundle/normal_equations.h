@@ -58,7 +58,7 @@ class NormalEquations {
   double eliminate_points(double damping);
   std::vector<PoseUnit> pose_units() const;
   double add_pose(size_t pose, double damping, ReducedSystem& system) const;
-  void add_observation(size_t k, Eigen::Matrix<double, 2, 3>& by_point, size_t pose,
+  void add_observation(size_t k, const Eigen::Matrix<double, 2, 3>& by_point, size_t pose,
                        ReducedSystem& system) const;
   double add_cameras(double damping, ReducedSystem& system) const;
   CameraSum camera_sum(size_t camera, size_t chunk, const ReducedSystem& system) const;

@@ -48,9 +48,8 @@ struct StandardThreads {
   }
 };
 
-/// Number of times that a parallel loop reports progress and looks for cancellation at least, if it
-/// has The number of times that a long parallel loop reports progress and looks for cancellation:
-/// both take a lock of the caller, which costs more than a short iteration. Chosen.
+/// The number of times that a long loop reports progress and looks for cancellation: both take a
+/// lock of the caller, which costs more than a short iteration. Chosen.
 constexpr size_t kReports = 128;
 
 /// Calls `body(i)` for every i in 0..<count on the control's threads and reports progress.

@@ -17,10 +17,10 @@ using Face = CollapseMesh::Face;
 
 /// A new vertex is regularized toward the midpoint of its edge with this fraction of the weight of
 /// its planes, and is at most `kReach` edge lengths from it: nearly parallel planes intersect far
-/// away.
+/// away. Chosen.
 constexpr double kPull = 1e-4, kReach = 2;
 /// Weight of the fourth power of an edge's length in its cost: among edges without error the
-/// shortest are collapsed first.
+/// shortest are collapsed first. Chosen: about the error of a plane at 3 · 10⁻⁵ edge lengths.
 constexpr double kLengthWeight = 1e-9;
 /// Number of edges or vertices that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kBlock = 8192;
@@ -31,7 +31,8 @@ constexpr size_t kFewestCells = 4;
 /// Cells are left when this many times the triangles of the result are left: then edges between
 /// cells compete with the others on equal terms. Chosen.
 constexpr double kGoal = 1.25;
-/// The first limit of the costs in cells is the median of this many edges.
+/// The first limit of the costs in cells is the median of about this many edges. Chosen: its rank
+/// is then within 1 % of the middle.
 constexpr size_t kSampledEdges = 10'000;
 /// With limits that grow as this power of the ratio of triangles to the goal, a round does not
 /// overshoot: half as many triangles have four times the squared distance on twice the area, so

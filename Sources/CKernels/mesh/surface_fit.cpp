@@ -14,8 +14,9 @@ namespace {
 constexpr size_t kRounds = 2, kSweeps = 2;
 /// Number of samples that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kBlock = 8192;
-/// The same for vertices.
+/// The same for vertices, which have some tens of samples each. Chosen.
 constexpr size_t kVertices = 512;
+/// Colors are bits of 64; more than about ten occur only around vertices of extreme degree.
 constexpr uint8_t kLastColor = 63, kUncolored = 255;
 /// Regularization weight, as a fraction of the weight of the planes, for directions that the
 /// samples do not determine, for example within a plane.

@@ -83,11 +83,6 @@ package struct Silhouettes: Sendable {
 
   /// For each point, whether it may be part of the object.
   func areInside(_ points: [SIMD3<Float>], _ control: KernelControl) throws -> [Bool] {
-    let chunk = 8192
-    let parts = try control.parallelMap((points.count + chunk - 1) / chunk) { part in
-      points[part * chunk..<min(points.count, (part + 1) * chunk)]
-        .map { isInside(SIMD3<Double>($0)) }
-    }
-    return parts.flatMap { $0 }
+    try control.parallelMap(points.count, inUnitsOf: 8192) { isInside(SIMD3<Double>(points[$0])) }
   }
 }
