@@ -59,26 +59,24 @@ final class PatchWorkspace: Sendable {
   }
 
   let folder: URL
-  /// Whether the folder is removed at the end.
-  let isTemporary: Bool
+  /// Keeps a temporary folder in existence.
+  private let temporary: ScratchFolder?
 
-  /// Opens or creates the folder; nil creates a temporary one in `temporaryParent`, which `close`
-  /// removes. Throws `WorkspaceError.notWritable`.
-  init(folder: URL?, temporaryParent: URL = TemporaryStorage.parent) throws {
-    self.folder =
-      folder ?? temporaryParent.appendingPathComponent("photogrammetry-\(UUID().uuidString)")
-    isTemporary = folder == nil
+  /// Whether the folder is removed when the workspace is no longer used.
+  var isTemporary: Bool { temporary != nil }
+
+  /// Opens or creates the folder; nil creates a temporary one in `temporaryParent`. Throws
+  /// `WorkspaceError.notWritable`.
+  init(folder: URL?, temporaryParent: URL = ScratchFolder.parent) throws {
     do {
+      temporary = try folder == nil ? ScratchFolder(in: temporaryParent) : nil
+      self.folder = folder ?? temporary?.url ?? temporaryParent
       try FileManager.default.createDirectory(at: self.folder, withIntermediateDirectories: true)
     } catch {
-      throw WorkspaceError.notWritable(folder: self.folder.path, isTemporary: isTemporary)
+      throw WorkspaceError.notWritable(
+        folder: (folder ?? temporaryParent).path, isTemporary: folder == nil)
     }
     UnfinishedFiles.remove(from: self.folder)
-  }
-
-  /// Removes a temporary folder.
-  func close() {
-    if isTemporary { try? FileManager.default.removeItem(at: folder) }
   }
 
   /// Throws `WorkspaceError.noSpace` if the disk has fewer than `needed` free bytes.

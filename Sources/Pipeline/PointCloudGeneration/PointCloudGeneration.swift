@@ -14,7 +14,7 @@ import SceneModel
 package struct PointCloudGeneration {
   package var options: Options
   /// Parent of the temporary folder.
-  var temporaryParent = TemporaryStorage.parent
+  var temporaryParent = ScratchFolder.parent
 
   package init(options: Options = Options()) {
     self.options = options
@@ -32,7 +32,6 @@ package struct PointCloudGeneration {
   ) throws -> PointCloud {
     let views = try DenseViews(reconstruction, images: images, options: options)
     let workspace = try PatchWorkspace(folder: folder, temporaryParent: temporaryParent)
-    defer { workspace.close() }
     let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))
     recordReuse(views.views.count - plan[.patches].count, views, context.notes)
@@ -82,7 +81,6 @@ package struct PointCloudGeneration {
   ) throws -> PointCloud {
     let views = try DenseViews(reconstruction, images: images, options: options)
     let workspace = try PatchWorkspace(folder: nil, temporaryParent: temporaryParent)
-    defer { workspace.close() }
     let plan = try DensePlan(
       .coarseCompleted, views, workspace, context.part(from: 0, to: 0).control)
     try workspace.checkSpace(plan.byteCount(views))

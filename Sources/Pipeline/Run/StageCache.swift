@@ -26,7 +26,7 @@ final class StageCache {
   private var aligned: AlignedPhotos?
   private var scene: ObjectScene?
   /// Folder of estimated masks of a run without a checkpoint directory.
-  private var temporaryMasks: URL?
+  private var temporaryMasks: ScratchFolder?
   private var cloud: AtResolution<PointCloud>?
   private var surface: AtResolution<Mesh>?
 
@@ -37,10 +37,6 @@ final class StageCache {
     self.access = access
     self.sealsStages = sealsStages
     self.recorder = recorder
-  }
-
-  deinit {
-    if let temporaryMasks { try? FileManager.default.removeItem(at: temporaryMasks) }
   }
 
   // MARK: - Lock
@@ -133,18 +129,17 @@ extension StageCache {
   ) throws -> EstimatedMasks {
     let store = try store(photos, configuration)
     if let found = store?.masks(notes) { return found }
-    let result = try EstimatedMasks(try make(), of: photos.ingested.photos, in: maskFolder())
+    let result = try EstimatedMasks(try make(), of: photos.ingested.photos, in: try maskFolder())
     try store?.save(result, notes)
     return result
   }
 
   /// The folder of estimated masks.
-  func maskFolder() -> URL {
-    if let folder = checkpoint?.masks ?? temporaryMasks { return folder }
-    let folder = TemporaryStorage.parent
-      .appendingPathComponent("photogrammetry-masks-\(UUID().uuidString)")
+  func maskFolder() throws -> URL {
+    if let folder = checkpoint?.masks ?? temporaryMasks?.url { return folder }
+    let folder = try ScratchFolder()
     temporaryMasks = folder
-    return folder
+    return folder.url
   }
 
   /// The surface that an earlier run sealed, or else the result of `make`, which is then sealed.

@@ -14,7 +14,7 @@ final class SampleFolder: @unchecked Sendable {
   private(set) var readings: [Int: SensorReading] = [:]
 
   private let next: () -> PhotogrammetrySample?
-  private var folder: URL?
+  private var folder: ScratchFolder?
   private var seen: Set<Int> = []
   private var isComplete = false
   private var rejected: [RejectedPhoto] = []
@@ -26,8 +26,6 @@ final class SampleFolder: @unchecked Sendable {
       return iterator?.next()
     }
   }
-
-  deinit { if let folder { try? FileManager.default.removeItem(at: folder) } }
 
   /// Writes the remaining samples and returns the folder.
   func write(
@@ -124,11 +122,9 @@ final class SampleFolder: @unchecked Sendable {
   }
 
   private func makeFolder() throws -> URL {
-    if let folder { return folder }
-    let url = TemporaryStorage.parent
-      .appendingPathComponent("photogrammetry-\(UUID().uuidString)", isDirectory: true)
-    try FileManager.default.createDirectory(at: url, withIntermediateDirectories: true)
-    folder = url
-    return url
+    if let folder { return folder.url }
+    let created = try ScratchFolder()
+    folder = created
+    return created.url
   }
 }

@@ -7,12 +7,14 @@ struct CommandProcess {
   var output: String
   var errors: String
 
-  /// Runs to the end, with empty standard input. Calls `interrupting` with the process once it has
-  /// written to standard error.
+  /// Runs to the end, with empty standard input, and `environment` added to that of this process.
+  /// Calls `interrupting` with the process once it has written to standard error.
   static func run(
-    _ arguments: [String], in folder: URL, interrupting: ((Process) -> Void)? = nil
+    _ arguments: [String], in folder: URL, environment: [String: String] = [:],
+    interrupting: ((Process) -> Void)? = nil
   ) throws -> CommandProcess {
     let process = Process()
+    process.environment = ProcessInfo.processInfo.environment.merging(environment) { $1 }
     // The program is built next to the bundle of the tests.
     let products = URL(fileURLWithPath: CommandLine.arguments[0]).deletingLastPathComponent()
     process.executableURL = products.appendingPathComponent("photogrammetry-cli")

@@ -32,6 +32,25 @@ import Testing
     try expectNoOutputFiles()
   }
 
+  /// Interrupted after masking, and run to the end.
+  @Test(arguments: [true, false]) func scratchFoldersAreRemoved(isInterrupted: Bool) throws {
+    let scratch = temporary.url.appendingPathComponent("scratch")
+    try FileManager.default.createDirectory(at: scratch, withIntermediateDirectories: true)
+    func names() throws -> [String] {
+      try FileManager.default.contentsOfDirectory(atPath: scratch.path)
+    }
+    let run = try CommandProcess.run(
+      [Fixtures.images(of: "orbit").path, "m.usdz", "--detail", "preview"], in: temporary.url,
+      environment: ["TMPDIR": scratch.path]
+    ) { process in
+      guard isInterrupted else { return }
+      while process.isRunning, (try? names().isEmpty) != false { usleep(10_000) }
+      process.interrupt()
+    }
+    #expect(run.exitCode == (isInterrupted ? 130 : 0), "\(run.errors)")
+    #expect(try names().isEmpty)
+  }
+
   @Test(arguments: [
     ["photos", "m.usdz"], ["align", "photos", "work"], ["photos", "m.usdz", "--json"],
   ])

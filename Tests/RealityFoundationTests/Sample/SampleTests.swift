@@ -169,7 +169,7 @@ import Testing
       if case .rejected(let photo) = event { rejected.append(photo.sampleID) }
     }
     let url = try folder.write(flag: CancellationFlag(), onEvent: note)
-    #expect(url.deletingLastPathComponent().path == TemporaryStorage.parent.path)
+    #expect(url.deletingLastPathComponent().path == ScratchFolder.parent.path)
     #expect(folder.ids == [5, 3, 7] && rejected == [5, -1, 9])
     #expect(try folder.write(flag: CancellationFlag(), onEvent: { _ in }) == url)
     #expect(madeCount.withLock { $0 } == ids.count)
