@@ -9,6 +9,10 @@ package struct SupportPlane: Hashable, Codable, Sendable {
 
   /// Signed distance above the plane in world units.
   func height(of point: SIMD3<Double>) -> Double { normal.dot(point) - offset }
+
+  func heights(of points: [SIMD3<Float>]) -> [Float] {
+    points.map { Float(height(of: SIMD3<Double>($0))) }
+  }
 }
 
 extension SupportPlane {

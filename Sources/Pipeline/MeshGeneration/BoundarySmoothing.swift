@@ -19,10 +19,15 @@ struct BoundarySmoothing: Sendable {
 
   /// Which faces are removed after smoothing; `canKeep` decides which of the so far removed faces
   /// may be restored.
-  func run(_ mesh: Mesh, isRemoved: [Bool], canKeep: (Int) -> Bool) -> [Bool] {
+  ///
+  /// The surface ends where the faces of `isOutside` begin, which stay removed: a boundary there is
+  /// not smoothed, and surface that ends just before it is continued.
+  func run(
+    _ mesh: Mesh, isRemoved: [Bool], isOutside: [Bool]? = nil, canKeep: (Int) -> Bool
+  ) -> [Bool] {
     guard isRemoved.contains(true), isRemoved.contains(false) else { return isRemoved }
-    let kept = KeptShares(mesh, isRemoved)
-    let band = band(mesh, kept)
+    let kept = KeptShares(mesh, isRemoved, isOutside)
+    let band = band(mesh, kept).filter { isOutside?[$0] != true }
     guard !band.isEmpty else { return isRemoved }
     let share = diffuse(kept, mesh, band)
     var result = isRemoved
@@ -76,17 +81,17 @@ struct BoundarySmoothing: Sendable {
   }
 }
 
-/// The share of each vertex's faces that are kept; 0 for a vertex without faces.
+/// The share of each vertex's faces that are kept; 0 for a vertex without faces; without the faces outside.
 private struct KeptShares {
   var shares: [Float]
 
-  init(_ mesh: Mesh, _ isRemoved: [Bool]) {
+  init(_ mesh: Mesh, _ isRemoved: [Bool], _ isOutside: [Bool]?) {
     var kept = [Float](repeating: 0, count: mesh.positions.count)
     var all = kept
-    for (triangle, isRemoved) in zip(mesh.triangles, isRemoved) {
+    for (index, triangle) in mesh.triangles.enumerated() where isOutside?[index] != true {
       for vertex in triangle.vertices {
         all[vertex] += 1
-        if !isRemoved { kept[vertex] += 1 }
+        if !isRemoved[index] { kept[vertex] += 1 }
       }
     }
     shares = zip(kept, all).map { $1 > 0 ? $0 / $1 : 0 }

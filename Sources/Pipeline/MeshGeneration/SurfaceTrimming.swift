@@ -40,30 +40,27 @@ struct SurfaceTrimming {
   ) throws -> Mesh {
     guard let bounds = mesh.bounds else { return mesh }
     let notes = context.notes
-    let distances = try notes.step("sampleDistances") {
-      try self.distances(mesh, samples, spacing, context.control.part(from: 0, to: 0.4))
+    // The boundary can follow the support only along edges.
+    let mesh = support.map { mesh.split(where: $0.heights(of: mesh.positions)) } ?? mesh
+    let nearest = try notes.step("sampleDistances") {
+      try NearestPoints(
+        of: mesh.positions, in: samples.positions, context.control.part(from: 0, to: 0.4))
     }
     let freeSpace = try notes.step("freeSpace") {
       try self.freeSpace(
         bounds, scene, spacing, reconstruction, context.control.part(from: 0.4, to: 0.8))
     }
-    let isInside = try silhouettes?.areInside(
-      mesh.triangles.map { mesh.center(of: $0) }, context.control.part(from: 0.8, to: 0.8))
     let isSeenThrough = { freeSpace.photos(at: $0) >= options.contradictingPhotos }
-    var isRemoved = mesh.triangles.indices.map { index in
-      let triangle = mesh.triangles[index]
-      let distance = triangle.maximum(of: distances)
-      return distance > Float(options.maximumSpacings) || isInside?[index] == false
-        || distance > Float(options.contradictedSpacings)
-          && isSeenThrough(mesh.center(of: triangle))
-    }
-    isRemoved = notes.step("boundarySmoothing") {
-      BoundarySmoothing(options: options.boundary).run(mesh, isRemoved: isRemoved) { index in
-        let triangle = mesh.triangles[index]
-        return triangle.maximum(of: distances) <= Float(options.notchSpacings)
-          && isInside?[index] != false && !isSeenThrough(mesh.center(of: triangle))
-          && support.map { $0.height(of: SIMD3<Double>(mesh.center(of: triangle))) > 0 } ?? true
-      }
+    var evidence = SurfaceEvidence(
+      mesh, samples: samples, nearest: nearest, spacing: spacing, support: support,
+      isSeenThrough: isSeenThrough)
+    evidence.isInside = try silhouettes?.areInside(
+      evidence.centers, context.control.part(from: 0.8, to: 0.8))
+    let isRemoved = notes.step("boundarySmoothing") {
+      BoundarySmoothing(options: options.boundary).run(
+        mesh, isRemoved: mesh.triangles.indices.map { !isSupported($0, evidence) },
+        isOutside: evidence.isBelowSupport
+      ) { canFillNotch($0, evidence) }
     }
     try context.control.step(0.9)
     context.notes.record(
@@ -78,16 +75,19 @@ struct SurfaceTrimming {
     }
   }
 
-  /// Each vertex's distance to the nearest sample, in units of that sample's spacing.
-  private func distances(
-    _ mesh: Mesh, _ samples: PointCloud, _ spacing: Double, _ control: KernelControl
-  ) throws -> [Float] {
-    let nearest = try NearestPoints(of: mesh.positions, in: samples.positions, control)
-    return mesh.positions.indices.map { index -> Float in
-      let sample = nearest.indices[index]
-      guard sample >= 0 else { return .infinity }
-      return nearest.distances[index] / max(Float(spacing), samples.footprints[Int(sample)])
-    }
+  /// Whether samples support a face that neither the masks nor photos contradict.
+  private func isSupported(_ face: Int, _ evidence: SurfaceEvidence) -> Bool {
+    let distance = evidence.distance(of: face)
+    return distance <= Float(options.maximumSpacings) && evidence.isInside?[face] != false
+      && evidence.isBelowSupport?[face] != true
+      && (distance <= Float(options.contradictedSpacings) || !evidence.isSeenThrough(face))
+  }
+
+  /// Whether a face may fill a notch in the boundary.
+  private func canFillNotch(_ face: Int, _ evidence: SurfaceEvidence) -> Bool {
+    evidence.distance(of: face) <= Float(options.notchSpacings)
+      && (evidence.isInside?[face] != false || evidence.isAtSupport(face))
+      && !evidence.isSeenThrough(face)
   }
 
   /// Casts rays from the camera centers to a subset of the scene's points, and counts the photos
@@ -106,12 +106,5 @@ struct SurfaceTrimming {
       low: bounds.min, high: bounds.max, cellSize: options.cellSpacings * spacing, cloud: targets,
       clearances: clearances,
       centers: reconstruction.poses.map { SIMD3<Float>($0?.center ?? .zero) }, control)
-  }
-}
-
-extension Triangle {
-  /// The maximum of the corners' values.
-  fileprivate func maximum(of values: [Float]) -> Float {
-    max(values[Int(a)], values[Int(b)], values[Int(c)])
   }
 }

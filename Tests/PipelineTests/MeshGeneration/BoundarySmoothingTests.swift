@@ -52,6 +52,21 @@ import Testing
     }
   }
 
+  /// A surface that ends raggedly just before the line x = 30, beyond which there is nothing.
+  @Test func surfaceIsContinuedToWhereItMustEnd() {
+    let mesh = square(60)
+    let xs = mesh.triangles.map { mesh.center(of: $0).x }
+    var random = SeededGenerator(seed: 7)
+    let ends = (0..<60).map { _ in Float.random(in: 26...31, using: &random) }
+    let isRemoved = mesh.triangles.indices.map { face in
+      xs[face] > ends[Int(mesh.center(of: mesh.triangles[face]).z)] || xs[face] > 30
+    }
+    let smooth = BoundarySmoothing().run(
+      mesh, isRemoved: isRemoved, isOutside: xs.map { $0 > 30 }
+    ) { _ in true }
+    #expect(smooth == xs.map { $0 > 30 })
+  }
+
   @Test func straightBoundaryIsUnchanged() {
     let mesh = square(60)
     let isRemoved = mesh.triangles.map { mesh.center(of: $0).x > 30 }
