@@ -23,6 +23,8 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
 
       'reconstruct' is the default subcommand; see 'photogrammetry-cli reconstruct --help'.
 
+      '--version --verbose' prints the versions of the libraries in the program, too.
+
       Exit codes: 0 all results were written, 1 the run failed or the model may not show the \
       object, 2 invalid arguments or paths, \
       130 interrupted.
@@ -35,6 +37,10 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
   static func main() async {
     Terminal.shared.ignoreBrokenPipes()
     Engine.prepareProcess()
+    if Set(CommandLine.arguments.dropFirst()) == ["--version", "--verbose"] {
+      Terminal.shared.result("photogrammetry-cli \(ProgramVersion.current)\n" + Engine.versions)
+      Foundation.exit(0)
+    }
     do {
       try await execute()
     } catch {

@@ -92,6 +92,9 @@ const char* ck_last_error(void);
 /// changes, not forgery.
 uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 
+/// The libraries that are linked, one per line: name, space, version.
+const char* ck_library_versions(void);
+
 /// Returns free memory of the C library's allocator to the system, where it can.
 void ck_release_free_memory(void);
 

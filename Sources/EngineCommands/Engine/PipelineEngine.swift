@@ -23,6 +23,8 @@ package enum PipelineEngine: EngineSupport {
       isTransient: machine.totalMemoryBytes >= Machine.neededMemoryBytes)
   }
 
+  package static var versions: String { NativeLibraries.versions }
+
   /// Keeps the native libraries from writing to standard error.
   package static func prepareProcess() { NativeLibraries.silence() }
 

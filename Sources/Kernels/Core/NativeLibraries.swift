@@ -9,6 +9,9 @@ package enum NativeLibraries {
   /// the process.
   package static func silence() { ck_silence_libraries() }
 
+  /// The name and version of each linked library, one per line.
+  package static var versions: String { String(cString: ck_library_versions()) }
+
   /// Returns memory that was freed to the system. The allocator keeps most of it for later
   /// allocations of a similar size, which adds to the peak memory if they are of another size.
   package static func releaseFreeMemory() { ck_release_free_memory() }

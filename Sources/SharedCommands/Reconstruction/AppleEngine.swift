@@ -33,6 +33,9 @@ package enum AppleEngine: EngineSupport {
     .run("Object Capture does not support this Mac. Use a Mac with Apple silicon.")
   }
 
+  package static let versions =
+    "RealityKit of macOS \(ProcessInfo.processInfo.operatingSystemVersionString)"
+
   package static func prepareProcess() {}
 
   package static func isTransient(_ error: any Error) -> Bool { false }

@@ -18,6 +18,9 @@ package protocol EngineSupport: Sendable {
   /// The reason why this machine can't reconstruct, if sessions are not supported.
   static var unsupportedMachine: CommandFailure { get }
 
+  /// The engine and the libraries in it with their versions, one per line.
+  static var versions: String { get }
+
   /// Prepares the process of the command line; called once, before any command.
   static func prepareProcess()
   /// Whether another attempt may succeed after `error`.

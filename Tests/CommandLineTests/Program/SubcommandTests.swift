@@ -35,6 +35,11 @@ import Testing
     let run = try CommandProcess.run(["--version"], in: temporary.url)
     #expect(run.exitCode == 0 && run.errors.isEmpty)
     #expect(run.output == ProgramVersion.current + "\n")
+    let verbose = try CommandProcess.run(["--version", "--verbose"], in: temporary.url)
+    #expect(verbose.exitCode == 0 && verbose.errors.isEmpty)
+    for library in ["photogrammetry-cli \(ProgramVersion.current)", "Embree 3.", "libheif 1."] {
+      #expect(verbose.output.contains(library), "\(verbose.output)")
+    }
     let numbers = ProgramVersion.current.split(separator: "-")[0].split(separator: ".")
     #expect(numbers.count == 3 && numbers.allSatisfy { Int($0) != nil })
   }
