@@ -81,8 +81,8 @@ struct BoundarySmoothing: Sendable {
   }
 }
 
-/// The share of each vertex's faces that are kept, without the faces outside; 0 for a vertex without
-/// faces.
+/// The share of each vertex's faces that are kept, without the faces outside; 0 for a vertex
+/// without faces.
 private struct KeptShares {
   var shares: [Float]
 
