@@ -92,6 +92,9 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(
       name: "Pipeline", dependencies: ["Kernels", "ImageFiles", "Formats", "SceneModel"],
       swiftSettings: strict),
+    .target(
+      name: "SceneRendering", dependencies: ["ImageFiles", "Kernels", "SceneModel"],
+      swiftSettings: strict),
     appleModule("CoreFoundationTypes"),
     appleModule("BitmapGraphics", ["CoreFoundationTypes", "Kernels", "SceneModel"]),
     appleModule("Combine"),
@@ -120,12 +123,13 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(
       name: "EngineCommands",
       dependencies: [
-        argumentParser, logging, "SharedCommands", "RealityFoundation", "Pipeline", "Kernels",
-        "Evaluation", "Formats", "SceneModel",
+        argumentParser, logging, "SharedCommands", "RealityFoundation", "Pipeline",
+        "SceneRendering", "ImageFiles", "Kernels", "Evaluation", "Formats", "SceneModel",
       ],
       swiftSettings: strict),
     .target(
-      name: "TestSupport", dependencies: ["SceneModel", "Kernels", "ImageFiles", "TestFiles"],
+      name: "TestSupport",
+      dependencies: ["SceneModel", "SceneRendering", "Kernels", "ImageFiles", "TestFiles"],
       path: "Tests/TestSupport", swiftSettings: strict),
     .target(name: "TestLevels", path: "Tests/TestLevels", swiftSettings: strict),
     .executableTarget(

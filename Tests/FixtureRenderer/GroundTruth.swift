@@ -1,5 +1,6 @@
 import Formats
 import Foundation
+import ImageFiles
 import SceneModel
 import TestSupport
 
@@ -9,16 +10,8 @@ struct GroundTruth {
   /// Writes cameras and surface in a z-up frame instead of a y-up one.
   var isZUp: Bool
 
-  /// Camera model and focal length, as for a full-frame sensor, 36 mm wide.
-  var exif: ExifFields {
-    let tenths = UInt32((camera.focalLength.x / Double(camera.width) * 360).rounded())
-    var exif = ExifFields()
-    exif.make = "Rendered"
-    exif.model = "Pinhole"
-    exif.focalLength = (tenths, 10)
-    exif.focalLengthIn35mmFilm = Int((Double(tenths) / 10).rounded())
-    return exif
-  }
+  /// Camera model and focal length.
+  var exif: ExifFields { ExifFields(rendering: camera) }
 
   /// An object of name, K, R and t: `x_camera = R x_world + t`, x right, y down, z forward, pixel
   /// origin at the top-left corner of the top-left pixel.

@@ -34,7 +34,7 @@ package struct RaycastScene: Sendable {
     let poses = (0..<options.viewCount).map { index in
       let middle = Double(options.viewCount - 1) / 2
       let angle = (Double(index) - middle) * options.stepDegrees * .pi / 180
-      return SyntheticScene.lookingAt(
+      return RigidTransform.lookingAt(
         [0, -0.2, 0], from: [4.5 * sin(angle), 1.2 + 0.2 * cos(5 * angle), 4.5 * cos(angle)])
     }
     views = poses.enumerated().map { index, pose in

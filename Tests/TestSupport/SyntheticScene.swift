@@ -108,7 +108,7 @@ extension SyntheticScene {
       case .ring: orbit(2 * .pi * Double(index) / Double(count))
       case .arc: orbit((Double(index) / Double(max(1, count - 1)) - 0.5) * 100 * .pi / 180)
       case .line:
-        lookingAt(
+        RigidTransform.lookingAt(
           [Double(index) * 0.35 - 0.175 * Double(count - 1), 1.2, 4.5],
           from: [Double(index) * 0.35 - 0.175 * Double(count - 1), 1.6, 5.5])
       }
@@ -117,17 +117,8 @@ extension SyntheticScene {
 
   private static func orbit(_ angle: Double) -> RigidTransform {
     let (height, distance) = (1 + 0.4 * sin(3 * angle), 3 + 0.5 * sin(2 * angle))
-    return lookingAt([0, 0, 0], from: [distance * sin(angle), height, distance * cos(angle)])
-  }
-
-  /// `cameraFromWorld` of an upright camera at `center` whose optical axis passes through `target`.
-  package static func lookingAt(
-    _ target: SIMD3<Double>, from center: SIMD3<Double>
-  ) -> RigidTransform {
-    let forward = (target - center).normalized
-    let right = forward.cross([0, 1, 0]).normalized
-    let rotation = Quaternion(Matrix3(rows: right, forward.cross(right), forward))
-    return RigidTransform(rotation: rotation, translation: -(rotation * center))
+    return RigidTransform.lookingAt(
+      [0, 0, 0], from: [distance * sin(angle), height, distance * cos(angle)])
   }
 
   private static func makePoints(

@@ -252,7 +252,7 @@ import Testing
   private func cameras(azimuths: [Double], elevation: Double) -> [RigidTransform] {
     azimuths.map { degrees in
       let (a, e) = (degrees * .pi / 180, elevation * .pi / 180)
-      return SyntheticScene.lookingAt(
+      return RigidTransform.lookingAt(
         .zero, from: 4 * SIMD3(cos(e) * sin(a), sin(e), cos(e) * cos(a)))
     }
   }

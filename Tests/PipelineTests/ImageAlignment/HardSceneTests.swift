@@ -32,7 +32,7 @@ import Testing
   @Test(arguments: [true, false]) func pureRotationIsRejected(hasMetadata: Bool) throws {
     let poses = (0..<6).map { index in
       let angle = 0.9 * (Double(index) / 5 - 0.5)
-      return SyntheticScene.lookingAt(
+      return RigidTransform.lookingAt(
         [3 * sin(angle), 1.5 + 0.3 * cos(5 * angle), 4 - 4 * cos(angle)], from: [0, 1.5, 4])
     }
     let scene = RenderedScene.relief(width: 400, height: 300).seen(from: poses)

@@ -30,7 +30,7 @@ struct IsolationScene {
       let elevation = index % 2 == 0 ? 0.35 : 0.9
       let direction = SIMD3(
         cos(angle) * cos(elevation), sin(elevation), sin(angle) * cos(elevation))
-      return SyntheticScene.lookingAt(target, from: target + cameraDistance * direction)
+      return RigidTransform.lookingAt(target, from: target + cameraDistance * direction)
     }
     return Reconstruction(
       cameras: [camera], photos: photos, poses: poses, points: [],

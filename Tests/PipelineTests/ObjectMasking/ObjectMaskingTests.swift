@@ -67,7 +67,7 @@ import Testing
         wavelength: 0.09, octaves: 6, seed: 5))
     let poses = (0..<10).map { index in
       let angle = 2 * Double.pi * Double(index) / 10
-      return SyntheticScene.lookingAt(
+      return RigidTransform.lookingAt(
         .zero, from: [0.58 * sin(angle), 0.69, 0.58 * cos(angle)])
     }
     var scene = RenderedScene(

@@ -69,7 +69,7 @@ struct GrowthTown: Sendable {
       let heading = (isCrossing ? Double.pi / 2 : 0) + (isReturning ? .pi : 0)
       let yaw = heading + (index % 2 == 0 ? Self.yaw : -Self.yaw) + 0.05 * random.normal()
       let pitch = 0.12 + 0.02 * random.normal()
-      return SyntheticScene.lookingAt(
+      return RigidTransform.lookingAt(
         eye + [cos(yaw) * cos(pitch), sin(pitch), sin(yaw) * cos(pitch)], from: eye)
     }
   }

@@ -109,7 +109,7 @@ struct GrowthWorld: Sendable {
         2 * .pi * (Double(index - first) + 0.3 * random.uniform()) / Double(max(1, next - first))
       let eye =
         distance * SIMD3(cos(elevation) * sin(angle), sin(elevation), cos(elevation) * cos(angle))
-      return SyntheticScene.lookingAt(0.1 * random.normal3(), from: eye)
+      return RigidTransform.lookingAt(0.1 * random.normal3(), from: eye)
     }
   }
 }

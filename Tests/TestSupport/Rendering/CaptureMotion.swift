@@ -165,7 +165,7 @@ struct CaptureMotion {
       cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth))
     let roll = RigidTransform(
       rotation: Quaternion(angle: angle(1), axis: [0, 0, 1]), translation: .zero)
-    return roll * SyntheticScene.lookingAt(target, from: target + direction * distance + offset)
+    return roll * RigidTransform.lookingAt(target, from: target + direction * distance + offset)
   }
 
   /// The `roomFromObject` of the object lying on a side, turned about the vertical axis, with the

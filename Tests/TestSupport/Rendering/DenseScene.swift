@@ -83,7 +83,7 @@ package enum DenseScene: String, CaseIterable, Sendable {
     let (azimuth, elevation) = (2 * .pi * turn, degrees * .pi / 180)
     let offset = SIMD3(
       cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth))
-    return SyntheticScene.lookingAt(target, from: target + offset * 0.6)
+    return RigidTransform.lookingAt(target, from: target + offset * 0.6)
   }
 
   /// The height that the cameras face.

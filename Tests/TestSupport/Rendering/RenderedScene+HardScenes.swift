@@ -19,7 +19,7 @@ extension RenderedScene {
       let elevation = (index.isMultiple(of: 2) ? 40.0 : 55.0) * .pi / 180
       let offset = SIMD3(
         cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth))
-      return SyntheticScene.lookingAt([0, 0, 0], from: offset * 0.7)
+      return RigidTransform.lookingAt([0, 0, 0], from: offset * 0.7)
     }
     return RenderedScene(
       object: Surface(

@@ -14,7 +14,7 @@ extension RenderedScene {
       let elevation = 25 * Double.pi / 180
       let offset = SIMD3(
         cos(elevation) * sin(azimuth), sin(elevation), cos(elevation) * cos(azimuth))
-      return SyntheticScene.lookingAt([0, 0.08, 0], from: SIMD3(0, 0.08, 0) + offset * 0.75)
+      return RigidTransform.lookingAt([0, 0.08, 0], from: SIMD3(0, 0.08, 0) + offset * 0.75)
     }
     let places: [SIMD3<Double>] = [[0.19, 0.045, 0.1], [-0.04, 0.04, 0.2], [-0.2, 0.05, -0.08]]
     return RenderedScene(
@@ -60,7 +60,7 @@ extension RenderedScene {
     let poses = (0..<photoCount).map { index in
       let x = (Double(index) / Double(max(1, photoCount - 1)) - 0.5) * (length - 2)
       let height = index.isMultiple(of: 2) ? 1.1 : 1.4
-      return SyntheticScene.lookingAt([x + 0.1, 1.2, 0], from: [x, height, 2.6])
+      return RigidTransform.lookingAt([x + 0.1, 1.2, 0], from: [x, height, 2.6])
     }
     return RenderedScene(
       object: Surface(

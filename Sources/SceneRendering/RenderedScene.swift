@@ -2,7 +2,8 @@ import Foundation
 import Kernels
 import SceneModel
 
-/// A scene with known surface, cameras and light, rendered by ray casting: photos for tests.
+/// A scene with known surface, cameras and light, rendered by ray casting: photos for tests and for
+/// the demo.
 ///
 /// World: right-handed, +y up, meters. Surfaces are Lambertian and the light is fixed, so that a
 /// point has the same color in every photo except for sensor noise.
@@ -62,11 +63,13 @@ package struct RenderedScene: Sendable {
   package var intruder: Intruder?
   package var lighting = Lighting()
 
-  let surfaces: [Surface]
-  private let caster: RayCaster
+  /// The object, then its surroundings.
+  package let surfaces: [Surface]
+  /// Intersects rays with all surfaces.
+  package let caster: RayCaster
   /// The surface of each of the caster's triangles, and the triangle's index in it.
-  private let parts: [(surface: Int, triangle: Int)]
-  let seed: UInt64
+  package let parts: [(surface: Int, triangle: Int)]
+  package let seed: UInt64
 
   /// `object` is the surface to be reconstructed, `surroundings` are the other visible surfaces.
   package init(
@@ -106,73 +109,14 @@ package struct RenderedScene: Sendable {
     try poses.indices.map { try photo($0, control) }
   }
 
-  /// The depth (z in the camera frame) at each pixel center; 0 where there is no surface.
-  package func depth(_ index: Int) -> [Float] {
-    (0..<camera.height).flatMap { row in
-      (0..<camera.width).map { column in
-        let ray = ray(through: SIMD2(Double(column) + 0.5, Double(row) + 0.5), of: index)
-        return caster.hit(from: ray.origin, along: ray.direction)?.distance ?? 0
-      }
-    }
-  }
-
-  /// The mask of photo `index`: gray, 255 on the points of the object for which `isMarked` is true,
-  /// 0 elsewhere.
-  package func mask(
-    _ index: Int, isMarked: (SIMD3<Float>) -> Bool = { _ in true }
-  ) -> RasterImage {
-    var mask = RasterImage(width: camera.width, height: camera.height, channels: 1)
-    for pixel in mask.pixels.indices {
-      let place = SIMD2(Double(pixel % camera.width), Double(pixel / camera.width)) + 0.5
-      let ray = ray(through: place, of: index)
-      guard let hit = caster.hit(from: ray.origin, along: ray.direction) else { continue }
-      let point = ray.origin + ray.direction * hit.distance
-      if parts[hit.triangle].surface == 0, isMarked(point) { mask.pixels[pixel] = 255 }
-    }
-    return mask
-  }
-
-  /// Whether a surface point is visible in photo `index`.
-  package func isVisible(_ point: SIMD3<Double>, in index: Int) -> Bool {
-    let inCamera = poses[index] * point
-    guard inCamera.z > 0 else { return false }
-    let pixel = camera.project(inCamera)
-    guard pixel.x > 0, pixel.y > 0, pixel.x < Double(camera.width),
-      pixel.y < Double(camera.height)
-    else { return false }
-    let origin = SIMD3<Float>(poses[index].center)
-    return !caster.isBlocked(
-      from: origin, along: SIMD3<Float>(point) - origin, farthest: 0.999)
-  }
-
-  /// The exact cameras with about `pointCount` exact points of the object, each observed by at
-  /// least two photos: the result of a perfect alignment.
-  package func reconstruction(pointCount: Int = 500) -> Reconstruction {
-    let photos = poses.indices.map { index in
-      Photo(
-        id: ID(index), sampleID: index, name: Self.name(index),
-        url: URL(fileURLWithPath: "/" + Self.name(index)), width: camera.width,
-        height: camera.height, orientation: 1, camera: ID(0))
-    }
-    let step = max(1, object.positions.count / max(1, pointCount))
-    let points = stride(from: 0, to: object.positions.count, by: step).compactMap { vertex in
-      let position = SIMD3<Double>(object.positions[vertex])
-      let track = poses.indices.filter { isVisible(position, in: $0) }.map {
-        Observation(
-          photo: ID($0), feature: Int32(vertex), pixel: camera.project(poses[$0] * position))
-      }
-      return track.count < 2 ? nil : ScenePoint(position: position, track: track)
-    }
-    return Reconstruction(cameras: [camera], photos: photos, poses: poses, points: points)
-  }
-
   /// The file name of a photo: `view_00.jpg`.
   package static func name(_ index: Int) -> String {
     "view_\(index < 10 ? "0" : "")\(index).jpg"
   }
 
-  /// The direction has depth 1 in the camera frame, so that the distance of a hit is its depth.
-  func ray(
+  /// The ray of photo `index` through a pixel. Its direction has depth 1 in the camera frame, so
+  /// that the distance of a hit is its depth.
+  package func ray(
     through pixel: SIMD2<Double>, of index: Int
   ) -> (origin: SIMD3<Float>, direction: SIMD3<Float>) {
     let ray = camera.unproject(pixel)
@@ -181,7 +125,7 @@ package struct RenderedScene: Sendable {
   }
 
   private func renderRow(_ row: Int, _ index: Int) -> [UInt8] {
-    var generator = SeededGenerator(
+    var generator = SplitMix64(
       seed: seed &* 1_000_003 &+ UInt64(index) &* 65_537 &+ UInt64(row))
     var pixels: [UInt8] = []
     pixels.reserveCapacity(camera.width * 3)
@@ -200,21 +144,6 @@ package struct RenderedScene: Sendable {
       }
     }
     return pixels
-  }
-
-  /// The light and the surface seen along a ray.
-  struct Sight {
-    /// Linear RGB.
-    var radiance: SIMD3<Float>
-    /// Infinite for the background.
-    var depth = Float.infinity
-    var normal = SIMD3<Float>.zero
-    /// −1 for the background.
-    var surface = -1
-    var isLit = false
-
-    /// The index of the transient occluder, which is not a surface of the scene.
-    static let intruder = Int.max
   }
 
   /// The light and the surface that photo `index` shows at a pixel.

@@ -36,7 +36,7 @@ package struct Intruder: Sendable {
   func sight(
     from origin: SIMD3<Float>, along direction: SIMD3<Float>, center: SIMD3<Float>,
     footprint: Float
-  ) -> RenderedScene.Sight? {
+  ) -> Sight? {
     let toCenter = center - origin
     let squared = direction.squaredLength
     let closest = toCenter.dot(direction) / squared
@@ -47,8 +47,8 @@ package struct Intruder: Sendable {
     let facing = abs(normal.dot(direction.normalized))
     let color = texture.color(
       at: normal * radius, footprint: footprint * depth / max(0.2, facing))
-    return RenderedScene.Sight(
+    return Sight(
       radiance: color * (0.35 + 0.5 * facing), depth: depth, normal: normal,
-      surface: RenderedScene.Sight.intruder, isLit: true)
+      surface: Sight.intruder, isLit: true)
   }
 }

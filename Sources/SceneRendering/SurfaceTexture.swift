@@ -7,12 +7,12 @@ package protocol SurfaceTexture: Sendable {
 extension SurfaceTexture {
   /// The fraction of a pixel of width `footprint` inside of an edge that is `distance` away; the
   /// distance of points inside is negative.
-  func coverage(_ distance: Float, _ footprint: Float) -> Float {
+  package func coverage(_ distance: Float, _ footprint: Float) -> Float {
     min(max(0.5 - distance / max(footprint, 1e-6), 0), 1)
   }
 
   /// How much of a detail of width `size` a pixel of width `footprint` resolves, 0…1.
-  func resolved(_ size: Float, _ footprint: Float) -> Float {
+  package func resolved(_ size: Float, _ footprint: Float) -> Float {
     min(max(size / max(footprint, 1e-12) - 1.5, 0), 1)
   }
 }
