@@ -65,22 +65,23 @@ package struct Machine: Hashable, Sendable {
 
   /// The reasons why a reconstruction can't run on this machine, as sentences with a remedy; empty
   /// if it can.
-  package var shortfalls: [String] {
-    var sentences: [String] = []
-    if availableMemoryBytes < Self.neededMemoryBytes {
-      sentences.append(
-        "Only \(availableMemoryBytes >> 20) MB of memory is available and a reconstruction needs "
-          + "\(Self.neededMemoryBytes >> 20) MB; close other programs or add memory.")
-    }
-    if let processorFeatures {
-      let missing = Self.neededFeatures.filter { !processorFeatures.contains($0) }
-      if !missing.isEmpty {
-        sentences.append(
-          "The processor lacks \(missing.joined(separator: ", ")); "
-            + "use a machine with a 64-bit processor from 2009 or later.")
-      }
-    }
-    return sentences
+  package var shortfalls: [String] { [memoryShortfall, processorShortfall].compactMap(\.self) }
+
+  /// Why the memory doesn't suffice, as a sentence with a remedy.
+  package var memoryShortfall: String? {
+    guard availableMemoryBytes < Self.neededMemoryBytes else { return nil }
+    return
+      "Only \(availableMemoryBytes >> 20) MB of memory is available and a reconstruction needs "
+      + "\(Self.neededMemoryBytes >> 20) MB; close other programs or add memory."
+  }
+
+  /// Why the processor can't run the numeric libraries, as a sentence with a remedy.
+  package var processorShortfall: String? {
+    guard let processorFeatures else { return nil }
+    let missing = Self.neededFeatures.filter { !processorFeatures.contains($0) }
+    guard !missing.isEmpty else { return nil }
+    return "The processor lacks \(missing.joined(separator: ", ")); "
+      + "use a machine with a 64-bit processor from 2009 or later."
   }
 }
 

@@ -56,3 +56,10 @@ extension PatchWorkspace.Step {
     }
   }
 }
+
+extension DetailSpecification {
+  /// Approximate size of the temporary files of a run in bytes per photo.
+  package var workspaceBytesPerPhoto: Int {
+    viewPixels * PatchWorkspace.Step.allCases.reduce(0) { $0 + $1.bytesPerPixel }
+  }
+}

@@ -2,9 +2,10 @@ import Foundation
 import Kernels
 
 /// Distinguishes builds of the program whose results may differ.
-enum ProgramIdentity {
+package enum ProgramIdentity {
   /// The hash of the executable's content, so that any change of the code counts.
-  static let fingerprint = fingerprint(ofExecutable: Bundle.main.executablePath ?? "/proc/self/exe")
+  package static let fingerprint = fingerprint(
+    ofExecutable: Bundle.main.executablePath ?? "/proc/self/exe")
 
   /// The hash of a file's content. One that can't be read equals no other program: the number is
   /// random, so that no later run reuses the results.

@@ -1,10 +1,12 @@
 /// How the compiler built the engine.
-struct EngineBuild {
+package struct EngineBuild {
   /// Whether code was optimized. SwiftPM defines `DEBUG` for all packages of a debug build.
-  var isOptimized: Bool
+  package var isOptimized: Bool
+
+  package init(isOptimized: Bool) { self.isOptimized = isOptimized }
 
   /// This build.
-  static var current: EngineBuild {
+  package static var current: EngineBuild {
     #if DEBUG
       EngineBuild(isOptimized: false)
     #else
@@ -13,7 +15,7 @@ struct EngineBuild {
   }
 
   /// A sentence with a remedy if runs of this build are slow.
-  var warning: String? {
+  package var warning: String? {
     isOptimized
       ? nil
       : "The engine was compiled without optimization, with which it is about 30 times faster: "

@@ -28,6 +28,7 @@ import Testing
     #expect(try PhotogrammetryCLI.parseAsRoot(["align", "photos", "work"]) is Align)
     #expect(try PhotogrammetryCLI.parseAsRoot(["densify", "photos", "rig", "work"]) is Densify)
     #expect(try PhotogrammetryCLI.parseAsRoot(["export", "work", "m.usdz"]) is Export)
+    #expect(try PhotogrammetryCLI.parseAsRoot(["doctor"]) is Doctor)
   }
 
   @Test func versionIsPrintedToStdout() throws {

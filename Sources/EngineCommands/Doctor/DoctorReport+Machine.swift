@@ -1,0 +1,45 @@
+import Foundation
+import Kernels
+import Pipeline
+import RealityFoundation
+
+extension DoctorReport {
+  /// Checks this machine. Decodes images, and creates and removes a temporary folder.
+  static func ofThisMachine() -> DoctorReport {
+    let machine = Machine.current
+    let environment = ProcessInfo.processInfo.environment
+    let checks: [Check?] = [
+      .version(
+        of: .current, fingerprint: ProgramIdentity.fingerprint, system: systemName),
+      .memory(of: machine),
+      .threads(.current),
+      .instructions(Instructions.supported, of: machine),
+      .imageFormats(failures: SampleImage.failures()),
+      .temporaryFolder(.temporary),
+      .currentFolder(.current),
+      .scheduler(
+        environment: environment, hasBatchCommand: isOnPath("sbatch", environment["PATH"] ?? "")),
+      .terminal(environment: environment, isTerminal: isatty(STDERR_FILENO) == 1),
+    ]
+    return DoctorReport(checks.compactMap(\.self))
+  }
+
+  /// Whether a folder of `path` holds an executable file `name`.
+  static func isOnPath(_ name: String, _ path: String) -> Bool {
+    path.split(separator: ":").contains {
+      FileManager.default.isExecutableFile(atPath: "\($0)/\(name)")
+    }
+  }
+
+  /// `Debian GNU/Linux 12 (bookworm), x86-64`.
+  private static var systemName: String {
+    let system = ProcessInfo.processInfo.operatingSystemVersionString
+    #if arch(x86_64)
+      return "\(system), x86-64"
+    #elseif arch(arm64)
+      return "\(system), arm64"
+    #else
+      return system
+    #endif
+  }
+}
