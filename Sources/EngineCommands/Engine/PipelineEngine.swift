@@ -11,7 +11,10 @@ package enum PipelineEngine: EngineSupport {
   package typealias Arguments = PipelineArguments
 
   package static var commands: [any ParsableCommand.Type] {
-    [Batch.self, Align.self, Densify.self, Export.self, Inspect.self, Doctor.self]
+    [
+      Batch.self, Align.self, Densify.self, Export.self, Inspect.self, Doctor.self,
+      Demo<Self>.self,
+    ]
   }
   package static let modelFormats = ModelFormat.files
   package static let sessionOutputSource: String? = RealityFoundation.sessionOutputSource

@@ -29,6 +29,8 @@ import Testing
     #expect(try PhotogrammetryCLI.parseAsRoot(["densify", "photos", "rig", "work"]) is Densify)
     #expect(try PhotogrammetryCLI.parseAsRoot(["export", "work", "m.usdz"]) is Export)
     #expect(try PhotogrammetryCLI.parseAsRoot(["doctor"]) is Doctor)
+    #expect(
+      (try PhotogrammetryCLI.parseAsRoot(["demo"]) as? Demo<PipelineEngine>)?.detail == .reduced)
   }
 
   @Test func versionIsPrintedToStdout() throws {
