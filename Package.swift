@@ -64,12 +64,13 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(
       name: "CKernels",
       dependencies: [
-        "CDeflate", "CEigen", "CEmbree", "CHEIF", "CJPEG", "CLittleCMS", "CNanoflann", "COpenCV",
-        "CPNG", "CTIFF", "CWebP", "CXXHash",
+        "CDeflate", "CEigen", "CEmbree", "CHEIF", "CJPEG", "CLittleCMS", "CMeshOptimizer",
+        "CNanoflann", "COpenCV", "CPNG", "CTIFF", "CWebP", "CXXHash",
       ],
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"), .linkedLibrary("embree3"),
+        .linkedLibrary("meshoptimizer"),
       ]),
     systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
     systemLibrary("CEigen", pkgConfig: "eigen3", apt: ["libeigen3-dev"]),
@@ -77,6 +78,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     systemLibrary("CHEIF", pkgConfig: "libheif", apt: ["libheif-dev"]),
     systemLibrary("CJPEG", pkgConfig: "libjpeg", apt: ["libjpeg-dev"]),
     systemLibrary("CLittleCMS", pkgConfig: "lcms2", apt: ["liblcms2-dev"]),
+    systemLibrary("CMeshOptimizer", apt: ["libmeshoptimizer-dev"]),
     systemLibrary("CNanoflann", apt: ["libnanoflann-dev"]),
     systemLibrary(
       "COpenCV",

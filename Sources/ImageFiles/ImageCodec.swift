@@ -148,6 +148,33 @@ package enum ImageCodec {
     try encode(image, ck_codec_jpeg, quality: percent(quality))
   }
 
+  /// How WebP stores pixels.
+  package enum WebPQuality: Hashable, Codable, Sendable {
+    case lossless
+    /// `quality` is 0…1.
+    case lossy(quality: Float)
+  }
+
+  /// The largest width and height of a WebP file.
+  package static let maximumWebPSide = 16383
+
+  /// Encodes gray or RGB as WebP; deterministic.
+  package static func encodeWebP(_ image: RasterImage, _ quality: WebPQuality) throws -> [UInt8] {
+    let options =
+      switch quality {
+      case .lossless: ck_webp_options(is_lossless: true, quality: 75, is_sharp: false)
+      case .lossy(let quality):
+        ck_webp_options(is_lossless: false, quality: percent(quality), is_sharp: true)
+      }
+    var encoded: OpaquePointer?
+    try withKernel(KernelControl()) { _ in
+      withUnsafePointer(to: options) { options in
+        image.withKernelPixels { ck_webp_encode($0, options, &encoded) }
+      }
+    }
+    return [UInt8](taking: encoded)
+  }
+
   /// The contents of a HEIC file besides its pixels.
   package struct HEICContent: Hashable, Sendable {
     /// 0…1.

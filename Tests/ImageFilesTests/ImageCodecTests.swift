@@ -49,6 +49,33 @@ import Testing
     }
   }
 
+  @Test func webPIsCloseAndDeterministic() throws {
+    let image = pattern()
+    let bytes = try ImageCodec.encodeWebP(image, .lossy(quality: 0.95))
+    #expect(try ImageHeader(bytes) == ImageHeader(format: .webP, width: 48, height: 32))
+    let decoded = try ImageCodec.decode(bytes)
+    let error = zip(image.pixels, decoded.pixels).map { abs(Int($0) - Int($1)) }.reduce(0, +)
+    #expect(Double(error) / Double(image.pixels.count) < 8)
+    #expect(try ImageCodec.encodeWebP(image, .lossy(quality: 0.95)) == bytes)
+    #expect(try ImageCodec.encodeWebP(image, .lossy(quality: 0.2)).count < bytes.count)
+  }
+
+  @Test func losslessWebPKeepsEveryPixel() throws {
+    let image = pattern()
+    #expect(try ImageCodec.decode(ImageCodec.encodeWebP(image, .lossless)) == image)
+    let gray = RasterImage(
+      width: 5, height: 3, channels: 1, pixels: (0..<15).map { UInt8(16 * $0) })
+    let decoded = try ImageCodec.decode(ImageCodec.encodeWebP(gray, .lossless))
+    #expect(decoded.pixels == gray.pixels.flatMap { [$0, $0, $0] })
+  }
+
+  @Test func imagesThatWebPCannotStoreAreRejected() {
+    for (width, height, channels) in [(16384, 1, 3), (1, 16384, 1), (2, 2, 4)] {
+      let image = RasterImage(width: width, height: height, channels: channels)
+      #expect(throws: KernelError.self) { try ImageCodec.encodeWebP(image, .lossless) }
+    }
+  }
+
   @Test func jpegIsCloseAndDeterministic() throws {
     let image = pattern()
     let bytes = try ImageCodec.encodeJPEG(image, quality: 0.95)

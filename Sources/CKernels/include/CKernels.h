@@ -14,6 +14,7 @@
 
 #include "ck_bundle.h"
 #include "ck_camera.h"
+#include "ck_compression.h"
 #include "ck_core.h"
 #include "ck_features.h"
 #include "ck_global.h"

@@ -126,6 +126,21 @@ ck_status ck_inflate(const uint8_t* bytes, size_t byte_count, size_t maximum_cou
 ck_status ck_image_encode(const ck_pixels* pixels, ck_codec codec, int32_t quality,
                           ck_bytes** encoded);
 
+/// Options of WebP encoding.
+typedef struct {
+  /// Keeps all pixels; `quality` is then the effort.
+  bool is_lossless;
+  /// 0…100.
+  int32_t quality;
+  /// Computes the colors at half the resolution with less loss, in four times the time.
+  bool is_sharp;
+} ck_webp_options;
+
+/// Encodes gray or RGB as WebP, without padding between rows and with at most 16383 pixels per
+/// side. The same pixels give the same bytes.
+ck_status ck_webp_encode(const ck_pixels* pixels, const ck_webp_options* options,
+                         ck_bytes** encoded);
+
 /// Number of bytes.
 size_t ck_bytes_count(const ck_bytes* bytes);
 /// Copies all bytes.
