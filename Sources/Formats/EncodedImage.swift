@@ -1,6 +1,6 @@
 /// The content of an image file.
 package struct EncodedImage: Equatable, Sendable {
-  /// `png` or `jpg`.
+  /// `png`, `jpg` or `webp`.
   package var fileExtension: String
   /// The content of the file.
   package var bytes: [UInt8]
@@ -10,5 +10,11 @@ package struct EncodedImage: Equatable, Sendable {
     self.bytes = bytes
   }
 
-  var mediaType: String { fileExtension == "png" ? "image/png" : "image/jpeg" }
+  var mediaType: String {
+    switch fileExtension {
+    case "png": "image/png"
+    case "webp": "image/webp"
+    default: "image/jpeg"
+    }
+  }
 }

@@ -8,31 +8,44 @@ import SceneModel
 /// a material. Not metallic; roughness is 0.9 without a map. Core glTF doesn't support
 /// displacement. Tangents are omitted: the normal map is baked for Mikkelsen's tangent space, which
 /// viewers derive if a file has none.
+///
+/// With a mesh encoder, vertices and triangles are quantized and compressed without a fallback:
+/// readers must support `KHR_mesh_quantization` and `EXT_meshopt_compression`.
 package enum GLBFile {
   /// Writes `mesh`, with a material for each of its atlases; throws `OutputError`.
   package static func write(
-    _ mesh: TexturedMesh, materials: [GLTFMaterial], creator: String, to url: URL
+    _ mesh: TexturedMesh, materials: [GLTFMaterial], creator: String,
+    compressedBy encoder: (any GLTFMeshEncoder)? = nil, to url: URL
   ) throws {
-    let bytes = try encode(mesh, materials: materials, creator: creator, path: url.path)
+    let bytes = try encode(
+      mesh, materials: materials, creator: creator, compressedBy: encoder, path: url.path)
     try AtomicFile.write(bytes, to: url)
   }
 
   /// The bytes that `write` writes; `path` is the file's path in errors.
   package static func encode(
-    _ mesh: TexturedMesh, materials: [GLTFMaterial], creator: String, path: String = "model.glb"
+    _ mesh: TexturedMesh, materials: [GLTFMaterial], creator: String,
+    compressedBy encoder: (any GLTFMeshEncoder)? = nil, path: String = "model.glb"
   ) throws -> [UInt8] {
     var builder = GLTFBuilder()
+    let grid = encoder == nil ? nil : PositionGrid(mesh.mesh.positions)
     let all = 0..<mesh.mesh.triangles.count
     let ranges = mesh.atlases.isEmpty ? [all] : mesh.atlases.map(\.triangles)
     for (index, range) in ranges.enumerated() where !range.isEmpty {
       let material = materials.indices.contains(index) ? materials[index] : GLTFMaterial()
-      builder.append(IndexedTriangles(mesh, triangles: range), of: mesh, material)
+      let primitive = IndexedTriangles(mesh, triangles: range)
+      if let encoder, let grid {
+        let quantized = try QuantizedPrimitive(primitive, of: mesh, in: grid, orderedBy: encoder)
+        try builder.append(quantized, material, encodedBy: encoder)
+      } else {
+        builder.append(primitive, of: mesh, material)
+      }
     }
-    let encoder = JSONEncoder()
-    encoder.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]
-    let document = builder.document(name: ModelContent.name, generator: creator)
+    let json = JSONEncoder()
+    json.outputFormatting = [.sortedKeys, .withoutEscapingSlashes]
+    let document = builder.document(name: ModelContent.name, generator: creator, grid: grid)
     return try container(
-      json: [UInt8](try encoder.encode(document)), binary: builder.binary, path: path)
+      json: [UInt8](try json.encode(document)), binary: builder.binary, path: path)
   }
 
   /// A header and two chunks padded to multiples of four bytes; without binary data only the first.

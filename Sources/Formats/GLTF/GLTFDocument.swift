@@ -13,6 +13,8 @@ struct GLTFDocument: Encodable {
   struct Node: Encodable {
     var name: String
     var mesh: Int
+    var translation: [Double]?
+    var scale: [Double]?
   }
 
   struct Mesh: Encodable {
@@ -57,13 +59,29 @@ struct GLTFDocument: Encodable {
   }
 
   struct Texture: Encodable {
+    struct Extensions: Encodable {
+      struct WebP: Encodable {
+        var source: Int
+      }
+
+      var webP: WebP
+
+      enum CodingKeys: String, CodingKey {
+        case webP = "EXT_texture_webp"
+      }
+    }
+
     var sampler = 0
-    var source: Int
+    /// The image; nil if it is one of the extension.
+    var source: Int?
+    var extensions: Extensions?
   }
 
   struct Image: Encodable {
     var bufferView: Int
     var mimeType: String
+
+    var isWebP: Bool { mimeType == "image/webp" }
   }
 
   struct Sampler: Encodable {
@@ -76,12 +94,16 @@ struct GLTFDocument: Encodable {
 
   struct Accessor: Encodable {
     enum Component: Int, Encodable {
+      case byte = 5120
+      case unsignedShort = 5123
       case unsignedInt = 5125
       case float = 5126
     }
 
     var bufferView: Int
     var componentType: Component
+    /// Whether integers stand for 0…1 or −1…1.
+    var normalized: Bool?
     var count: Int
     /// `SCALAR`, `VEC2` or `VEC3`.
     var type: String
@@ -95,14 +117,65 @@ struct GLTFDocument: Encodable {
       case indices = 34963
     }
 
+    struct Extensions: Encodable {
+      var meshopt: CompressedView
+
+      enum CodingKeys: String, CodingKey {
+        case meshopt = "EXT_meshopt_compression"
+      }
+    }
+
     var buffer = 0
     var byteOffset: Int
     var byteLength: Int
+    var byteStride: Int?
     var target: Target?
+    var extensions: Extensions?
+  }
+
+  /// Where the content of a buffer view is compressed, and how.
+  struct CompressedView: Encodable {
+    enum Mode: String, Encodable {
+      case attributes = "ATTRIBUTES"
+      case triangles = "TRIANGLES"
+    }
+
+    enum Filter: String, Encodable {
+      case octahedral = "OCTAHEDRAL"
+    }
+
+    var buffer = 0
+    var byteOffset: Int
+    var byteLength: Int
+    /// Bytes per element, and number of elements, after decompression.
+    var byteStride: Int
+    var count: Int
+    var mode: Mode
+    var filter: Filter?
   }
 
   struct Buffer: Encodable {
+    struct Extensions: Encodable {
+      struct Fallback: Encodable {
+        var fallback = true
+      }
+
+      var meshopt = Fallback()
+
+      enum CodingKeys: String, CodingKey {
+        case meshopt = "EXT_meshopt_compression"
+      }
+    }
+
     var byteLength: Int
+    /// Marks a buffer without data, for views that are compressed elsewhere.
+    var extensions: Extensions?
+  }
+
+  enum Extension: String, Encodable {
+    case compression = "EXT_meshopt_compression"
+    case quantization = "KHR_mesh_quantization"
+    case webP = "EXT_texture_webp"
   }
 
   var asset: Asset
@@ -117,4 +190,6 @@ struct GLTFDocument: Encodable {
   var accessors: [Accessor]?
   var bufferViews: [BufferView]?
   var buffers: [Buffer]?
+  var extensionsUsed: [Extension]?
+  var extensionsRequired: [Extension]?
 }

@@ -26,7 +26,9 @@ extension ModelExport {
   private func encoded(
     _ map: TextureMap, of maps: [TextureMap: RasterImage]
   ) throws -> EncodedImage? {
-    try maps[map].map { try encode(map, $0) }
+    try maps[map].map { image in
+      try options.glbCompression?.encode(map, image) ?? encode(map, image)
+    }
   }
 
   /// The occlusion-roughness image of a material; nil without either map.
@@ -37,7 +39,9 @@ extension ModelExport {
       return try encoded(.ambientOcclusion, of: maps).map { .occlusion($0) }
     }
     let packed = Self.packed(occlusion: maps[.ambientOcclusion], roughness: roughness)
-    let image = EncodedImage(fileExtension: "png", bytes: try ImageCodec.encodePNG(packed))
+    let image =
+      try options.glbCompression?.encode(packed: packed)
+      ?? EncodedImage(fileExtension: "png", bytes: try ImageCodec.encodePNG(packed))
     return maps[.ambientOcclusion] == nil ? .roughness(image) : .occlusionAndRoughness(image)
   }
 

@@ -13,6 +13,9 @@ package struct ModelExport: Sendable {
     /// PNG: JPEG blocks would show as dents under lighting. So are images that pack several maps,
     /// whose channels JPEG would mix.
     package var textureFormat = TextureFormat.png
+    /// How GLB files are compressed; nil stores numbers and textures as other formats do. Readers
+    /// must support three extensions of glTF.
+    package var glbCompression: GLBCompression?
     /// Written to the files' metadata.
     package var creator = "photogrammetry-cli"
 
@@ -35,7 +38,9 @@ package struct ModelExport: Sendable {
       try USDZPackage.write(try content(model, encoding), to: url)
     case .glb:
       let materials = try materials(of: model, encoding)
-      try GLBFile.write(model, materials: materials, creator: options.creator, to: url)
+      try GLBFile.write(
+        model, materials: materials, creator: options.creator,
+        compressedBy: options.glbCompression.map { _ in MeshoptEncoder() }, to: url)
     case .ply:
       try PLY.write(
         try VertexColoring().run(model, encoding), halves: model.atlases.map(\.halves), to: url)

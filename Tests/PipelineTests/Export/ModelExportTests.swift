@@ -130,6 +130,63 @@ import Testing
     #expect(contents[0] == contents[1])
   }
 
+  @Test func compressedExportIsDeterministic() throws {
+    let folder = try TemporaryFolder()
+    var options = ModelExport.Options()
+    options.glbCompression = GLBCompression()
+    let contents = try (1...2).map { threads in
+      let url = folder.url.appendingPathComponent("\(threads).glb")
+      try ModelExport(options: options).run(
+        model(), to: url, StageContext(control: KernelControl(threadCount: threads)))
+      return try Data(contentsOf: url)
+    }
+    #expect(contents[0] == contents[1])
+    for name in ["EXT_meshopt_compression", "KHR_mesh_quantization", "EXT_texture_webp"] {
+      #expect(contents[0].range(of: Data(name.utf8)) != nil)
+    }
+  }
+
+  @Test func compressionConcernsGLBFilesOnly() throws {
+    let folder = try TemporaryFolder()
+    let contents = try [nil, GLBCompression()].enumerated().map { index, compression in
+      var options = ModelExport.Options()
+      options.glbCompression = compression
+      let url = folder.url.appendingPathComponent("\(index).usdz")
+      try ModelExport(options: options).run(model(), to: url, StageContext())
+      return try Data(contentsOf: url)
+    }
+    #expect(contents[0] == contents[1])
+  }
+
+  @Test func compressedTexturesAreCloseToTheMaps() throws {
+    let model = model()
+    var export = ModelExport()
+    export.options.glbCompression = GLBCompression()
+    let material = try #require(try export.materials(of: model, StageContext()).first)
+    let color = try #require(material.baseColor)
+    #expect(color.fileExtension == "webp")
+    let map = try #require(model.atlases[0].maps[.diffuseColor])
+    let decoded = try ImageCodec.decode(color.bytes)
+    let squares = zip(map.pixels, decoded.pixels).reduce(0.0) { sum, pair in
+      sum + pow(Double(pair.0) - Double(pair.1), 2)
+    }
+    #expect(10 * log10(255 * 255 * Double(map.pixels.count) / squares) > 30)
+    let normal = try #require(material.normal)
+    // A plain map stays plain.
+    #expect(Set(try ImageCodec.decode(normal.bytes).pixels).allSatisfy { abs(Int($0) - 128) <= 1 })
+  }
+
+  @Test func mapsThatAreTooLargeForWebPStayPNG() throws {
+    var model = model()
+    model.atlases[0].maps = [
+      .diffuseColor: RasterImage(width: 16384, height: 2, channels: 3, filledWith: 90)
+    ]
+    var export = ModelExport()
+    export.options.glbCompression = GLBCompression()
+    let material = try #require(try export.materials(of: model, StageContext()).first)
+    #expect(material.baseColor?.fileExtension == "png")
+  }
+
   @Test func failedExportLeavesNoFiles() throws {
     let folder = try TemporaryFolder()
     let url = folder.url.appendingPathComponent("missing/model.usdz")

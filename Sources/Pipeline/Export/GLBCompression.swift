@@ -1,0 +1,40 @@
+import Formats
+import ImageFiles
+import SceneModel
+
+/// How the textures of compressed GLB files are stored: as WebP.
+///
+/// The defaults were chosen by the textures of `Fixtures/orbit` at 2048² texels. Color at 0.9 has a
+/// PSNR of 43 dB, and the rendered model one of 48 dB against PNG, at a tenth of PNG's size; at
+/// 0.85, it is 38 dB. Normals at 0.95 deviate by 0.5° on average; lossless, they would take five
+/// times the size and be the largest part of the file.
+package struct GLBCompression: Hashable, Codable, Sendable {
+  var color = ImageCodec.WebPQuality.lossy(quality: 0.9)
+  var normal = ImageCodec.WebPQuality.lossy(quality: 0.95)
+  /// Occlusion and roughness, in one image or alone.
+  var surface = ImageCodec.WebPQuality.lossy(quality: 0.9)
+
+  package init() {}
+
+  /// Encodes a map; nil if it is larger than WebP permits.
+  func encode(_ map: TextureMap, _ image: RasterImage) throws -> EncodedImage? {
+    let quality =
+      switch map {
+      case .diffuseColor: color
+      case .normal, .displacement: normal
+      case .ambientOcclusion, .roughness: surface
+      }
+    return try encode(image, quality)
+  }
+
+  /// Encodes occlusion and roughness in one image; nil if it is larger than WebP permits.
+  func encode(packed image: RasterImage) throws -> EncodedImage? { try encode(image, surface) }
+
+  private func encode(
+    _ image: RasterImage, _ quality: ImageCodec.WebPQuality
+  ) throws -> EncodedImage? {
+    guard max(image.width, image.height) <= ImageCodec.maximumWebPSide else { return nil }
+    return EncodedImage(
+      fileExtension: "webp", bytes: try ImageCodec.encodeWebP(image, quality))
+  }
+}
