@@ -83,6 +83,7 @@ extension PipelineConfiguration {
     result.textureMapping.maximumAtlases = specification.maximumAtlases
     result.textureMapping.maps = specification.maps
     result.export.textureFormat = specification.textureFormat
+    result.export.maximumBytes = specification.maximumBytes
     return result
   }
 }

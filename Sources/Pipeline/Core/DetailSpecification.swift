@@ -9,6 +9,9 @@ package struct DetailSpecification: Hashable, Codable, Sendable {
   package var maximumAtlases: Int
   package var maps: Set<TextureMap>
   package var textureFormat: TextureFormat
+  /// The size in bytes above which a USDZ file stores its color as JPEG; nil keeps
+  /// `textureFormat`.
+  package var maximumBytes: Int?
   /// The number of pixels per view in the dense stage, matched to the detail of the model.
   package var viewPixels: Int
 
@@ -34,6 +37,8 @@ package struct DetailSpecification: Hashable, Codable, Sendable {
     case .reduced:
       self.init(
         maximumTriangles: 49_999, textureSide: 2048, maps: basic, viewPixels: 180_000)
+      // The level is for the web and messages; Object Capture documents about 10 MB.
+      maximumBytes = 10_000_000
     case .medium:
       self.init(
         maximumTriangles: 99_999, textureSide: 4096, maps: basic, viewPixels: 500_000)

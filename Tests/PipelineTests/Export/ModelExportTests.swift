@@ -130,6 +130,25 @@ import Testing
     #expect(contents[0] == contents[1])
   }
 
+  /// A file above the limit has its color as JPEG, and its other maps as before.
+  @Test func largeUSDZFilesHaveCompactColor() throws {
+    let folder = try TemporaryFolder()
+    func contents(maximum: Int?) throws -> Data {
+      var export = ModelExport()
+      export.options.maximumBytes = maximum
+      let url = folder.url.appendingPathComponent("model.usdz")
+      try export.run(model(), to: url, StageContext())
+      return try Data(contentsOf: url)
+    }
+    let plain = try contents(maximum: nil)
+    #expect(try contents(maximum: plain.count) == plain)
+    let compact = try contents(maximum: plain.count - 1)
+    #expect(compact.count < plain.count)
+    for name in ["baked_mesh_tex0.jpg", "baked_mesh_norm0.png", "baked_mesh_ao0.png"] {
+      #expect(compact.range(of: Data(name.utf8)) != nil)
+    }
+  }
+
   @Test func compressedExportIsDeterministic() throws {
     let folder = try TemporaryFolder()
     var options = ModelExport.Options()
