@@ -113,7 +113,7 @@ final class ScriptedEngine: SessionEngine {
 
   func writeModel(
     _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
-    to url: URL
+    to url: URL, hasPreview: Bool
   ) throws {
     try align()
     for stage in PipelineStage.allCases.dropFirst(2) { try work(stage) }

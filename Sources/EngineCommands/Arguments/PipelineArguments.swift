@@ -9,6 +9,8 @@ import SharedCommands
 package struct PipelineArguments: EngineArguments {
   @OptionGroup var preview: PreviewArguments
 
+  @OptionGroup var compression: CompressionArguments
+
   @OptionGroup var surface: SurfaceArguments
 
   @OptionGroup var masking: MaskArguments
@@ -28,6 +30,10 @@ package struct PipelineArguments: EngineArguments {
 
   package init() {}
 
+  package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {
+    try compression.check(output.format, detail)
+  }
+
   package func outputs() throws -> EngineOutputs {
     EngineOutputs(preview: try preview.file(), report: try runArguments.reportFile())
   }
@@ -40,6 +46,7 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.maskFolder = try masking.folder
     session.engineOptions.maskOutput = try maskOutput.folder(photos: folder)
     session.engineOptions.previewFile = try preview.file()
+    session.engineOptions.compressesGLB = compression.compress
     session.engineOptions.closesObject = !surface.keepGaps
     session.engineOptions.refinesSurface = surface.refine
   }

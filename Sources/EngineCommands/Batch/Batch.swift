@@ -93,6 +93,8 @@ struct Batch: AsyncParsableCommand {
   @Flag(name: .long, help: "Keep the surroundings instead of isolating the object; ignore masks.")
   var noObjectMasking = false
 
+  @OptionGroup var compression: CompressionArguments
+
   @OptionGroup var surface: SurfaceArguments
 
   @OptionGroup var shape: ShapeArguments
@@ -147,15 +149,36 @@ extension Batch {
       throw CommandFailure.usage(
         "\(models) is the folder of the photos. Name another folder for the models.")
     }
+    try compression.check(format, detail)
+    guard format != .folder || !detail.lod else {
+      throw CommandFailure.usage(
+        "--lod writes several files per dataset. Choose a file format with --format, or omit --lod."
+      )
+    }
     let datasets = try BatchDataset.all(in: input, except: output)
     guard !datasets.isEmpty else {
       throw CommandFailure.usage(
         "\(folders) holds no folders. Name the folder that holds a folder of photos for each "
           + "object; to reconstruct a single object omit 'batch'.")
     }
+    try checkNames(of: datasets)
     return BatchRunner(
-      datasets, in: try BatchFolder(output, format: format), modelArguments: modelArguments,
+      datasets,
+      in: try BatchFolder(output, format: format, coarserLevels: detail.coarserLevels),
+      modelArguments: modelArguments,
       companions: companions, style, options: options)
+  }
+
+  /// Throws a `CommandFailure` if a model of a dataset has the name of another dataset's.
+  private func checkNames(of datasets: [BatchDataset]) throws {
+    let names = Set(datasets.map(\.name))
+    for name in datasets.map(\.name) {
+      for level in detail.coarserLevels where names.contains("\(name)-\(level.rawValue)") {
+        throw CommandFailure.usage(
+          "With --lod, the datasets \(name) and \(name)-\(level.rawValue) would write the same "
+            + "file. Rename one of them, or omit --lod.")
+      }
+    }
   }
 
   private var companions: [BatchCompanion] {
@@ -164,7 +187,8 @@ extension Batch {
 
   /// The options that affect models, as arguments of `reconstruct`.
   var modelArguments: [String] {
-    detail.arguments + alignment.arguments + surface.arguments + shape.arguments
+    detail.arguments + compression.arguments + alignment.arguments + surface.arguments
+      + shape.arguments
       + frame.arguments
       + (noObjectMasking ? ["--no-object-masking"] : [])
   }

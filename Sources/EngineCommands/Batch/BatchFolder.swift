@@ -8,14 +8,17 @@ import SharedCommands
 final class BatchFolder: Sendable {
   let url: URL
   let format: ModelFormat
+  /// The levels that are written besides the model's.
+  let coarserLevels: [DetailArgument]
   // Retained for its lifetime only.
   private nonisolated(unsafe) let lock: DirectoryLock
 
   /// Creates the folder if it is missing; throws a `CommandFailure` if that fails or if another
   /// batch is writing to it.
-  init(_ url: URL, format: ModelFormat) throws {
+  init(_ url: URL, format: ModelFormat, coarserLevels: [DetailArgument] = []) throws {
     self.url = url
     self.format = format
+    self.coarserLevels = coarserLevels
     do {
       lock = try DirectoryLock(Self.work(in: url), isShared: false)
     } catch CheckpointError.inUse {
@@ -52,7 +55,10 @@ final class BatchFolder: Sendable {
 
   /// Whether the model and the files next to it exist.
   func hasModel(of dataset: BatchDataset, with companions: [BatchCompanion]) -> Bool {
-    ([modelPath(of: dataset)] + companions.map { path(of: $0, of: dataset) })
+    let coarser = coarserLevels.map {
+      url.appendingPathComponent("\(dataset.name)-\($0.rawValue).\(format.rawValue)").path
+    }
+    return ([modelPath(of: dataset)] + coarser + companions.map { path(of: $0, of: dataset) })
       .allSatisfy { FileManager.default.fileExists(atPath: $0) }
   }
 

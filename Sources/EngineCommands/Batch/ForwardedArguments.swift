@@ -11,8 +11,12 @@ extension DetailArguments {
     if let textureSide { arguments += ["--texture-side", textureSide.rawValue] }
     if let maps { arguments += ["--maps", maps.text] }
     if let textureFormat { arguments += ["--texture-format", textureFormat.text] }
-    return arguments
+    return arguments + (lod ? ["--lod"] : [])
   }
+}
+
+extension CompressionArguments {
+  var arguments: [String] { compress ? ["--compress"] : [] }
 }
 
 extension TextureMapsArgument {

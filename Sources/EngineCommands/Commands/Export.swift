@@ -25,6 +25,8 @@ struct Export: ParsableCommand {
             Another format.
         photogrammetry-cli export work/ model/ -d medium --preview model.png
             A folder with OBJ, MTL, USDA and textures, and a picture.
+        photogrammetry-cli export work/ shop.glb -d medium --compress --lod
+            Small files for the web: shop.glb, shop-reduced.glb and shop-preview.glb.
 
       \(DetailArguments.help)
       A level above that of the run gives more triangles and texels, but no more detail than the \
@@ -57,6 +59,8 @@ struct Export: ParsableCommand {
     completion: .directory)
   var photos: String?
 
+  @OptionGroup var compression: CompressionArguments
+
   @OptionGroup var preview: PreviewArguments
 
   @OptionGroup var runArguments: RunArguments
@@ -66,17 +70,25 @@ struct Export: ParsableCommand {
   mutating func run() throws {
     logging.bootstrap()
     let target = try ModelOutput(output, formats: ModelFormat.files)
+    try compression.check(target.format, detail)
+    let coarser = try CoarserModel.all(detail, nextTo: target)
     let configuration = try configuration
     let geometry = ModelGeometry(shape.geometry ?? .init())
     let plan = EngineRun.Plan(
       source: .savedRun(try savedRun()), stages: [.preProcessing, .textureMapping, .optimization],
-      limits: detail.limits)
+      limits: detail.limits, coarserModels: coarser.map(\.level.limits))
     let reporter = RunReporter(logging.style())
     let run = try EngineRun(plan, configuration, runArguments, reporter)
-    try run.perform(missing: "no model was written") {
-      try $0.writeModel(plan.limits, in: geometry, to: target.url)
+    try run.perform(missing: "\(coarser.isEmpty ? "no" : "not every") model was written") {
+      pipeline in
+      for model in coarser {
+        try pipeline.writeModel(
+          model.level.limits, in: geometry, to: model.output.url, hasPreview: false)
+        Terminal.shared.result(model.output.url.relativePath)
+      }
+      try pipeline.writeModel(plan.limits, in: geometry, to: target.url)
+      Terminal.shared.result(target.url.relativePath)
     }
-    Terminal.shared.result(target.url.relativePath)
     if let file = configuration.previewFile { Terminal.shared.result(file.relativePath) }
     Logger(label: "photogrammetry-cli")
       .info("Done in \(RunProgress.duration(reporter.elapsed)).")
@@ -89,6 +101,7 @@ extension Export {
       var configuration = PipelineConfiguration()
       try preview.apply(to: &configuration)
       shape.apply(to: &configuration)
+      compression.apply(to: &configuration)
       runArguments.threading.apply(to: &configuration)
       return configuration
     }

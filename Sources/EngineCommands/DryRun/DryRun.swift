@@ -9,6 +9,8 @@ struct DryRun {
   let report: InspectionReport
   /// The model that would be written.
   let output: ModelOutput
+  /// The models at lower levels that would be written with it.
+  let coarserModels: [CoarserModel]
   let limits: DetailSpecification
   /// The usual duration of the run in seconds.
   let expectedSeconds: Double
@@ -33,17 +35,25 @@ struct DryRun {
       folder: folder, StageContext(control: KernelControl(threadCount: threadCount)))
     report = InspectionReport(ingested)
     self.output = output
+    coarserModels = try CoarserModel.all(arguments.detail, nextTo: output)
     limits = arguments.detail.limits
-    expectedSeconds =
-      StageDurationModel(
-        photos: PhotoTotals(ingested.photos), finest: limits, threadCount: threadCount,
-        masksObject: configuration.isObjectMaskingEnabled
-      ).total
+    let coarser = coarserModels.map(\.level.limits)
+    let durations = StageDurationModel(
+      photos: PhotoTotals(ingested.photos), finest: limits, threadCount: threadCount,
+      masksObject: configuration.isObjectMaskingEnabled)
+    expectedSeconds = coarser.reduce(durations.total) { sum, limits in
+      [.textureMapping, .optimization].reduce(sum) {
+        $0 + durations.seconds(of: WorkUnit(stage: $1, specification: limits))
+      }
+    }
     memory = (arguments.detail.detail.expectedMemoryBytes, Machine.current.availableMemoryBytes)
     let system = try? FileManager.default.attributesOfFileSystem(
       forPath: output.url.absoluteURL.deletingLastPathComponent().path)
     space = (
-      limits.modelBytes(in: output.format), (system?[.systemFreeSize] as? NSNumber)?.intValue
+      coarser.reduce(limits.modelBytes(in: output.format)) { sum, limits in
+        let (total, isTooLarge) = sum.addingReportingOverflow(limits.modelBytes(in: output.format))
+        return isTooLarge ? .max : total
+      }, (system?[.systemFreeSize] as? NSNumber)?.intValue
     )
   }
 
@@ -61,15 +71,17 @@ struct DryRun {
 
   /// The plan as text.
   var lines: [String] {
-    let texture = "\(limits.textureSide) x \(limits.textureSide)"
-    return report.lines + [
-      "\(output.url.relativePath) would be written: at most "
-        + "\(limits.maximumTriangles) triangles and textures of \(texture).",
+    let models = coarserModels.map { ($0.output, $0.level.limits) } + [(output, limits)]
+    let written = models.map { output, limits in
+      "\(output.url.relativePath) would be written: at most \(limits.maximumTriangles) triangles "
+        + "and textures of \(limits.textureSide) x \(limits.textureSide)."
+    }
+    return report.lines + written + [
       "It would take about \(RunProgress.duration(expectedSeconds)) with \(threadCount) threads, "
         + "at most \(Self.megabytes(memory.needed)) of memory "
         + "(\(Self.megabytes(memory.free)) free) and at most "
         + "\(Self.megabytes(space.needed)) of disk space"
-        + (space.free.map { " (\(Self.megabytes($0)) free)." } ?? "."),
+        + (space.free.map { " (\(Self.megabytes($0)) free)." } ?? ".")
     ]
   }
 

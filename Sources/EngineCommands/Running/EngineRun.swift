@@ -18,6 +18,8 @@ struct EngineRun {
     var stages: [PipelineStage]
     /// The limits that the first stages work for.
     var limits: DetailSpecification
+    /// The limits of models that are made before that of `limits`.
+    var coarserModels: [DetailSpecification] = []
     /// How cameras and sparse points are obtained, for the estimate of the remaining time.
     var alignment = StageDurationModel.AlignmentWork.search
     /// The share of the views that the dense stage processes.
@@ -34,7 +36,7 @@ struct EngineRun {
     reportFile = try arguments.reportFile()
     flag = CancellationFlag()
     listener = PipelineListener(
-      reporter, stages: plan.stages,
+      reporter, stages: plan.stages, coarserModels: plan.coarserModels,
       durations: StageDurationModel(
         photos: PhotoTotals(count: plan.source.fileCount), finest: plan.limits,
         threadCount: configuration.threadCount, alignment: plan.alignment,
@@ -44,6 +46,7 @@ struct EngineRun {
       plan.source, configuration: configuration,
       checkpointAccess: plan.job == nil ? .exclusive : .shared, flag: flag,
       onEvent: listener.receive)
+    pipeline.plan(for: plan.coarserModels + [plan.limits])
   }
 
   /// Calls `work` with the pipeline, and writes the report whether it fails or not. A failure after

@@ -18,10 +18,11 @@ final class PipelineListener: Sendable {
   /// `stages` are in the order of work; with `logsDetails` details are logged without `--verbose`,
   /// too.
   init(
-    _ reporter: RunReporter, stages: [PipelineStage], durations: StageDurationModel,
-    logsDetails: Bool = false
+    _ reporter: RunReporter, stages: [PipelineStage], coarserModels: [DetailSpecification] = [],
+    durations: StageDurationModel, logsDetails: Bool = false
   ) {
-    let tracker = RunProgressTracker(stages: stages, durations: durations, at: reporter.elapsed)
+    let tracker = RunProgressTracker(
+      stages: stages, coarserModels: coarserModels, durations: durations, at: reporter.elapsed)
     state = Locked(State(reporter: reporter, tracker: tracker))
     triangulates = durations.alignment != .search
     self.logsDetails = logsDetails

@@ -103,13 +103,15 @@ package final class ReconstructionPipeline {
   }
 
   /// Makes a model and writes it in the format of the URL's extension, with the maps that the
-  /// format supports. Renders a preview if the configuration names a file for it.
+  /// format supports. Renders a preview if the configuration names a file for it, unless
+  /// `hasPreview` is false.
   package func writeModel(
-    _ specification: DetailSpecification, in geometry: ModelGeometry = ModelGeometry(), to url: URL
+    _ specification: DetailSpecification, in geometry: ModelGeometry = ModelGeometry(),
+    to url: URL, hasPreview: Bool = true
   ) throws {
     var specification = specification
     specification.maps.formIntersection(ModelFormat(of: url).maps)
-    try method(for: specification).writeModel(in: geometry, to: url)
+    try method(for: specification, hasPreview: hasPreview).writeModel(in: geometry, to: url)
     try writeReport()
   }
 
@@ -119,9 +121,13 @@ package final class ReconstructionPipeline {
   /// Unlocks the checkpoint directory for other runs until this pipeline is used again.
   package func releaseCheckpoint() { cache.unlock() }
 
-  private func method(for specification: DetailSpecification) -> ReconstructionMethod {
+  private func method(
+    for specification: DetailSpecification, hasPreview: Bool = true
+  ) -> ReconstructionMethod {
     plan(for: [specification])
-    return method(configuration.specialized(for: specification, viewPixels: finestViewPixels))
+    var result = configuration.specialized(for: specification, viewPixels: finestViewPixels)
+    if !hasPreview { result.previewFile = nil }
+    return method(result)
   }
 
   private func method(_ configuration: PipelineConfiguration? = nil) -> ReconstructionMethod {

@@ -73,10 +73,11 @@ final class ReconstructionEngine: SessionEngine {
 
   func writeModel(
     _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
-    to url: URL
+    to url: URL, hasPreview: Bool
   ) throws {
     _ = try align()
-    try pipeline.writeModel(specification, in: ModelGeometry(geometry), to: url)
+    try pipeline.writeModel(
+      specification, in: ModelGeometry(geometry), to: url, hasPreview: hasPreview)
   }
 
   private func align() throws -> Reconstruction {
@@ -107,6 +108,7 @@ extension PipelineConfiguration {
     meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle
     checkpointDirectory = configuration.checkpointDirectory
     previewFile = options.previewFile
+    export.glbCompression = options.compressesGLB ? GLBCompression() : nil
     maskOutput = options.maskOutput
     threadCount = options.threadCount
   }

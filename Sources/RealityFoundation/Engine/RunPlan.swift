@@ -10,6 +10,9 @@ struct RunPlan: Sendable {
     var request: PhotogrammetrySession.Request
     /// In the order of the stages.
     var units: [WorkUnit]
+    /// Its units and those of all entries before it, in the order of work: what is to be done until
+    /// it is complete.
+    var work: [WorkUnit] = []
     /// The budgets of the model; nil if no model is requested.
     var specification: DetailSpecification?
   }
@@ -31,7 +34,7 @@ struct RunPlan: Sendable {
     let coarsest = models.first ?? DetailSpecification(.preview)
     finest =
       models.last ?? DetailSpecification(self.requests.contains(.pointCloud) ? .reduced : .preview)
-    entries = self.requests
+    var entries = self.requests
       .map {
         Entry(
           $0, specification: $0.specification(configuration), coarsest: coarsest)
@@ -39,6 +42,17 @@ struct RunPlan: Sendable {
       .enumerated()
       .sorted { ($0.element.rank, $0.offset) < ($1.element.rank, $1.offset) }
       .map(\.element)
+    var work: [WorkUnit] = []
+    for index in entries.indices {
+      work += entries[index].units.filter { !work.contains($0) }
+      entries[index].work = work
+    }
+    self.entries = entries
+  }
+
+  /// The request of the model file that is made last: the finest one.
+  var lastFile: PhotogrammetrySession.Request? {
+    entries.last { if case .modelFile = $0.request { true } else { false } }?.request
   }
 
   /// The budgets of all models, and the finest ones for a point cloud.
@@ -47,10 +61,7 @@ struct RunPlan: Sendable {
   }
 
   /// All units in the order of processing.
-  var units: [WorkUnit] {
-    var seen: Set<WorkUnit> = []
-    return entries.flatMap(\.units).filter { seen.insert($0).inserted }
-  }
+  var units: [WorkUnit] { entries.last?.work ?? [] }
 }
 
 extension RunPlan.Entry {

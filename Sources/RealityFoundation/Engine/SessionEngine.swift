@@ -13,9 +13,10 @@ protocol SessionEngine: AnyObject {
   func modelEntity(
     _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry
   ) throws -> ModelEntity
+  /// Writes a model, with the preview in the options of the session if `hasPreview` is true.
   func writeModel(
     _ specification: DetailSpecification, _ geometry: PhotogrammetrySession.Request.Geometry,
-    to url: URL
+    to url: URL, hasPreview: Bool
   ) throws
   /// Completes the run's files at the end of a task, for instance the report.
   func finishTask() throws
@@ -37,7 +38,8 @@ extension SessionEngine {
     case .pointCloud: return .pointCloud(try pointCloud(plan.finest))
     case .bounds: return .bounds(try bounds(specification))
     case .modelFile(let url, _, let geometry):
-      try writeModel(specification, geometry ?? .init(), to: url)
+      try writeModel(
+        specification, geometry ?? .init(), to: url, hasPreview: entry.request == plan.lastFile)
       return .modelFile(url)
     case .modelEntity(_, let geometry):
       return .modelEntity(try modelEntity(specification, geometry ?? .init()))

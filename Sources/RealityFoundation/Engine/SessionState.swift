@@ -104,7 +104,7 @@ struct SessionState: Sendable {
     guard isWorking else { return [] }
     let unit = WorkUnit(stage: stage, specification: specification ?? plan?.finest)
     estimator?.advance(unit, to: fraction, at: time)
-    return entries(needing: unit).flatMap { progress(of: $0, in: stage) }
+    return entries(awaiting: unit).flatMap { progress(of: $0, in: stage) }
   }
 
   /// A stage of the current request has more work than was expected.
@@ -159,8 +159,8 @@ struct SessionState: Sendable {
 
   private var isWorking: Bool { phase == .ingesting || phase == .processing }
 
-  private func entries(needing unit: WorkUnit) -> [RunPlan.Entry] {
-    plan?.entries.filter { $0.units.contains(unit) && activeRequests.contains($0.request) } ?? []
+  private func entries(awaiting unit: WorkUnit) -> [RunPlan.Entry] {
+    plan?.entries.filter { $0.work.contains(unit) && activeRequests.contains($0.request) } ?? []
   }
 
   /// Reports the progress of a request if it has advanced by a thousandth or to another stage.
@@ -168,11 +168,11 @@ struct SessionState: Sendable {
     guard let estimator else { return [] }
     let last = lastReported[entry.request]
     // 1 is reserved for completed requests.
-    let fraction = max(last?.fraction ?? 0, min(estimator.fraction(of: entry.units), 0.999))
+    let fraction = max(last?.fraction ?? 0, min(estimator.fraction(of: entry.work), 0.999))
     if let last, fraction - last.fraction < 0.001, last.stage == stage { return [] }
     lastReported[entry.request] = (fraction, stage)
     let info = Output.ProgressInfo(
-      estimatedRemainingTime: estimator.remainingSeconds(of: entry.units),
+      estimatedRemainingTime: estimator.remainingSeconds(of: entry.work),
       processingStage: Output.ProcessingStage(stage))
     return [
       .requestProgress(entry.request, fractionComplete: fraction),

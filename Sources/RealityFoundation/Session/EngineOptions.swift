@@ -13,8 +13,11 @@ package struct EngineOptions: Equatable, Sendable {
   package var knownDistances: [KnownDistance] = []
   /// What is up in the model; nil leaves it to the engine.
   package var up: ChosenUp?
-  /// The PNG file of a preview that shows the model from several sides; nil renders none.
+  /// The PNG file of a preview that shows the model from several sides, the finest one of several;
+  /// nil renders none.
   package var previewFile: URL?
+  /// Whether GLB files are compressed, by extensions of glTF that readers must support.
+  package var compressesGLB = false
   /// Formats of model files that are accepted in addition to USDZ. None by default: a program
   /// written for Apple's engine gets `Error.invalidOutput` in the same cases.
   package var additionalFileFormats: Set<ModelFormat> = []

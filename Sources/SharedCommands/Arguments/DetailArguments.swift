@@ -44,9 +44,18 @@ package struct DetailArguments: ParsableArguments {
       valueName: "format"))
   package var textureFormat: TextureFormatArgument?
 
+  @Flag(
+    name: .long,
+    help: """
+      Also write the model at all lower levels, from the same run: with -d medium, model.usdz and \
+      model-preview.usdz, model-reduced.usdz.
+      """)
+  package var lod = false
+
   package init() {}
 
   package func validate() throws {
+    if lod { try validateLevels() }
     let options: [(name: String, isGiven: Bool)] = [
       ("--max-polygons", maxPolygons != nil), ("--texture-side", textureSide != nil),
       ("--maps", maps != nil), ("--texture-format", textureFormat != nil),
@@ -55,6 +64,26 @@ package struct DetailArguments: ParsableArguments {
       throw ValidationError("\(option.name) is for --detail custom; add -d custom.")
     }
     if maxPolygons == 0 { throw ValidationError("--max-polygons must be 1 or more.") }
+  }
+
+  private func validateLevels() throws {
+    switch detail {
+    case .custom:
+      throw ValidationError(
+        "--lod is for detail levels, and custom limits have no lower ones. Choose a level with -d, "
+          + "or omit --lod.")
+    case .level(.preview):
+      throw ValidationError(
+        "--lod adds the levels below that of the model, and preview is the lowest. Choose a higher "
+          + "level with -d, or omit --lod.")
+    case .level: return
+    }
+  }
+
+  /// The levels of the models besides that of `detail`, coarse to fine.
+  package var coarserLevels: [DetailArgument] {
+    guard lod, case .level(let level) = detail else { return [] }
+    return Array(DetailArgument.allCases.prefix { $0 != level })
   }
 
   /// The limits of `custom`.

@@ -21,6 +21,13 @@ package struct ModelOutput: Equatable, Sendable {
     try Self.checkWritable(url)
   }
 
+  /// The file of the same model at another level. Throws a `CommandFailure` if it can't be written.
+  func atLevel(_ level: DetailArgument) throws -> ModelOutput {
+    let path = url.relativePath as NSString
+    let name = "\(path.deletingPathExtension)-\(level.rawValue).\(path.pathExtension)"
+    return try ModelOutput(name, formats: [format])
+  }
+
   private static func fileFault(_ path: String) -> String? {
     if path.hasSuffix("/") {
       return "\(path) is named like a file but ends in a slash. Omit the slash for a file, or "

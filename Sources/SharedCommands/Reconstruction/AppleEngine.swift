@@ -9,6 +9,7 @@ package enum AppleEngine: EngineSupport {
 
     package init() {}
 
+    package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {}
     package func outputs() throws -> EngineOutputs { EngineOutputs() }
     package func configure(_ session: PhotogrammetrySession, photos: URL) throws {}
     package func report(of session: PhotogrammetrySession) throws -> Data? { nil }

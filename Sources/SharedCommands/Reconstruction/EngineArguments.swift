@@ -6,6 +6,8 @@ package protocol EngineArguments: ParsableArguments {
   /// Whether to only check the input and print the plan.
   var isDryRun: Bool { get }
 
+  /// Throws a `CommandFailure` if the options don't fit the model.
+  func check(_ output: ModelOutput, _ detail: DetailArguments) throws
   /// The files to write besides those that every engine writes. Throws a `CommandFailure` if one
   /// can't be written.
   func outputs() throws -> EngineOutputs

@@ -6,6 +6,8 @@ import SceneModel
 struct ReconstructionFiles {
   let input: URL
   let output: ModelOutput
+  /// Coarse to fine.
+  let coarserModels: [CoarserModel]
   let poses: URL?
   let pointCloud: URL?
   let checkpoint: URL?
@@ -15,6 +17,8 @@ struct ReconstructionFiles {
   init<Engine>(_ arguments: ReconstructArguments<Engine>, formats: [ModelFormat]) throws {
     input = try PhotoFolderArgument(arguments.inputFolder).url
     output = try ModelOutput(arguments.output, formats: formats)
+    coarserModels = try CoarserModel.all(arguments.detail, nextTo: output)
+    try arguments.engine.check(output, arguments.detail)
     func url(_ path: String?, isDirectory: Bool = false) throws -> URL? {
       let url = path.map { URL(fileURLWithPath: $0, isDirectory: isDirectory) }
       if let url { try ModelOutput.checkWritable(url) }
@@ -34,7 +38,9 @@ struct ReconstructionFiles {
     switch result {
     case .modelFile(let url):
       reporter.wrote("model", url.relativePath)
-      if let preview = additional.preview { reporter.wrote("preview", preview.relativePath) }
+      if url == output.url, let preview = additional.preview {
+        reporter.wrote("preview", preview.relativePath)
+      }
     case .poses(let result):
       guard let poses else { return }
       try AtomicFile.write(

@@ -72,7 +72,8 @@ struct ReconstructionJob<Engine: EngineSupport> {
 
   private var interrupted: CommandFailure {
     let rest = files.checkpoint.map { " Finished stages are in \($0.path)." } ?? ""
-    return .interrupted("Interrupted; no model was written.\(rest)")
+    let missing = files.coarserModels.isEmpty ? "no" : "not every"
+    return .interrupted("Interrupted; \(missing) model was written.\(rest)")
   }
 
   private var configuration: PhotogrammetrySession.Configuration {
@@ -86,11 +87,13 @@ struct ReconstructionJob<Engine: EngineSupport> {
   }
 
   private var requests: [PhotogrammetrySession.Request] {
-    var requests = [
+    let models =
+      files.coarserModels.map { ($0.output, $0.level.requestDetail) }
+      + [(files.output, arguments.detail.detail.requestDetail)]
+    var requests = models.map { output, detail in
       PhotogrammetrySession.Request.modelFile(
-        url: files.output.url, detail: arguments.detail.detail.requestDetail,
-        geometry: arguments.shape.geometry)
-    ]
+        url: output.url, detail: detail, geometry: arguments.shape.geometry)
+    }
     if files.poses != nil { requests.append(.poses) }
     if files.pointCloud != nil { requests.append(.pointCloud) }
     return requests

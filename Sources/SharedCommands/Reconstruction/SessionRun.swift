@@ -75,8 +75,9 @@ struct SessionRun<Engine: EngineSupport> {
     if Engine.sessionOutputSource == nil { logger.warning("\(sentence)") }
   }
 
+  /// Whether the request is that of the model that is made last, whose progress is that of the run.
   private func isModel(_ request: PhotogrammetrySession.Request) -> Bool {
-    if case .modelFile = request { true } else { false }
+    if case .modelFile(let url, _, _) = request { url == files.output.url } else { false }
   }
 }
 

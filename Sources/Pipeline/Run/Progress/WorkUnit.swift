@@ -12,9 +12,9 @@ package struct WorkUnit: Hashable, Sendable {
   package init(stage: PipelineStage, specification: DetailSpecification? = nil) {
     self.stage = stage
     switch stage {
-    case .preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration:
+    case .preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration, .meshGeneration:
       self.specification = nil
-    case .meshGeneration, .textureMapping, .optimization: self.specification = specification
+    case .textureMapping, .optimization: self.specification = specification
     }
   }
 }

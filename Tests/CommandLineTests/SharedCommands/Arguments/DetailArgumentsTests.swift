@@ -17,11 +17,20 @@ import Testing
     #expect(plain.specification == CustomDetail())
   }
 
+  @Test func coarserLevelsAreThoseBelow() throws {
+    #expect(try DetailArguments.parse(["--lod"]).coarserLevels == [.preview])
+    #expect(
+      try DetailArguments.parse(["--lod", "-d", "full"]).coarserLevels
+        == [.preview, .reduced, .medium])
+    #expect(try DetailArguments.parse(["-d", "full"]).coarserLevels.isEmpty)
+  }
+
   @Test(arguments: [
     ["--max-polygons", "12000"], ["-d", "medium", "--texture-side", "2048"],
     ["-d", "custom", "--texture-side", "2000"], ["-d", "custom", "--max-polygons", "0"],
     ["-d", "custom", "--maps", "color,gloss"], ["-d", "custom", "--maps", ""],
     ["-d", "custom", "--texture-format", "jpeg:2"], ["-d", "custom", "--texture-format", "exr"],
+    ["-d", "custom", "--lod"], ["-d", "preview", "--lod"],
   ])
   func invalidLimitsAreRejected(_ arguments: [String]) {
     #expect(throws: (any Error).self) { try DetailArguments.parse(arguments) }

@@ -38,6 +38,31 @@ import Testing
     #expect(last?.fraction == 1)
   }
 
+  /// Each model has a share of the progress, and the time of all is counted.
+  @Test func severalModelsAreOneRun() throws {
+    let coarser = [DetailSpecification(.preview), DetailSpecification(.reduced)]
+    let stages: [PipelineStage] = [.preProcessing, .textureMapping, .optimization]
+    let model = durations()
+    var units = [WorkUnit(stage: .preProcessing)]
+    for specification in coarser + [medium] {
+      units += stages.dropFirst().map { WorkUnit(stage: $0, specification: specification) }
+    }
+    let total = units.reduce(0) { $0 + model.seconds(of: $1) }
+    var tracker = RunProgressTracker(
+      stages: stages, coarserModels: coarser, durations: model, at: 0)
+    var time = 0.0
+    for unit in units {
+      // The end of a stage may be reported twice.
+      for fraction in [0.5, 1, 1] {
+        if fraction == 0.5 { time += model.seconds(of: unit) }
+        let progress = try #require(
+          tracker.update(.progress(unit.stage, fraction: fraction), at: time))
+        if fraction == 1 { #expect(abs(progress.fraction - time / total) < 1e-9) }
+      }
+    }
+    #expect(abs(time - total) < 1e-9)
+  }
+
   @Test func otherStagesAndEventsChangeNothing() {
     var tracker = RunProgressTracker(
       stages: [.preProcessing], durations: durations(), at: 0)
