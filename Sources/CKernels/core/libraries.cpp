@@ -7,6 +7,7 @@
 #include <lcms2.h>
 #include <libdeflate.h>
 #include <libheif/heif.h>
+#include <meshoptimizer.h>
 #include <png.h>
 #include <tiffio.h>
 #include <webp/decode.h>
@@ -56,6 +57,8 @@ std::string make_list() {
   add("libpng", png_get_libpng_ver(nullptr));
   add("libtiff", tiff_version());
   add("libwebp", numbers(webp >> 16, webp >> 8 & 255, webp & 255));
+  add("meshoptimizer", numbers(MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION % 1000 / 10,
+                               MESHOPTIMIZER_VERSION % 10));
   add("nanoflann",
       numbers(NANOFLANN_VERSION >> 8, NANOFLANN_VERSION >> 4 & 15, NANOFLANN_VERSION & 15));
   add("OpenCV", CV_VERSION);
