@@ -10,7 +10,7 @@ struct CompressionArguments: ParsableArguments {
     help: """
       Compress a GLB file to about a seventh, for the web: quantized and compressed geometry, WebP \
       textures. Readers must support EXT_meshopt_compression, KHR_mesh_quantization and \
-      EXT_texture_webp, as three.js, Babylon.js and model-viewer do.
+      EXT_texture_webp, as three.js does; Blender 5.0 does not.
       """)
   var compress = false
 

@@ -61,7 +61,7 @@ import Testing
     let bytes = try GLBFile.encode(
       textured, materials: [], creator: "tests", compressedBy: MeshoptEncoder())
     let plain = try GLBFile.encode(textured, materials: [], creator: "tests")
-    #expect(4 * bytes.count < plain.count)
+    #expect(3 * bytes.count < plain.count)
     let model = try Model(bytes)
     let primitives = try #require(model.list("meshes").first?["primitives"] as? [Object])
     let attributes = try #require(primitives[0]["attributes"] as? [String: Int])

@@ -31,10 +31,22 @@ import Testing
 
   @Test func sharedStagesAreDoneOnce() {
     let plan = RunPlan([model("a", .reduced), model("b", .preview)], configuration: .init())
-    #expect(plan.units.count == 4 + 2 * 3)
+    #expect(plan.units.count == 5 + 2 * 2)
     #expect(
-      plan.units.prefix(4)
-        == [.preProcessing, .alignment, WorkUnit(stage: .objectMasking), .densification])
+      plan.units.prefix(5) == [
+        .preProcessing, .alignment, WorkUnit(stage: .objectMasking), .densification,
+        WorkUnit(stage: .meshGeneration),
+      ])
+  }
+
+  /// Until the finest model is complete, the others are made, too.
+  @Test func workIncludesThatOfEarlierEntries() {
+    let plan = RunPlan(
+      [model("m", .medium), .poses, model("p", .preview)], configuration: .init())
+    #expect(plan.entries.map(\.work.count) == [2, 7, 9])
+    #expect(plan.entries.last?.work == plan.units)
+    #expect(plan.lastFile == model("m", .medium))
+    #expect(RunPlan([.poses], configuration: .init()).lastFile == nil)
   }
 
   @Test func customDetailFollowsTheConfiguration() {

@@ -87,6 +87,29 @@ import Testing
       ])
   }
 
+  /// The lower levels are those that separate exports give; the preview shows the named model.
+  @Test func lowerLevelsAreWritten() throws {
+    try makeCheckpoint()
+    let run = try CommandProcess.run(
+      ["export", "work", "m.glb", "--lod", "--compress", "--preview", "m.png"], in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    #expect(run.output == "m-preview.glb\nm.glb\nm.png\n")
+    let single = try CommandProcess.run(
+      ["export", "work", "s.glb", "-d", "preview", "--compress"], in: folder)
+    #expect(single.exitCode == 0, "\(single.errors)")
+    let contents = try ["m-preview.glb", "s.glb"].map {
+      try Data(contentsOf: folder.appendingPathComponent($0))
+    }
+    #expect(contents[0] == contents[1])
+    #expect(contents[0].range(of: Data("EXT_meshopt_compression".utf8)) != nil)
+  }
+
+  @Test func optionsThatDoNotFitTheOutputAreUsageErrors() throws {
+    try makeCheckpoint()
+    try expectFailure(["work", "m.usdz", "--compress"], code: 2, mentioning: [".glb"])
+    try expectFailure(["work", "m/", "--lod"], code: 2, mentioning: ["--lod", "folder"])
+  }
+
   @Test func croppedQuadsAreWritten() throws {
     try makeCheckpoint()
     let run = try CommandProcess.run(
