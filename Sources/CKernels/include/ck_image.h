@@ -132,7 +132,7 @@ typedef struct {
   bool is_lossless;
   /// 0…100.
   int32_t quality;
-  /// Computes the colors at half the resolution with less loss, in four times the time.
+  /// Computes the colors at half the resolution with less loss, which takes longer.
   bool is_sharp;
 } ck_webp_options;
 

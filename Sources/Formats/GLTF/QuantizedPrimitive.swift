@@ -51,7 +51,7 @@ struct QuantizedPrimitive {
   }
 
   /// 0…1 as 16 bits: an error of at most a sixteenth of a texel with the largest atlases, of 8192
-  /// texels per side. With 12 bits it would be half a texel of an atlas of 2048, which shows.
+  /// texels per side. With 12 bits it would be a quarter of a texel of an atlas of 2048.
   private static func normalized(_ value: Float) -> UInt16 {
     value > 0 ? UInt16((min(value, 1) * 65535).rounded()) : 0
   }
