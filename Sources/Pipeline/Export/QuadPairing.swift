@@ -103,13 +103,20 @@ private struct Quad {
     )
     let t = Self.corners(model.textureTriangles[first])
     let u = Self.corners(model.textureTriangles[second])
+    guard let (i, j) = Self.sharedEdge(v, w),
+      t[i] == u[(j + 1) % 3], t[(i + 1) % 3] == u[j]
+    else { return nil }
+    // d is the opposite corner.
+    corners = [v[(i + 1) % 3], v[(i + 2) % 3], v[i], w[(j + 2) % 3]]
+    texels = [t[(i + 1) % 3], t[(i + 2) % 3], t[i], u[(j + 2) % 3]]
+  }
+
+  /// The edge of two triangles that runs from v[i] to v[i + 1], and from w[j] to w[j + 1] in the
+  /// other direction.
+  private static func sharedEdge(_ v: [UInt32], _ w: [UInt32]) -> (i: Int, j: Int)? {
     for i in 0..<3 {
-      for j in 0..<3 where v[i] == w[(j + 1) % 3] && v[(i + 1) % 3] == w[j] {
-        guard t[i] == u[(j + 1) % 3], t[(i + 1) % 3] == u[j] else { return nil }
-        // The shared edge runs from v[i] to v[i + 1]; d is the opposite corner.
-        corners = [v[(i + 1) % 3], v[(i + 2) % 3], v[i], w[(j + 2) % 3]]
-        texels = [t[(i + 1) % 3], t[(i + 2) % 3], t[i], u[(j + 2) % 3]]
-        return
+      if let j = (0..<3).first(where: { v[i] == w[($0 + 1) % 3] && v[(i + 1) % 3] == w[$0] }) {
+        return (i, j)
       }
     }
     return nil
