@@ -4,6 +4,7 @@ import SceneModel
 /// Properties of the camera: its lens, and its automatic exposure from photo to photo.
 package struct Photography: Sendable {
   /// Fraction of a pixel's light received by each of its four neighbors: the blur of a good lens.
+  /// Chosen.
   package var blur: Float = 0.08
   /// Exposures are distributed evenly up to this number of stops in both directions.
   package var exposureStops: Double = 0

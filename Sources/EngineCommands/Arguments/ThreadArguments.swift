@@ -1,12 +1,12 @@
 import ArgumentParser
-import Foundation
+import Pipeline
 
 /// The number of threads.
 struct ThreadArguments: ParsableArguments {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "Number of threads; does not affect the result. (default: all processors)",
+      "Number of threads; does not affect the result. (default: all usable processors)",
       valueName: "count"))
   var threads: Int?
 
@@ -17,5 +17,5 @@ struct ThreadArguments: ParsableArguments {
   }
 
   /// The number of threads to use.
-  var threadCount: Int { threads ?? ProcessInfo.processInfo.activeProcessorCount }
+  var threadCount: Int { threads ?? ProcessorShare.current.threads }
 }

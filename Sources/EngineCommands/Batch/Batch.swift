@@ -196,7 +196,7 @@ extension Batch {
   private func options(openDatasets: Int) -> BatchRunner.Options {
     let plan = BatchPlan(
       datasets: openDatasets, requestedJobs: jobs, requestedThreads: threads,
-      processors: ProcessInfo.processInfo.activeProcessorCount,
+      processors: ProcessorShare.current.threads,
       memory: Machine.current.availableMemoryBytes,
       memoryOfJob: detail.detail.expectedMemoryBytes)
     if plan.isLimitedByMemory {

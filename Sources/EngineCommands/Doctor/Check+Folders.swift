@@ -2,7 +2,8 @@ import Pipeline
 import SharedCommands
 
 extension Check {
-  /// A set of usual size, to which the space is compared.
+  /// A set of usual size, to which the space is compared. Chosen, in the middle of the 20 to 200
+  /// photos that are recommended.
   private static let usualPhotos = 100
   /// The smallest set that is recommended.
   private static let fewPhotos = 20

@@ -3,9 +3,10 @@ import SceneModel
 /// Unit vectors in four bytes, for the filter `OCTAHEDRAL` of `EXT_meshopt_compression`.
 ///
 /// The sphere is projected to an octahedron that is unfolded to a square (Meyer et al., EGSR 2010).
-/// With 8 bits the error is at most 0.9°; more bits would need twice the memory, and the baked
-/// normal map has the fine relief.
+/// With 8 bits the error is at most 0.9°, and 1.2° after the decoder has rounded to bytes again;
+/// more bits would need twice the memory, and the baked normal map has the fine relief.
 enum OctahedralNormal {
+  /// The normalized byte for 1.
   private static let one: Float = 127
 
   /// The two coordinates in the square, the value of 1, and a zero. The vector (0, 1, 0) replaces

@@ -30,7 +30,7 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   /// The PNG file of a preview that shows each model from several sides; nil renders none.
   package var previewFile: URL?
   /// The number of threads of all stages; does not affect the results.
-  package var threadCount: Int = ProcessInfo.processInfo.activeProcessorCount
+  package var threadCount: Int = ProcessorShare.current.threads
 
   /// The defaults, within the limits of a machine: every configuration of a session or a command
   /// starts from them.

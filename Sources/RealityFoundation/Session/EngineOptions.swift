@@ -4,7 +4,7 @@ import Pipeline
 /// Options of this engine beyond Apple's configuration.
 package struct EngineOptions: Equatable, Sendable {
   /// The number of threads of all stages; does not affect the results.
-  package var threadCount = ProcessInfo.processInfo.activeProcessorCount
+  package var threadCount = ProcessorShare.current.threads
   /// Whether to close the surface of an isolated object where no photo shows it.
   package var closesObject = true
   /// Whether to fit the finished surface to the photos at a higher resolution.

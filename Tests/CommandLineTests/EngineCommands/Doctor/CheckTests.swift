@@ -45,7 +45,7 @@ import Testing
     }
   }
 
-  @Test func threadsAreLimitedByAffinityAndQuota() throws {
+  @Test func threadsAreLimitedByAffinityAndQuota() {
     func check(_ installed: Int, _ usable: Int, _ quota: Double?) -> Check {
       .threads(ProcessorShare(installed: installed, usable: usable, quota: quota))
     }
@@ -53,10 +53,8 @@ import Testing
     #expect(check(1, 1, 4) == Check(.threads, .ok, "1 processor may be used."))
     let job = check(64, 4, nil)
     #expect(job.status == .note && job.text.hasPrefix("4 of 64 processors"))
-    #expect(try #require(job.remedy).contains("--threads 4"))
     let container = check(8, 8, 1.5)
-    #expect(container.status == .note && container.text.contains("1.5"))
-    #expect(try #require(container.remedy).contains("--threads 2"))
+    #expect(container.status == .note && container.text.contains("1.5: a run has 2 threads"))
   }
 
   @Test func theBestInstructionsAreNamed() throws {

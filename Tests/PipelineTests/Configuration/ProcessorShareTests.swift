@@ -1,6 +1,6 @@
 import Testing
 
-@testable import EngineCommands
+@testable import Pipeline
 
 @Suite struct ProcessorShareTests {
   @Test(arguments: [

@@ -1,20 +1,25 @@
 import Foundation
 
 /// The processors that the process may use.
-struct ProcessorShare: Equatable {
-  /// Processors of the machine: the number of threads of a run without `--threads`.
-  var installed: Int
+package struct ProcessorShare: Equatable, Sendable {
+  /// Processors of the machine.
+  package var installed: Int
   /// Processors that the process may run on: its affinity.
-  var usable: Int
+  package var usable: Int
   /// Processor seconds per second that the control groups of the process allow; nil without a
   /// limit.
-  var quota: Double?
+  package var quota: Double?
 
-  /// The number of threads that can work at the same time, at least 1.
-  var threads: Int { max(1, min(usable, Int((quota ?? .infinity).rounded(.up).clamped))) }
+  package init(installed: Int, usable: Int, quota: Double?) {
+    (self.installed, self.usable, self.quota) = (installed, usable, quota)
+  }
 
-  /// Of this process.
-  static var current: ProcessorShare {
+  /// The number of threads that can work at the same time, at least 1: that of a run, unless the
+  /// user chooses one.
+  package var threads: Int { max(1, min(usable, Int((quota ?? .infinity).rounded(.up).clamped))) }
+
+  /// Of this process, when it was first asked for.
+  package static let current: ProcessorShare = {
     func read(_ path: String) -> String? { try? String(contentsOfFile: path, encoding: .utf8) }
     let groups = controlGroups(read("/proc/self/cgroup") ?? "")
     // `activeProcessorCount` counts all processors that are switched on, whatever the affinity.
@@ -22,7 +27,7 @@ struct ProcessorShare: Equatable {
     return ProcessorShare(
       installed: active, usable: affinity(read("/proc/self/status") ?? "") ?? active,
       quota: groups.compactMap { read($0 + "/cpu.max").flatMap(quota(in:)) }.min())
-  }
+  }()
 
   /// The number of processors in the line `Cpus_allowed_list`, such as `0-3,8`, of a process's
   /// `status` file; nil if it can't be parsed.
