@@ -19,7 +19,7 @@ extension Check {
       remedy: failed.allSatisfy { [.heic, .avif].contains($0) }
         ? "Install the decoders of libheif (Debian 13: libheif-plugin-libde265 and "
           + "libheif-plugin-aomdec), or convert such photos to JPEG."
-        : "Reinstall the program; if you compiled it, run scripts/setup, which installs the libraries."
+        : "Reinstall the program; if you compiled it, run scripts/setup."
     )
   }
 }

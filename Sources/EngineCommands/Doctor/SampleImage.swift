@@ -12,8 +12,8 @@ struct SampleImage {
   let base64: String
 
   static let colors = (left: SIMD3<Int>(200, 80, 40), right: SIMD3<Int>(40, 80, 200))
-  /// The largest permitted difference of a channel. Chosen: lossy compression changes the samples by
-  /// less, and the two colors are 160 apart.
+  /// The largest permitted difference of a channel. Chosen: lossy compression changes the samples
+  /// by less, and the two colors are 160 apart.
   static let tolerance = 24
 
   /// The content of the file.
