@@ -70,7 +70,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"), .linkedLibrary("embree3"),
-        .linkedLibrary("meshoptimizer"),
+        .linkedLibrary("meshoptimizer"), .linkedLibrary("dl"),
       ]),
     systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
     systemLibrary("CEigen", pkgConfig: "eigen3", apt: ["libeigen3-dev"]),
@@ -90,6 +90,9 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     .target(name: "Kernels", dependencies: ["CKernels", "SceneModel"], swiftSettings: strict),
     .target(
       name: "ImageFiles", dependencies: ["CKernels", "Kernels", "SceneModel"],
+      swiftSettings: strict),
+    .target(
+      name: "VideoFiles", dependencies: ["CKernels", "Kernels", "ImageFiles", "SceneModel"],
       swiftSettings: strict),
     .target(
       name: "Pipeline", dependencies: ["Kernels", "ImageFiles", "Formats", "SceneModel"],
@@ -126,7 +129,8 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "EngineCommands",
       dependencies: [
         argumentParser, logging, "SharedCommands", "RealityFoundation", "Pipeline",
-        "SceneRendering", "ImageFiles", "Kernels", "Evaluation", "Formats", "SceneModel",
+        "SceneRendering", "VideoFiles", "ImageFiles", "Kernels", "Evaluation", "Formats",
+        "SceneModel",
       ],
       swiftSettings: strict),
     .target(
@@ -162,6 +166,12 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       dependencies: ["DamagedInput", "ImageFiles", "Kernels", "SceneModel", "TestSupport"],
       swiftSettings: strict),
     .testTarget(
+      name: "VideoFilesTests",
+      dependencies: [
+        "DamagedInput", "VideoFiles", "ImageFiles", "Kernels", "SceneModel", "TestSupport",
+      ],
+      swiftSettings: strict),
+    .testTarget(
       name: "AppleModulesTests",
       dependencies: [
         "BitmapGraphics", "Combine", "CoreFoundationTypes", "CoreImage", "CoreMotion", "CoreVideo",
@@ -187,8 +197,8 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "CommandLineTests",
       dependencies: [
         argumentParser, "photogrammetry-cli", "SharedCommands", "EngineCommands", "Evaluation",
-        "Formats", "Pipeline", "ImageFiles", "Kernels", "RealityFoundation", "RealityKit",
-        "SceneModel", "TestLevels", "TestSupport",
+        "Formats", "Pipeline", "VideoFiles", "ImageFiles", "Kernels", "RealityFoundation",
+        "RealityKit", "SceneModel", "TestLevels", "TestSupport",
       ],
       exclude: ["Snapshots"], swiftSettings: strict),
   ]

@@ -160,6 +160,12 @@ package struct RenderedScene: Sendable {
     return before
   }
 
+  /// The light that arrives along a ray as `ray(through:of:)` returns it, per channel, linear.
+  package func radiance(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> SIMD3<Float>
+  {
+    sight(along: ray).radiance
+  }
+
   private func sight(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> Sight {
     guard let hit = caster.hit(from: ray.origin, along: ray.direction) else {
       // A plain background without detail, slightly lighter toward the top.
@@ -186,7 +192,7 @@ package struct RenderedScene: Sendable {
   }
 
   /// sRGB transfer function.
-  static func encode(_ linear: Double) -> Double {
+  package static func encode(_ linear: Double) -> Double {
     let value = min(max(linear, 0), 1)
     return value <= 0.003_130_8 ? 12.92 * value : 1.055 * pow(value, 1 / 2.4) - 0.055
   }

@@ -12,6 +12,7 @@ import TestSupport
 //   render-fixtures <folder> captures [seed] [object,…|all] [capture,…|all] [surroundings,…|all]
 //   render-fixtures <folder> loudspeaker [seed] [still|hand]
 //   render-fixtures <folder> wallpaper [seed]
+//   render-fixtures <folder> video [seed] [frames]
 //
 // `captures` writes a set `<object>-<capture>-<surroundings>` per combination, with exact masks, to
 // compare kinds of capture: the seed is 1 by default; the other names are the cases of
@@ -22,6 +23,10 @@ import TestSupport
 // hardly any texture on a wooden table, whose grain connects the photos although the object is
 // turned; both motions by default. `wallpaper` writes `wallpaper-<seed>`: frames of a video of an
 // object in front of a flower that repeats on a lattice.
+//
+// `video` writes `video-<seed>`: a video of 30 s, encoded with the program ffmpeg, with motion blur
+// and rolling shutter, of a walk around the statue of the dense stage. With the folder that
+// `photogrammetry-cli frames` made of it, it writes still photos of the same moments instead.
 //
 // The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
 // is not part of the surface. Those of captures are z-up as well.
@@ -61,6 +66,15 @@ case "loudspeaker":
 case "wallpaper":
   let seed = try CaptureSelection.seed(words.dropFirst().first)
   try write(.wallpaper(seed: seed), "wallpaper-\(seed)")
+case "video":
+  let seed = try CaptureSelection.seed(words.dropFirst().first)
+  let set = VideoSet(video: WalkAroundVideo(seed: seed))
+  let target = folder.appendingPathComponent("video-\(seed)", isDirectory: true)
+  if let frames = words.dropFirst(2).first {
+    try set.writeStills(of: URL(fileURLWithPath: frames, isDirectory: true), to: target, control)
+  } else {
+    try set.write(to: target, control)
+  }
 default:
   try write(PhotoSet(scene: .statue(), quality: 0.82), "orbit")
   try write(PhotoSet(scene: .relief(), hasMetadata: false, quality: 0.85), "relief")

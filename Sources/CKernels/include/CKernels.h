@@ -31,5 +31,6 @@
 #include "ck_testing.h"
 #include "ck_texture.h"
 #include "ck_two_view.h"
+#include "ck_video.h"
 
 #endif

@@ -7,6 +7,8 @@ import SharedCommands
 
 /// Options of `reconstruct` that only this project's engine has.
 package struct PipelineArguments: EngineArguments {
+  @OptionGroup var video: VideoArguments
+
   @OptionGroup var preview: PreviewArguments
 
   @OptionGroup var compression: CompressionArguments

@@ -2,7 +2,7 @@
 struct Check: Codable, Equatable {
   /// What is checked. The raw values are part of the output of `--json`.
   enum Subject: String, Codable, CaseIterable {
-    case version, memory, threads, instructions, imageFormats
+    case version, memory, threads, instructions, imageFormats, video
     case temporaryFolder, currentFolder, scheduler, terminal
 
     /// The subject in the table.

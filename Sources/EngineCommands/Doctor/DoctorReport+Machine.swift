@@ -2,6 +2,7 @@ import Foundation
 import Kernels
 import Pipeline
 import RealityFoundation
+import VideoFiles
 
 extension DoctorReport {
   /// Checks this machine. Decodes images, and creates and removes a temporary folder.
@@ -15,6 +16,7 @@ extension DoctorReport {
       .threads(.current),
       .instructions(Instructions.supported, of: machine),
       .imageFormats(failures: SampleImage.failures()),
+      .video(.current),
       .temporaryFolder(.temporary),
       .currentFolder(.current),
       .scheduler(

@@ -13,7 +13,7 @@ package enum PipelineEngine: EngineSupport {
   package static var commands: [any ParsableCommand.Type] {
     [
       Batch.self, Align.self, Densify.self, Export.self, Inspect.self, Doctor.self,
-      Demo<Self>.self,
+      Frames.self, Demo<Self>.self,
     ]
   }
   package static let modelFormats = ModelFormat.files
@@ -83,6 +83,8 @@ extension PipelineEngine {
         photogrammetry-cli photos/ shop.glb -d custom --max-polygons 20000 \\
             --texture-side 1024 --maps color --texture-format jpeg:0.7
             Custom limits, for a web shop.
+        photogrammetry-cli clip.mov model.usdz
+            Of a video: sharp frames at even distances become photos.
 
       """
     help.outputs = """
@@ -93,8 +95,10 @@ extension PipelineEngine {
         model/      folder with OBJ, MTL, USDA and textures
 
       """
-    help.input = [MaskOutputArguments.help, MaskArguments.help, ScaleArguments.help]
-      .joined(separator: "\n")
+    help.input = [
+      VideoArguments.help, MaskOutputArguments.help, MaskArguments.help, ScaleArguments.help,
+    ]
+    .joined(separator: "\n")
     help.events = """
         plan                 with --dry-run: path, photos, expectedSeconds,
                              memoryBytes, diskBytes

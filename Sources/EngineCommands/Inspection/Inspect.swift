@@ -49,7 +49,7 @@ struct Inspect: ParsableCommand {
     threading.apply(to: &configuration)
     try masking.apply(to: &configuration)
     alignment.apply(to: &configuration)
-    let reporter = ProgressBox(RunReporter(logging.style()))
+    let reporter = ProgressBox(RunReporter(logging.style()), stage: .preProcessing)
     let control = KernelControl(threadCount: configuration.threadCount) { reporter.update($0) }
     let ingested = try PhotoIngestion(configuration.ingestion).run(
       folder: folder, StageContext(control: control))
@@ -71,19 +71,4 @@ struct Inspect: ParsableCommand {
     }
     try report.checkCount()
   }
-}
-
-/// A reporter that any thread may use.
-private final class ProgressBox: Sendable {
-  private let reporter: Locked<RunReporter>
-
-  init(_ reporter: RunReporter) { self.reporter = Locked(reporter) }
-
-  func update(_ fraction: Double) {
-    reporter.withLock {
-      $0.update(RunProgress(fraction: fraction, stage: .preProcessing, remaining: nil))
-    }
-  }
-
-  func finish() { reporter.withLock { $0.finish() } }
 }

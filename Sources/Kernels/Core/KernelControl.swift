@@ -58,7 +58,7 @@ package final class KernelControl: Sendable {
   }
 
   /// A copy that reports no progress.
-  var withoutProgress: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
+  package var withoutProgress: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
 
   /// Reports progress; returns false if the run is canceled.
   fileprivate func shouldContinue(at fraction: Double) -> Bool {

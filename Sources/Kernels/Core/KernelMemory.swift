@@ -77,7 +77,7 @@ extension RasterImage {
   }
 
   /// Calls `body` with the writable pixels, valid only during the call.
-  mutating func withMutableKernelPixels<Result>(
+  package mutating func withMutableKernelPixels<Result>(
     _ body: (UnsafePointer<ck_mutable_pixels>) throws -> Result
   ) rethrows -> Result {
     let (width, height, channels) = (Int32(width), Int32(height), Int32(channels))

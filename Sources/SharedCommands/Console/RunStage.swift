@@ -1,5 +1,7 @@
 /// The stages of a run as `--json` names them.
 package enum RunStage: String, CaseIterable, Codable, Sendable {
+  /// Photos are made of a video, before the run.
+  case frameSelection
   case preProcessing, imageAlignment, pointCloudGeneration, meshGeneration, textureMapping
   case optimization
   /// Triangulation of points with known cameras.
@@ -8,6 +10,7 @@ package enum RunStage: String, CaseIterable, Codable, Sendable {
   /// The stage in progress lines.
   var title: String {
     switch self {
+    case .frameSelection: "choosing frames"
     case .preProcessing: "reading photos"
     case .imageAlignment: "aligning photos"
     case .pointCloudGeneration: "generating points"

@@ -37,6 +37,14 @@ package enum AppleEngine: EngineSupport {
   package static let versions =
     "RealityKit of macOS \(ProcessInfo.processInfo.operatingSystemVersionString)"
 
+  package static func input(_ path: String) throws -> PhotoInput {
+    .folder(try PhotoFolderArgument(path).url)
+  }
+
+  package static func photos(
+    of video: URL, _ arguments: ReconstructArguments<Arguments>, _ reporter: RunReporter
+  ) throws -> InputPhotos { InputPhotos(video) }
+
   package static func prepareProcess() {}
 
   package static func isTransient(_ error: any Error) -> Bool { false }

@@ -21,6 +21,14 @@ package protocol EngineSupport: Sendable {
   /// The engine and the libraries in it with their versions, one per line.
   static var versions: String { get }
 
+  /// What `path`, the first argument of `reconstruct`, names. Throws a `CommandFailure` if it can't
+  /// be used.
+  static func input(_ path: String) throws -> PhotoInput
+  /// The photos that are made of a video, if `input` finds one. Throws a `CommandFailure`.
+  static func photos(
+    of video: URL, _ arguments: ReconstructArguments<Arguments>, _ reporter: RunReporter
+  ) throws -> InputPhotos
+
   /// Prepares the process of the command line; called once, before any command.
   static func prepareProcess()
   /// Whether another attempt may succeed after `error`.

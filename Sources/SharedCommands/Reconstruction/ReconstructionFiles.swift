@@ -2,9 +2,9 @@ import Formats
 import Foundation
 import SceneModel
 
-/// The folder that `reconstruct` reads and the files that it writes.
+/// What `reconstruct` reads and the files that it writes.
 struct ReconstructionFiles {
-  let input: URL
+  let input: PhotoInput
   let output: ModelOutput
   /// Coarse to fine.
   let coarserModels: [CoarserModel]
@@ -14,8 +14,10 @@ struct ReconstructionFiles {
   let additional: EngineOutputs
 
   /// Checks all paths; throws a `CommandFailure`. `formats` are those of model files.
-  init<Engine>(_ arguments: ReconstructArguments<Engine>, formats: [ModelFormat]) throws {
-    input = try PhotoFolderArgument(arguments.inputFolder).url
+  init<Engine>(
+    _ arguments: ReconstructArguments<Engine>, input: PhotoInput, formats: [ModelFormat]
+  ) throws {
+    self.input = input
     output = try ModelOutput(arguments.output, formats: formats)
     coarserModels = try CoarserModel.all(arguments.detail, nextTo: output)
     try arguments.engine.check(output, arguments.detail)

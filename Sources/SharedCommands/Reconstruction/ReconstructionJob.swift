@@ -13,18 +13,20 @@ struct ReconstructionJob<Engine: EngineSupport> {
   /// Checks all paths; throws a `CommandFailure`.
   init(_ arguments: ReconstructArguments<Engine.Arguments>) throws {
     self.arguments = arguments
-    files = try ReconstructionFiles(arguments, formats: Engine.modelFormats)
+    files = try ReconstructionFiles(
+      arguments, input: Engine.input(arguments.inputFolder), formats: Engine.modelFormats)
   }
 
   /// Runs to the end; throws a `CommandFailure` if a requested result is missing or suspect.
   func run(_ reporter: RunReporter) async throws {
     guard PhotogrammetrySession.isSupported else { throw Engine.unsupportedMachine }
+    let photos = try photoFolder(reporter)
     if arguments.engine.isDryRun {
-      return try Engine.dryRun(arguments, photos: files.input, output: files.output, reporter)
+      return try Engine.dryRun(arguments, photos: photos.url, output: files.output, reporter)
     }
     ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
-    let session = try PhotogrammetrySession(input: files.input, configuration: configuration)
-    try arguments.engine.configure(session, photos: files.input)
+    let session = try PhotogrammetrySession(input: photos.url, configuration: configuration)
+    try arguments.engine.configure(session, photos: photos.url)
     var run = SessionRun<Engine>(files: files, reporter: reporter)
     do {
       try await follow(session, &run)
@@ -48,6 +50,14 @@ struct ReconstructionJob<Engine: EngineSupport> {
         Engine.addCounts(of: session, to: &event)
       })
     logger.info("Done in \(RunProgress.duration(reporter.elapsed)).")
+  }
+
+  /// The folder of the photos, made of a video if there is one.
+  private func photoFolder(_ reporter: RunReporter) throws -> InputPhotos {
+    switch files.input {
+    case .folder(let url): InputPhotos(url)
+    case .video(let url): try Engine.photos(of: url, arguments, reporter)
+    }
   }
 
   /// Processes the requests and records all outputs; throws if an interrupt ended the session.

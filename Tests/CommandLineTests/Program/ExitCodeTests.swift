@@ -33,7 +33,11 @@ import Testing
     try expectFailure(
       ["photos", "m.usdz", "-d", "huge"], code: 2, mentioning: ["huge", "preview"])
     try expectFailure(["nowhere", "m.usdz"], code: 2, mentioning: ["nowhere", "does not exist"])
-    try expectFailure(["file", "m.usdz"], code: 2, mentioning: ["file is a file"])
+    try expectFailure(["inspect", "file"], code: 2, mentioning: ["file is a file"])
+    let photo = try #require(
+      try FileManager.default.contentsOfDirectory(atPath: folder.path + "/photos").first)
+    try expectFailure(
+      ["photos/\(photo)", "m.usdz"], code: 2, mentioning: ["is a file", "photos: photos"])
     try expectFailure(
       ["photos", "m.obj"], code: 2, mentioning: [".obj", ".usdz", ".glb", "slash"])
     try expectFailure(["photos", ".usdz"], code: 2, mentioning: ["no name"])

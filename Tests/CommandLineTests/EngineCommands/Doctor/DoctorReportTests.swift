@@ -39,8 +39,8 @@ import Testing
     #expect(checks[1].keys.sorted() == ["name", "remedy", "status", "text"])
     #expect(
       Check.Subject.allCases.map(\.rawValue) == [
-        "version", "memory", "threads", "instructions", "imageFormats", "temporaryFolder",
-        "currentFolder", "scheduler", "terminal",
+        "version", "memory", "threads", "instructions", "imageFormats", "video",
+        "temporaryFolder", "currentFolder", "scheduler", "terminal",
       ])
     #expect(Check.Status.allCases.map(\.rawValue) == ["ok", "note", "problem"])
   }

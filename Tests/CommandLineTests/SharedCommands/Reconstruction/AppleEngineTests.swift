@@ -34,7 +34,7 @@ import Testing
       try ReconstructionFiles(
         try ReconstructArguments<AppleEngine.Arguments>.parse([
           path + "/photos", path + "/" + output,
-        ]), formats: AppleEngine.modelFormats)
+        ]), input: AppleEngine.input(path + "/photos"), formats: AppleEngine.modelFormats)
     }
     #expect(try files("m.usdz").output.format == .usdz)
     #expect(try files("m/").output.format == .folder)

@@ -1,0 +1,34 @@
+import ArgumentParser
+import VideoFiles
+
+/// Which frames of a video become photos.
+struct VideoArguments: ParsableArguments {
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      """
+      Number of photos made of a video, from 3 to 1000. (default: by the camera's path, 40 to 250)
+      """, valueName: "count"))
+  var frames: Int?
+
+  func validate() throws {
+    if let frames, !(3...1000).contains(frames) {
+      throw ValidationError("--frames must be from 3 to 1000.")
+    }
+  }
+
+  var options: VideoFrames.Options {
+    var options = VideoFrames.Options()
+    options.count = frames
+    return options
+  }
+
+  static let help = """
+    VIDEOS
+      A video that was filmed in one slow walk around the object, in MP4, QuickTime, Matroska,
+      AVI or MPEG format. Its frames become photos: the sharpest ones at even distances along
+      the camera's path. 'photogrammetry-cli frames clip.mov photos/' saves them. Photos have
+      more detail than videos, and a still camera no motion blur.
+
+    """
+}
