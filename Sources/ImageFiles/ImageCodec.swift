@@ -23,6 +23,12 @@ package enum ImageCodec {
     package var maximumFileSize = 1 << 30
 
     package init() {}
+
+    /// For a decoder.
+    var kernelLimits: ck_decode_limits {
+      ck_decode_limits(
+        maximum_side: Int32(clamping: maximumSide), maximum_pixels: Int64(maximumPixels))
+    }
   }
 
   /// The content of a regular file. Throws `unreadable`.
@@ -114,13 +120,10 @@ package enum ImageCodec {
       case .webP: ck_codec_webp
       case .bmp: ck_codec_bmp
       }
-    let rawLimits = ck_decode_limits(
-      maximum_side: Int32(clamping: limits.maximumSide),
-      maximum_pixels: Int64(limits.maximumPixels))
     var image: OpaquePointer?
     do {
       try withKernel(KernelControl()) { _ in
-        withUnsafePointer(to: rawLimits) { body(codec, $0, &image) }
+        withUnsafePointer(to: limits.kernelLimits) { body(codec, $0, &image) }
       }
     } catch KernelError.invalidArgument {
       throw header.format.unsupportedVariant
@@ -185,6 +188,8 @@ package enum ImageCodec {
     package var exif: [UInt8] = []
     /// An ICC profile; empty means sRGB.
     package var colorProfile: [UInt8] = []
+    /// An XMP packet.
+    package var xmp: [UInt8] = []
 
     package init() {}
   }
@@ -196,13 +201,16 @@ package enum ImageCodec {
     var encoded: OpaquePointer?
     try content.exif.withUnsafeBufferPointer { exif in
       try content.colorProfile.withUnsafeBufferPointer { profile in
-        var options = ck_heif_options(
-          quality: percent(content.quality), orientation: Int32(clamping: content.orientation),
-          exif: exif.isEmpty ? nil : exif.baseAddress, exif_count: exif.count,
-          color_profile: profile.isEmpty ? nil : profile.baseAddress,
-          color_profile_count: profile.count)
-        try withKernel(KernelControl()) { _ in
-          image.withKernelPixels { ck_heif_encode($0, &options, &encoded) }
+        try content.xmp.withUnsafeBufferPointer { xmp in
+          var options = ck_heif_options(
+            quality: percent(content.quality), orientation: Int32(clamping: content.orientation),
+            exif: exif.isEmpty ? nil : exif.baseAddress, exif_count: exif.count,
+            color_profile: profile.isEmpty ? nil : profile.baseAddress,
+            color_profile_count: profile.count,
+            xmp: xmp.isEmpty ? nil : xmp.baseAddress, xmp_count: xmp.count)
+          try withKernel(KernelControl()) { _ in
+            image.withKernelPixels { ck_heif_encode($0, &options, &encoded) }
+          }
         }
       }
     }

@@ -33,6 +33,14 @@ package struct PhotoMetadata: Hashable, Sendable {
   package var position: GeographicPosition?
   /// As stored: "2024:05:17 12:34:56".
   package var captureTime: String?
+  /// What the accelerometer of an iPhone measured while its back camera took the photo, in units of
+  /// the gravity of Earth, in the frame of Core Motion: x right and y up on the screen, z toward
+  /// the user. At rest this is the direction of gravity: (0, −1, 0) for a phone held upright.
+  ///
+  /// ExifTool describes the axes as reversed, because it takes the values for accelerations in the
+  /// sense of physics. Photos with an orientation agree with Core Motion: those of an upright phone
+  /// (6) have y ≈ −1, those of a phone on its left edge (1) have x ≈ −1.
+  package var acceleration: SIMD3<Double>?
 
   package init() {}
 
@@ -60,6 +68,8 @@ package struct PhotoMetadata: Hashable, Sendable {
     originalHeight = exif.integer(TIFFTag.pixelHeight).flatMap { $0 > 0 ? $0 : nil }
     captureTime = exif.text(TIFFTag.dateTimeOriginal) ?? image.text(TIFFTag.dateTime)
     position = Self.position(Fields(tiff, image.integer(TIFFTag.gpsDirectory) ?? 0))
+    // The front camera looks the other way, and its photos may be mirrored.
+    if lens?.contains("front") != true { acceleration = exif.acceleration }
   }
 
   /// Pixels per millimeter. Resolution units 2 and none: inch; 3: centimeter; 4: millimeter; 5:
@@ -99,6 +109,18 @@ private struct Fields {
   private func entry(_ tag: Int) -> TIFFStructure.Entry? { entries.first { $0.tag == tag } }
 
   func integer(_ tag: Int) -> Int? { entry(tag).flatMap { tiff.integer($0) } }
+
+  /// The reading of the accelerometer in the maker note of an EXIF directory.
+  var acceleration: SIMD3<Double>? {
+    guard let note = entry(TIFFTag.makerNote),
+      let directory = TIFFStructure(appleMakerNote: note, in: tiff),
+      let vector = directory.entries(ofDirectoryAt: directory.firstDirectory)
+        .first(where: { $0.tag == TIFFTag.accelerationVector }),
+      let x = directory.number(vector, 0), let y = directory.number(vector, 1),
+      let z = directory.number(vector, 2)
+    else { return nil }
+    return SIMD3(x, y, z)
+  }
 
   func text(_ tag: Int) -> String? { entry(tag).flatMap { tiff.text($0) } }
 

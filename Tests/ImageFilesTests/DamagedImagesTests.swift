@@ -8,7 +8,7 @@ import Testing
 /// Damaged image files give a value or an error. A parser that traps ends the test process.
 @Suite struct DamagedImagesTests {
   enum Sample: String, CaseIterable, CustomTestStringConvertible {
-    case jpeg, png, tiff, heic, webP, bmp
+    case jpeg, iPhone, png, tiff, heic, webP, bmp
 
     var testDescription: String { rawValue }
 
@@ -25,6 +25,12 @@ import Testing
       switch self {
       case .jpeg:
         return ExifWriter.jpeg(try ImageCodec.encodeJPEG(image, quality: 0.8), with: fields)
+      case .iPhone:
+        let exif = AppleExifWriter.tiff(orientation: 6, acceleration: [0, -1, 0])
+        let segment =
+          [0xFF, 0xE1] + bigEndian(exif.count + 8, 2) + Array("Exif\0\0".utf8) + exif
+        let jpeg = try ImageCodec.encodeJPEG(image, quality: 0.8)
+        return Array(jpeg.prefix(2)) + segment + jpeg.dropFirst(2)
       case .png: return try ImageCodec.encodePNG(image)
       case .tiff: return ExifWriter.tiff(fields)
       case .heic:
@@ -77,7 +83,8 @@ import Testing
     let bytes = try sample.bytes()
     // The TIFF structure has metadata only.
     #expect(inspect(bytes) == (sample != .tiff))
-    if sample != .png, sample != .bmp {
+    if sample == .iPhone { #expect(PhotoMetadata(bytes).acceleration == [0, -1, 0]) }
+    if ![.png, .bmp, .iPhone].contains(sample) {
       let metadata = PhotoMetadata(bytes)
       #expect(metadata.make == "Maker" && metadata.sensorOrientation == 6)
       #expect(metadata.position?.altitude == -12.5)

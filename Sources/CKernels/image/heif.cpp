@@ -10,35 +10,13 @@ namespace ck {
 namespace {
 
 using namespace heif;
-using DecodingOptions = std::unique_ptr<heif_decoding_options, Free<heif_decoding_options_free>>;
-
-/// The primary image of a file; `bytes` must outlive it.
-struct Primary {
-  Context context = make_context();
-  Handle handle;
-
-  Primary(const uint8_t* bytes, size_t count) {
-    require(bytes && count > 0, "the file is empty");
-    check(heif_context_read_from_memory_without_copy(context.get(), bytes, count, nullptr));
-    heif_image_handle* primary = nullptr;
-    check(heif_context_get_primary_image_handle(context.get(), &primary));
-    handle.reset(primary);
-  }
-
-  int width() const { return heif_image_handle_get_width(handle.get()); }
-  int height() const { return heif_image_handle_get_height(handle.get()); }
-  bool has_alpha() const { return heif_image_handle_has_alpha_channel(handle.get()); }
-};
 
 /// Decodes to `channels` bytes per pixel, 3 or 4, in upright orientation.
 void decode(const uint8_t* bytes, size_t count, size_t channels, const ck_decode_limits& limits,
             ck_image& image) {
   const Primary primary(bytes, count);
   require_within(limits, primary.width(), primary.height());
-  DecodingOptions options(heif_decoding_options_alloc());
-  if (!options) throw std::bad_alloc();
-  options->convert_hdr_to_8bit = 1;
-  options->strict_decoding = 1;
+  const DecodingOptions options = make_decoding_options();
   heif_image* decoded = nullptr;
   check(heif_decode_image(
       primary.handle.get(), &decoded, heif_colorspace_RGB,

@@ -67,6 +67,10 @@ ck_status ck_heif_encode(const ck_pixels* pixels, const ck_heif_options* options
       check(heif_context_add_exif_metadata(context.get(), made, options->exif,
                                            static_cast<int>(options->exif_count)));
     }
+    if (options->xmp) {
+      check(heif_context_add_XMP_metadata(context.get(), made, options->xmp,
+                                          static_cast<int>(options->xmp_count)));
+    }
     auto result = std::make_unique<ck_bytes>();
     heif_writer writer{1, append};
     check(heif_context_write(context.get(), &writer, &result->data));

@@ -83,6 +83,13 @@ ck_status ck_heif_inspect(const uint8_t* bytes, size_t byte_count, ck_heif_info*
 ck_status ck_heif_read(const uint8_t* bytes, size_t byte_count, ck_heif_block which,
                        ck_bytes** block);
 
+/// Decodes the depth or disparity map that a HEIF file has for its primary image, upright. `map`
+/// receives the samples as 32-bit floating-point numbers from 0 to 1, without pixels if there is no
+/// map; `description` receives the XMP packet about the map, without bytes if there is none.
+ck_status ck_heif_decode_depth(const uint8_t* bytes, size_t byte_count,
+                               const ck_decode_limits* limits, ck_image** map,
+                               ck_bytes** description);
+
 /// Options of HEIC encoding.
 typedef struct {
   /// Lossy quality, 0…100.
@@ -95,6 +102,9 @@ typedef struct {
   /// An ICC profile, or null.
   const uint8_t* color_profile;
   size_t color_profile_count;
+  /// An XMP packet, or null.
+  const uint8_t* xmp;
+  size_t xmp_count;
 } ck_heif_options;
 
 /// Encodes RGB or RGBA as HEIC. Fails with `ck_invalid_argument` if libheif has no HEVC encoder.

@@ -9,9 +9,9 @@ struct ScaleArguments: ParsableArguments {
   static let help = """
     SCALE
       The scale comes from the first of these that is present: distances that you
-      measured, given by the options below; depth maps that a phone wrote next to
-      the photos (IMG_1_depth.TIF for IMG_1.HEIC; IMG_1_gravity.TXT has the
-      vertical); GPS positions of the photos.
+      measured, given by the options below; depth maps that a phone wrote into
+      HEIC photos or next to them (IMG_1_depth.TIF for IMG_1.HEIC; the vertical is
+      in photos of iPhones, or in IMG_1_gravity.TXT); GPS positions of the photos.
       --camera-distance IMG_1.jpg,IMG_5.jpg=0.42
           The cameras of the two photos were 0.42 m apart (lens to lens).
       --measurements points.json

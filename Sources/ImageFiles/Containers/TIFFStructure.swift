@@ -17,6 +17,8 @@ package struct TIFFStructure: Sendable {
   private static let sizes = [0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4]
   /// More fields than any camera writes; the rest of a malicious directory is not read.
   private static let maximumEntries = 1024
+  /// Bytes before the directory in a maker note of Apple's phones.
+  private static let appleHeaderSize = 14
 
   private let reader: ByteReader
   private let order: ByteReader.Order
@@ -89,6 +91,23 @@ package struct TIFFStructure: Sendable {
     } else {
       self.init(reader)
     }
+  }
+
+  /// The directory in a maker note of Apple's phones: it follows a name, a version and the byte
+  /// order, and its offsets are relative to the note.
+  init?(appleMakerNote note: Entry, in tiff: TIFFStructure) {
+    reader = tiff.reader
+    origin = note.valueOffset
+    guard note.count > Self.appleHeaderSize, reader.hasText("Apple iOS\0", at: origin) else {
+      return nil
+    }
+    switch reader.text(at: origin + Self.appleHeaderSize - 2, count: 2) {
+    case "II": order = .little
+    case "MM": order = .big
+    default: return nil
+    }
+    isBig = false
+    firstDirectory = Self.appleHeaderSize
   }
 
   /// Skips the "Exif" identifier of JPEG, which some programs also write to other formats.

@@ -18,6 +18,7 @@ enum TIFFTag {
   // The EXIF directory.
   static let dateTimeOriginal = 36867
   static let focalLength = 37386
+  static let makerNote = 37500
   static let colorSpace = 40961
   static let pixelWidth = 40962
   static let pixelHeight = 40963
@@ -28,6 +29,9 @@ enum TIFFTag {
   static let bodySerialNumber = 42033
   static let lensModel = 42036
   static let lensSerialNumber = 42037
+
+  // The maker note of Apple's phones.
+  static let accelerationVector = 8
 
   // The GPS directory.
   static let latitudeReference = 1

@@ -21,9 +21,30 @@ package struct InspectedPhoto: Sendable {
   var mask: MaskInspection.ValidatedMask?
   /// The photo's mask if it is unusable.
   var rejectedMask: RejectedMask?
+  /// Gravity and depth that the file itself contains.
+  var reading = SensorReading()
+  /// Whether the file contains depth without a scale, which can't be used.
+  var hasRelativeDepth = false
 }
 
 extension InspectedPhoto {
+  /// Accelerations, in units of the gravity of Earth, of a phone that is held still; with others,
+  /// the direction isn't that of gravity.
+  private static let accelerationAtRest = 0.8...1.2
+
+  /// Finds gravity and depth in the file's content.
+  mutating func findReading(_ bytes: [UInt8]) {
+    if let vector = metadata.acceleration, Self.accelerationAtRest.contains(vector.length) {
+      reading.gravity = SensorReading.gravity(
+        ofPhone: vector, orientation: metadata.sensorOrientation)
+    }
+    switch EmbeddedDepth(bytes) {
+    case .metric(let map): reading.depth = map
+    case .relative: hasRelativeDepth = true
+    case nil: break
+    }
+  }
+
   /// Reads the mask from a file, or from the alpha channel of the photo, whose file content is
   /// `bytes`.
   mutating func findMask(_ file: URL?, _ bytes: [UInt8]) {

@@ -74,14 +74,30 @@ package struct PhotoIngestion: Sendable {
           reason: "\($0.lastPathComponent) is a mask without a photo; it is not used.")
       }
     }
-    for photo in candidates {
-      var problems: [String] = []
-      result.readings[photo.sampleID] = sensors.reading(
-        nextTo: photo.url, orientation: photo.metadata.sensorOrientation, &problems)
-      problems.forEach(context.notes.warn)
-    }
+    result.readings = readings(candidates, sensors, context.notes)
     report(result, candidates, context.notes)
     return result
+  }
+
+  /// The readings of the photos by sample ID: from files next to them, else from the photos.
+  private func readings(
+    _ photos: [InspectedPhoto], _ sensors: SensorFiles, _ notes: StageNotes
+  ) -> [Int: SensorReading] {
+    var readings: [Int: SensorReading] = [:]
+    for photo in photos {
+      var problems: [String] = []
+      let reading = sensors.reading(
+        nextTo: photo.url, orientation: photo.metadata.sensorOrientation, inside: photo.reading,
+        &problems)
+      if reading != SensorReading() { readings[photo.sampleID] = reading }
+      problems.forEach(notes.warn)
+    }
+    let relative = photos.count { $0.hasRelativeDepth && readings[$0.sampleID]?.depth == nil }
+    if relative > 0 {
+      notes.log(
+        "The depth maps in \(relative) of \(photos.count) photos have no scale; they are not used.")
+    }
+    return readings
   }
 
   /// Reads files in blocks, so that files beyond the maximum are not even opened.

@@ -60,6 +60,7 @@ package struct PhotoInspection: Sendable {
         sampleID: sampleID, url: url, width: upright.width, height: upright.height,
         metadata: metadata, contentHash: XXHash64.hash(bytes), sharpness: sharpness,
         thumbnail: try reduced.fitted(to: Self.thumbnailSide))
+      photo.findReading(bytes)
       if options.usesMasks { photo.findMask(mask, bytes) }
       return photo
     } catch let error as ImageError {

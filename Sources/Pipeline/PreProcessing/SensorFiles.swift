@@ -6,7 +6,8 @@ import SceneModel
 /// Separates the files that phones write next to photos from the photos: for `IMG_1.HEIC` the
 /// disparity map `IMG_1_depth.TIF` and the direction of gravity `IMG_1_gravity.TXT`, three numbers
 /// in the frame of the phone. These are the names used by Apple's sample app that captures photos
-/// for Object Capture, and by apps derived from it. Names are case-insensitive.
+/// for Object Capture, and by apps derived from it. Names are case-insensitive. Photos may hold
+/// readings, too: see `InspectedPhoto.findReading`.
 struct SensorFiles {
   /// The other files, in their original order.
   private(set) var photos: [URL] = []
@@ -34,17 +35,20 @@ struct SensorFiles {
   }
 
   /// The readings stored next to a photo whose sensor pixels are rotated upright by `orientation`;
-  /// nil if there are none. `problems` are messages about unusable files.
+  /// those `inside` the photo stand in for missing ones. `problems` are messages about unusable
+  /// files.
   func reading(
-    nextTo photo: URL, orientation: Int, _ problems: inout [String]
-  ) -> SensorReading? {
+    nextTo photo: URL, orientation: Int, inside: SensorReading, _ problems: inout [String]
+  ) -> SensorReading {
     let name = Self.name(photo)
-    var reading = SensorReading()
+    var reading = inside
     if let file = gravity[name] {
-      reading.gravity = Self.gravity(file).flatMap {
+      let direction = Self.gravity(file).flatMap {
         SensorReading.gravity(ofPhone: $0, orientation: orientation)
       }
-      if reading.gravity == nil {
+      if let direction {
+        reading.gravity = direction
+      } else {
         problems.append("\(file.lastPathComponent) is not used: it contains no direction.")
       }
     }
@@ -55,7 +59,7 @@ struct SensorFiles {
         problems.append("\(file.lastPathComponent) is not used: \(Self.reason(error)).")
       }
     }
-    return reading == SensorReading() ? nil : reading
+    return reading
   }
 
   /// The lowercase stem of a file name.
