@@ -83,7 +83,7 @@ struct BatchDataset: Equatable, Sendable {
   /// Whether the file name is that of an image, to find the folder of photos. Ingestion judges
   /// files by their content.
   private static func isImage(_ file: URL) -> Bool {
-    ["jpg", "jpeg", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif"]
+    ["jpg", "jpeg", "mpo", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif"]
       .contains(file.pathExtension.lowercased())
   }
 }
