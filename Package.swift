@@ -65,12 +65,13 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "CKernels",
       dependencies: [
         "CDeflate", "CEigen", "CEmbree", "CHEIF", "CJPEG", "CLittleCMS", "CMeshOptimizer",
-        "CNanoflann", "COpenCV", "CPNG", "CTIFF", "CWebP", "CXXHash",
+        "CNanoflann", "COpenCV", "CPNG", "CRaw", "CTIFF", "CWebP", "CXXHash",
       ],
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"), .linkedLibrary("embree3"),
-        .linkedLibrary("meshoptimizer"), .linkedLibrary("dl"),
+        .linkedLibrary("meshoptimizer"), .linkedLibrary("dl"), .linkedLibrary("raw_r"),
+        .linkedLibrary("gomp"),
       ]),
     systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
     systemLibrary("CEigen", pkgConfig: "eigen3", apt: ["libeigen3-dev"]),
@@ -84,6 +85,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       "COpenCV",
       apt: ["libopencv-core-dev", "libopencv-imgproc-dev"]),
     systemLibrary("CPNG", pkgConfig: "libpng", apt: ["libpng-dev"]),
+    systemLibrary("CRaw", apt: ["libraw-dev"]),
     systemLibrary("CTIFF", pkgConfig: "libtiff-4", apt: ["libtiff-dev"]),
     systemLibrary("CWebP", pkgConfig: "libwebp", apt: ["libwebp-dev"]),
     systemLibrary("CXXHash", pkgConfig: "libxxhash", apt: ["libxxhash-dev"]),

@@ -19,6 +19,8 @@ package enum ColorProfile: Hashable, Sendable {
   /// The profile in an image file's content; nil without one, which means sRGB.
   package init?(_ bytes: [UInt8]) {
     let reader = ByteReader(bytes)
+    // That of a preview; LibRaw makes sRGB.
+    guard !CameraRawFile.isRaw(reader) else { return nil }
     if let profile = Self.profile(reader), profile.count <= Self.maximumSize {
       self = .icc(profile)
     } else if Self.isAdobeRGB(reader) {

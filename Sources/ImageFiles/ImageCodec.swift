@@ -5,13 +5,15 @@ import SceneModel
 
 /// Reads and writes image files.
 ///
-/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP and AVIF, detected from their content, as 8-bit sRGB:
+/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP, AVIF and camera raw files, detected from their content,
+/// as 8-bit sRGB:
 /// samples of 16 bits are reduced; gray, palette and CMYK images and images with an ICC profile are
 /// converted. The alpha channel is dropped without changing the colors of transparent pixels;
 /// `decodeAlpha` reads it.
 ///
 /// EXIF orientation isn't applied; `RasterImage.turned(byOrientation:)` does that. Only the
-/// decoders of TIFF and HEIF files rotate images upright, by the orientation in the container.
+/// decoders of TIFF, HEIF and camera raw files rotate images upright, by the orientation in the
+/// container.
 package enum ImageCodec {
   /// Sizes above which a file is rejected before decoding.
   package struct Limits: Hashable, Codable, Sendable {
@@ -119,15 +121,15 @@ package enum ImageCodec {
       case .tiff: ck_codec_tiff
       case .webP: ck_codec_webp
       case .bmp: ck_codec_bmp
+      case .cameraRaw: ck_codec_raw
       }
     var image: OpaquePointer?
     do {
       try withKernel(KernelControl()) { _ in
         withUnsafePointer(to: limits.kernelLimits) { body(codec, $0, &image) }
       }
-    } catch KernelError.invalidArgument {
-      throw header.format.unsupportedVariant
     } catch {
+      if let specific = header.format.error(for: error) { throw specific }
       throw .damaged("its \(header.format.rawValue) data is damaged (\(message(of: error)))")
     }
     guard let image else { throw .damaged("it can't be decoded") }

@@ -5,6 +5,8 @@ import Foundation
 package enum ImageError: LocalizedError, Hashable, Sendable {
   /// The actual format: "a HEIC image".
   case unsupportedFormat(String)
+  /// The actual format, for which this program was built without a decoder: "camera raw".
+  case decoderLeftOut(String)
   /// The actual type: "a text file".
   case notAnImage(String)
   /// Size in pixels.
@@ -17,6 +19,9 @@ package enum ImageError: LocalizedError, Hashable, Sendable {
   package var errorDescription: String? {
     switch self {
     case .unsupportedFormat(let name): "it is \(name); convert it to JPEG"
+    case .decoderLeftOut(let name):
+      "its format is \(name), and this program was built without a decoder for it; convert it to "
+        + "JPEG or to TIFF with 16 bits, or use the program compiled from source"
     case .notAnImage(let name): "it is \(name), not a photo"
     case .tooLarge(let width, let height):
       "it has \(width) × \(height) pixels, more than can be processed; make it smaller"

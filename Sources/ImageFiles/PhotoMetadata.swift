@@ -3,8 +3,8 @@ import SceneModel
 
 /// The camera metadata of a photo that reconstruction uses.
 ///
-/// Read from the EXIF data of JPEG, PNG, WebP, HEIF and TIFF files (CIPA DC-008). Missing, damaged
-/// or implausible values are nil.
+/// Read from the EXIF data of JPEG, PNG, WebP, HEIF and TIFF files (CIPA DC-008), and of camera raw
+/// files. Missing, damaged or implausible values are nil.
 package struct PhotoMetadata: Hashable, Sendable {
   /// EXIF orientation 1…8 that rotates the decoded pixels upright.
   package var orientation = 1
@@ -42,27 +42,38 @@ package struct PhotoMetadata: Hashable, Sendable {
   /// (6) have y ≈ −1, those of a phone on its left edge (1) have x ≈ −1.
   package var acceleration: SIMD3<Double>?
 
+  /// Plausible values.
+  static let focalLengths = 0.5...5000
+  static let focalLengthsIn35mmFilm = 2.0...5000
+
   package init() {}
 
   /// Reads the metadata from the content of a file.
   package init(_ bytes: [UInt8]) {
     let reader = ByteReader(bytes)
-    guard let tiff = TIFFStructure(exifOf: reader) else { return }
+    if let tiff = TIFFStructure(exifOf: reader) { read(tiff) }
+    if CameraRawFile.isRaw(reader) {
+      if let info = try? CameraRawFile.inspect(bytes) { complete(with: info) }
+    } else if TIFFStructure(reader) == nil, HEIFFile.Kind(reader) == nil {
+      // The decoders of the other formats apply the orientation themselves.
+      orientation = sensorOrientation
+    }
+  }
+
+  /// Reads all but the orientation of the decoded pixels.
+  private mutating func read(_ tiff: TIFFStructure) {
     let image = Fields(tiff, tiff.firstDirectory)
     let exif = Fields(tiff, image.integer(TIFFTag.exifDirectory) ?? 0)
     sensorOrientation =
       image.integer(TIFFTag.orientation).flatMap { (1...8).contains($0) ? $0 : nil } ?? 1
-    // The decoders of TIFF and HEIF files apply the orientation themselves.
-    if TIFFStructure(reader) == nil, HEIFFile.Kind(reader) == nil {
-      orientation = sensorOrientation
-    }
     make = image.text(TIFFTag.make)
     model = image.text(TIFFTag.model)
     lens = exif.text(TIFFTag.lensModel)
     bodySerialNumber = exif.text(TIFFTag.bodySerialNumber)
     lensSerialNumber = exif.text(TIFFTag.lensSerialNumber)
-    focalLength = exif.number(TIFFTag.focalLength, in: 0.5...5000)
-    focalLengthIn35mmFilm = exif.number(TIFFTag.focalLengthIn35mmFilm, in: 2...5000)
+    focalLength = exif.number(TIFFTag.focalLength, in: Self.focalLengths)
+    focalLengthIn35mmFilm = exif.number(
+      TIFFTag.focalLengthIn35mmFilm, in: Self.focalLengthsIn35mmFilm)
     focalPlaneResolution = Self.focalPlaneResolution(exif)
     originalWidth = exif.integer(TIFFTag.pixelWidth).flatMap { $0 > 0 ? $0 : nil }
     originalHeight = exif.integer(TIFFTag.pixelHeight).flatMap { $0 > 0 ? $0 : nil }

@@ -72,6 +72,7 @@ public func CGImageSourceGetType(_ isrc: CGImageSource) -> CFString? {
   case .webP: "org.webmproject.webp"
   case .heic: "public.heic"
   case .avif: "public.avif"
+  case .cameraRaw: "public.camera-raw-image"
   case nil: nil
   }
 }

@@ -15,6 +15,11 @@ struct Degenerate : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Thrown by what needs a library that this program was built without; the message is its name.
+struct LeftOut : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Stores the message that `ck_last_error` returns on this thread, up to a fixed length: an error
 /// must be reported even if no memory is left.
 void set_last_error(const char* message) noexcept;
@@ -55,6 +60,9 @@ ck_status guarded(Body&& body) noexcept {
   } catch (const Degenerate& e) {
     set_last_error(e.what());
     return ck_degenerate;
+  } catch (const LeftOut& e) {
+    set_last_error(e.what());
+    return ck_left_out;
   } catch (const std::exception& e) {
     set_last_error(e.what());
     return is_out_of_memory(e) ? ck_out_of_memory : ck_failed;

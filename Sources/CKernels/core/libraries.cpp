@@ -19,6 +19,7 @@
 #include <string>
 
 #include "ck_core.h"
+#include "core/optional_libraries.h"
 
 #define CK_TEXT(value) #value
 #define CK_VALUE(macro) CK_TEXT(macro)
@@ -55,6 +56,7 @@ std::string make_list() {
   add("libjpeg", CK_VALUE(JPEG_LIB_VERSION));
 #endif
   add("libpng", png_get_libpng_ver(nullptr));
+  if (const std::string raw = ck::raw_version(); !raw.empty()) add("LibRaw", raw);
   add("libtiff", tiff_version());
   add("libwebp", numbers(webp >> 16, webp >> 8 & 255, webp & 255));
   add("meshoptimizer", numbers(MESHOPTIMIZER_VERSION / 1000, MESHOPTIMIZER_VERSION % 1000 / 10,

@@ -5,6 +5,7 @@
 
 #include "core/guard.h"
 #include "image/buffers.h"
+#include "image/raw.h"
 
 namespace ck {
 
@@ -86,6 +87,9 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
         break;
       case ck_codec_bmp:
         ck::decode_bmp(bytes, byte_count, *limits, *result);
+        break;
+      case ck_codec_raw:
+        ck::decode_raw(bytes, byte_count, *limits, *result);
         break;
     }
     *image = result.release();

@@ -22,6 +22,8 @@ typedef enum {
   ck_failed = 4,
   /// Memory allocation failed; a later call with the same input may succeed.
   ck_out_of_memory = 5,
+  /// This program was built without the library that the call needs.
+  ck_left_out = 6,
 } ck_status;
 
 /// Reports progress and queries cancellation. May be called from any thread.

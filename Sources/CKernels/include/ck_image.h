@@ -24,6 +24,8 @@ typedef enum {
   ck_codec_webp = 4,
   /// Windows bitmaps without compression.
   ck_codec_bmp = 5,
+  /// Camera raw files.
+  ck_codec_raw = 6,
 } ck_codec;
 
 /// Size limits, checked before a decoder allocates pixels.
@@ -35,8 +37,8 @@ typedef struct {
 } ck_decode_limits;
 
 /// Decodes an image file in memory to 8-bit RGB as stored: EXIF orientation is not applied (but
-/// TIFF and HEIF files are rotated as their container specifies), alpha is dropped, 16-bit samples
-/// become 8-bit, gray, palette and CMYK images become RGB.
+/// TIFF, HEIF and camera raw files are rotated as their container specifies), alpha is dropped,
+/// 16-bit samples become 8-bit, gray, palette and CMYK images become RGB.
 ///
 /// `reduction` is 1, 2, 4 or 8: the sides of a JPEG are divided by it and rounded up, which takes
 /// less time; other formats are decoded at full size.
@@ -89,6 +91,29 @@ ck_status ck_heif_read(const uint8_t* bytes, size_t byte_count, ck_heif_block wh
 ck_status ck_heif_decode_depth(const uint8_t* bytes, size_t byte_count,
                                const ck_decode_limits* limits, ck_image** map,
                                ck_bytes** description);
+
+/// Properties of a camera raw file. Texts end with a zero and are empty if unknown; numbers are 0
+/// if unknown.
+typedef struct {
+  /// Size in pixels, upright.
+  int32_t width, height;
+  /// The EXIF orientation, 1…8, that rotates the pixels of the sensor upright.
+  int32_t orientation;
+  char make[64], model[64], lens[128], body_serial_number[64], lens_serial_number[64];
+  /// In millimeters.
+  double focal_length, focal_length_in_35mm_film;
+  double iso, exposure_seconds;
+  /// As in EXIF: "2024:05:17 12:34:56".
+  char capture_time[20];
+  bool has_position;
+  /// Degrees north and east.
+  double latitude, longitude;
+  /// Meters above sea level.
+  double altitude;
+} ck_raw_info;
+
+/// Reads the properties of a camera raw file.
+ck_status ck_raw_inspect(const uint8_t* bytes, size_t byte_count, ck_raw_info* info);
 
 /// Options of HEIC encoding.
 typedef struct {

@@ -83,7 +83,11 @@ struct BatchDataset: Equatable, Sendable {
   /// Whether the file name is that of an image, to find the folder of photos. Ingestion judges
   /// files by their content.
   private static func isImage(_ file: URL) -> Bool {
-    ["jpg", "jpeg", "mpo", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif"]
-      .contains(file.pathExtension.lowercased())
+    [
+      "jpg", "jpeg", "mpo", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif",
+      "dng", "cr2", "cr3", "crw", "nef", "nrw", "arw", "srf", "sr2", "raf", "orf", "rw2", "pef",
+      "srw", "x3f", "iiq", "3fr", "erf", "kdc", "dcr", "mrw", "mos", "rwl",
+    ]
+    .contains(file.pathExtension.lowercased())
   }
 }

@@ -15,7 +15,7 @@ extension DoctorReport {
       .memory(of: machine),
       .threads(.current),
       .instructions(Instructions.supported, of: machine),
-      .imageFormats(failures: SampleImage.failures()),
+      .imageFormats(failures: SampleImage.failures(), leftOut: SampleImage.leftOut()),
       .video(.current),
       .temporaryFolder(.temporary),
       .currentFolder(.current),

@@ -21,6 +21,17 @@ struct SampleImage {
     Data(base64Encoded: base64, options: .ignoreUnknownCharacters).map { [UInt8]($0) } ?? []
   }
 
+  /// Whether the program was built without a decoder for the format.
+  var isLeftOut: Bool {
+    do {
+      _ = try ImageHeader(content)
+      return false
+    } catch {
+      guard case .decoderLeftOut = error else { return false }
+      return true
+    }
+  }
+
   /// Decodes the image; returns why it failed, nil if size and colors are right.
   func failure(of content: [UInt8]? = nil) -> String? {
     let image: RasterImage

@@ -38,9 +38,8 @@ package enum HEIFFile {
     var info = ck_heif_info()
     do {
       try withKernel(KernelControl()) { _ in ck_heif_inspect(bytes, bytes.count, &info) }
-    } catch KernelError.invalidArgument {
-      throw format.unsupportedVariant
     } catch {
+      if let specific = format.error(for: error) { throw specific }
       throw .damaged("its \(format.rawValue) header is damaged or cut off")
     }
     return (Int(info.width), Int(info.height), info.has_alpha)

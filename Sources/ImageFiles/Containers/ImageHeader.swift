@@ -33,6 +33,9 @@ package struct ImageHeader: Hashable, Sendable {
       self = try Self.webP(reader)
     } else if let heif = HEIFFile.Kind(reader) {
       self = try Self.heif(heif, bytes)
+    } else if CameraRawFile.isRaw(reader) {
+      let info = try CameraRawFile.inspect(bytes)
+      self = ImageHeader(format: .cameraRaw, width: Int(info.width), height: Int(info.height))
     } else if let tiff = TIFFStructure(reader) {
       self = try Self.tiff(tiff)
     } else {
@@ -108,11 +111,6 @@ package struct ImageHeader: Hashable, Sendable {
     func value(_ tag: Int) -> Int? {
       entries.first { $0.tag == tag }.flatMap { tiff.integer($0) }
     }
-    // Camera raw files are TIFFs that start with a thumbnail.
-    let isThumbnail = (value(TIFFTag.subfileType) ?? 0) & 1 != 0
-    if value(TIFFTag.dngVersion) != nil || isThumbnail {
-      throw .unsupportedFormat("a camera raw file")
-    }
     guard let width = value(TIFFTag.imageWidth), let height = value(TIFFTag.imageHeight) else {
       throw .damaged("its TIFF header is damaged or cut off")
     }
@@ -134,7 +132,7 @@ package struct ImageHeader: Hashable, Sendable {
     if HEIFFile.Kind(reader) != nil {
       return (try? HEIFFile.inspect(bytes, .heic))?.hasAlpha == true
     }
-    guard let tiff = TIFFStructure(reader) else { return false }
+    guard let tiff = TIFFStructure(reader), !CameraRawFile.isRaw(reader) else { return false }
     // Samples in addition to the color channels.
     return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains {
       $0.tag == TIFFTag.extraSamples
@@ -143,10 +141,7 @@ package struct ImageHeader: Hashable, Sendable {
 
   /// Distinguishes images in unsupported formats from files that aren't images.
   private static func unsupported(_ reader: ByteReader) -> ImageError {
-    if reader.hasText("ftyp", at: 4) {
-      return reader.hasText("crx ", at: 8)
-        ? .unsupportedFormat("a camera raw file") : .notAnImage("a video")
-    }
+    if reader.hasText("ftyp", at: 4) { return .notAnImage("a video") }
     let images: [(bytes: [UInt8], name: String)] = [
       (Array("GIF8".utf8), "a GIF image"), ([0x76, 0x2F, 0x31, 0x01], "an OpenEXR image"),
       ([0, 0, 0, 12, 0x6A, 0x50], "a JPEG 2000 image"),

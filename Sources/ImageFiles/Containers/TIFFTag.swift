@@ -4,10 +4,12 @@ enum TIFFTag {
   static let subfileType = 254
   static let imageWidth = 256
   static let imageHeight = 257
+  static let photometricInterpretation = 262
   static let make = 271
   static let model = 272
   static let orientation = 274
   static let dateTime = 306
+  static let subdirectories = 330
   static let extraSamples = 338
   static let exifDirectory = 34665
   static let colorProfile = 34675

@@ -110,6 +110,7 @@ package func withKernel(
   case ck_invalid_argument: throw KernelError.invalidArgument(String(cString: ck_last_error()))
   case ck_degenerate: throw KernelError.degenerate(String(cString: ck_last_error()))
   case ck_out_of_memory: throw KernelError.outOfMemory
+  case ck_left_out: throw KernelError.leftOut(library: String(cString: ck_last_error()))
   default: throw KernelError.failed(String(cString: ck_last_error()))
   }
 }

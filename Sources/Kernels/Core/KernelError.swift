@@ -11,12 +11,15 @@ package enum KernelError: LocalizedError, Equatable, CustomStringConvertible {
   case failed(String)
   /// Memory was insufficient; a later attempt may succeed.
   case outOfMemory
+  /// This program was built without a library.
+  case leftOut(library: String)
 
   package var description: String {
     switch self {
     case .invalidArgument(let message): "invalid argument: \(message)"
     case .degenerate(let message), .failed(let message): message
     case .outOfMemory: "out of memory"
+    case .leftOut(let library): "this program was built without \(library)"
     }
   }
 

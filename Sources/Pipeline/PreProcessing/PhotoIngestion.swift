@@ -105,6 +105,7 @@ package struct PhotoIngestion: Sendable {
     _ files: [URL], _ masks: MaskFiles, _ context: StageContext
   ) throws -> ([InspectedPhoto], [RejectedPhoto]) {
     let inspection = PhotoInspection(options.inspection)
+    let companions = RawCompanions(files)
     var accepted: [InspectedPhoto] = []
     var rejected: [RejectedPhoto] = []
     let blockSize = 64
@@ -120,7 +121,13 @@ package struct PhotoIngestion: Sendable {
           return Result<InspectedPhoto, Rejection>.failure(tooMany(file, sampleID))
         }
         return try Self.rejecting(file, sampleID) {
-          try inspection.run(file, sampleID: sampleID, mask: masks.mask(of: file))
+          if let photo = companions.photo(insteadOf: file, inspection) {
+            throw Rejection(
+              RejectedPhoto(
+                sampleID: sampleID, name: file.lastPathComponent, fault: .duplicate,
+                end: "it is the raw file of \(photo.lastPathComponent), which is used"))
+          }
+          return try inspection.run(file, sampleID: sampleID, mask: masks.mask(of: file))
         }
       }
       for result in results {

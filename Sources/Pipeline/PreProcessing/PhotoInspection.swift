@@ -80,7 +80,7 @@ extension RejectedPhoto {
 extension ImageError {
   var fault: RejectedPhoto.Fault {
     switch self {
-    case .unsupportedFormat, .notAnImage: .unsupportedFormat
+    case .unsupportedFormat, .decoderLeftOut, .notAnImage: .unsupportedFormat
     case .tooLarge: .tooLarge
     case .damaged, .unreadable: .unreadable
     }

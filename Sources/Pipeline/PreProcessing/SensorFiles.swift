@@ -86,7 +86,8 @@ struct SensorFiles {
   /// The reason why a depth file is unusable; the remedies for photos don't apply to it.
   private static func reason(_ error: ImageError) -> String {
     switch error {
-    case .unsupportedFormat, .notAnImage: "it is not an image of 32-bit floating-point numbers"
+    case .unsupportedFormat, .notAnImage, .decoderLeftOut:
+      "it is not an image of 32-bit floating-point numbers"
     case .tooLarge, .damaged, .unreadable: error.errorDescription ?? "it can't be read"
     }
   }

@@ -67,6 +67,36 @@ import Testing
     #expect(!result.isDownsampled)
   }
 
+  /// A raw file of the photo that `photos` makes with the same index.
+  private func raw(_ index: Int) -> [UInt8] {
+    let image = TexturePattern.image(
+      width: 420, height: 300, seed: 7, shift: [Double(index) * 3, 0])
+    return DNGWriter(width: 420, height: 300).file { column, row in
+      let pixel = 3 * (row * 420 + column)
+      return SIMD3(
+        Double(image.pixels[pixel]), Double(image.pixels[pixel + 1]),
+        Double(image.pixels[pixel + 2])) / 255
+    }
+  }
+
+  @Test func rawFilesGiveWayToThePhotosOfTheirName() throws {
+    let folder = try TemporaryFolder()
+    let good = try photos(3)
+    try folder.write(raw(0), as: "IMG_1.CR2")
+    try folder.write(good[0], as: "img_1.jpg")
+    try folder.write(raw(1), as: "IMG_2.DNG")
+    try folder.write(Array(good[2].prefix(good[2].count / 2)), as: "IMG_2.JPG")
+    try folder.write(raw(2), as: "IMG_3.NEF")
+    let result = try PhotoIngestion().run(folder: folder.url, StageContext())
+    #expect(result.photos.map(\.name) == ["img_1.jpg", "IMG_2.DNG", "IMG_3.NEF"])
+    let reasons = Dictionary(uniqueKeysWithValues: result.rejected.map { ($0.name, $0) })
+    #expect(reasons["IMG_1.CR2"]?.fault == .duplicate)
+    #expect(
+      reasons["IMG_1.CR2"]?.reason
+        == "IMG_1.CR2 is not used: it is the raw file of img_1.jpg, which is used.")
+    #expect(reasons["IMG_2.JPG"]?.fault == .unreadable && reasons.count == 2)
+  }
+
   @Test func formatIsDetectedFromContent() throws {
     let folder = try TemporaryFolder()
     let image = TexturePattern.image(width: 400, height: 300, seed: 3)

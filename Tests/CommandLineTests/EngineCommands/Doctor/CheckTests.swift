@@ -70,13 +70,17 @@ import Testing
     #expect(other.status == .note && !other.text.contains("AVX2"))
   }
 
+  private static let withoutRaw = "This program was built without camera raw."
+
   @Test func onlyJPEGAndPNGAreIndispensable() throws {
     let none = Check.imageFormats(failures: [:])
     #expect(none.status == .ok)
-    #expect(none.text == "JPEG, PNG, HEIC, AVIF, TIFF, WebP, BMP were decoded.")
+    #expect(none.text == "JPEG, PNG, HEIC, AVIF, TIFF, WebP, BMP, camera raw were decoded.")
     let phone = Check.imageFormats(failures: [.heic: "no decoder"])
     #expect(phone.status == .note && phone.text.contains("HEIC can't be decoded (no decoder)"))
     #expect(try #require(phone.remedy).contains("libheif"))
+    let part = Check.imageFormats(failures: [:], leftOut: [.cameraRaw])
+    #expect(part.status == .ok && part.text.hasSuffix("BMP were decoded. \(Self.withoutRaw)"))
     #expect(Check.imageFormats(failures: [.png: "", .heic: ""]).status == .problem)
     #expect(Check.imageFormats(failures: [.bmp: ""]).remedy?.contains("scripts/setup") == true)
   }

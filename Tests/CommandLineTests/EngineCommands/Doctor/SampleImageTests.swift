@@ -13,7 +13,7 @@ import Testing
     for sample in SampleImage.all {
       #expect(sample.failure() == nil, "\(sample.format)")
       #expect(try ImageHeader(sample.content).format == sample.format)
-      #expect(sample.content.count < 500)
+      #expect(sample.content.count < 1000)
     }
   }
 
