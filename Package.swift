@@ -65,13 +65,13 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "CKernels",
       dependencies: [
         "CDeflate", "CEigen", "CEmbree", "CHEIF", "CJPEG", "CLittleCMS", "CMeshOptimizer",
-        "CNanoflann", "COpenCV", "CPNG", "CRaw", "CTIFF", "CWebP", "CXXHash",
+        "CNanoflann", "COpenCV", "COpenEXR", "CPNG", "CRaw", "CTIFF", "CWebP", "CXXHash",
       ],
       cxxSettings: strictCxx,
       linkerSettings: [  // Libraries without a usable pkg-config file.
         .linkedLibrary("opencv_core"), .linkedLibrary("opencv_imgproc"), .linkedLibrary("embree3"),
         .linkedLibrary("meshoptimizer"), .linkedLibrary("dl"), .linkedLibrary("raw_r"),
-        .linkedLibrary("gomp"),
+        .linkedLibrary("gomp"), .linkedLibrary("OpenEXRCore"),
       ]),
     systemLibrary("CDeflate", pkgConfig: "libdeflate", apt: ["libdeflate-dev"]),
     systemLibrary("CEigen", pkgConfig: "eigen3", apt: ["libeigen3-dev"]),
@@ -84,6 +84,7 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
     systemLibrary(
       "COpenCV",
       apt: ["libopencv-core-dev", "libopencv-imgproc-dev"]),
+    systemLibrary("COpenEXR", apt: ["libopenexr-dev"]),
     systemLibrary("CPNG", pkgConfig: "libpng", apt: ["libpng-dev"]),
     systemLibrary("CRaw", apt: ["libraw-dev"]),
     systemLibrary("CTIFF", pkgConfig: "libtiff-4", apt: ["libtiff-dev"]),

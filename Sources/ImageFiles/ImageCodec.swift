@@ -5,11 +5,10 @@ import SceneModel
 
 /// Reads and writes image files.
 ///
-/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP, AVIF and camera raw files, detected from their content,
-/// as 8-bit sRGB:
-/// samples of 16 bits are reduced; gray, palette and CMYK images and images with an ICC profile are
-/// converted. The alpha channel is dropped without changing the colors of transparent pixels;
-/// `decodeAlpha` reads it.
+/// Reads JPEG, HEIC, PNG, TIFF, BMP, WebP, AVIF, OpenEXR and camera raw files, detected from their
+/// content, as 8-bit sRGB: samples of 16 bits are reduced; gray, palette and CMYK images and images
+/// with an ICC profile are converted; the linear colors of OpenEXR are clipped at 1. The alpha
+/// channel is dropped without changing the colors of transparent pixels; `decodeAlpha` reads it.
 ///
 /// EXIF orientation isn't applied; `RasterImage.turned(byOrientation:)` does that. Only the
 /// decoders of TIFF, HEIF and camera raw files rotate images upright, by the orientation in the
@@ -88,15 +87,15 @@ package enum ImageCodec {
     return alpha.pixels.isEmpty ? nil : alpha
   }
 
-  /// Decodes a TIFF file with one floating-point value per pixel, the top row first.
+  /// Decodes a TIFF or OpenEXR file with one floating-point value per pixel, the top row first.
   package static func decodeNumbers(
     _ bytes: [UInt8], limits: Limits = Limits()
   ) throws(ImageError) -> (width: Int, height: Int, values: [Float]) {
     let colors = ImageError.unsupportedFormat(
       "a color image, where one with a number per pixel is expected")
-    guard try ImageHeader(bytes).format == .tiff else { throw colors }
+    guard [.tiff, .openEXR].contains(try ImageHeader(bytes).format) else { throw colors }
     let decoded = try decode(bytes, channels: 4, limits) {
-      ck_image_decode_float(bytes, bytes.count, $1, $2)
+      ck_image_decode_float(bytes, bytes.count, $0, $1, $2)
     }
     guard !decoded.pixels.isEmpty else { throw colors }
     let values = decoded.pixels.withUnsafeBytes { Array($0.bindMemory(to: Float.self)) }
@@ -122,6 +121,7 @@ package enum ImageCodec {
       case .webP: ck_codec_webp
       case .bmp: ck_codec_bmp
       case .cameraRaw: ck_codec_raw
+      case .openEXR: ck_codec_exr
       }
     var image: OpaquePointer?
     do {

@@ -73,6 +73,7 @@ public func CGImageSourceGetType(_ isrc: CGImageSource) -> CFString? {
   case .heic: "public.heic"
   case .avif: "public.avif"
   case .cameraRaw: "public.camera-raw-image"
+  case .openEXR: "com.ilm.openexr-image"
   case nil: nil
   }
 }

@@ -64,6 +64,7 @@ std::string make_list() {
   add("nanoflann",
       numbers(NANOFLANN_VERSION >> 8, NANOFLANN_VERSION >> 4 & 15, NANOFLANN_VERSION & 15));
   add("OpenCV", CV_VERSION);
+  if (const std::string exr = ck::exr_version(); !exr.empty()) add("OpenEXR", exr);
   add("xxHash", numbers(XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE));
   return list;
 }

@@ -9,4 +9,7 @@ namespace ck {
 /// The version of LibRaw; empty without the library.
 std::string raw_version();
 
+/// The version of OpenEXR; empty without the library.
+std::string exr_version();
+
 }  // namespace ck

@@ -5,6 +5,7 @@
 
 #include "core/guard.h"
 #include "image/buffers.h"
+#include "image/exr.h"
 #include "image/raw.h"
 
 namespace ck {
@@ -91,6 +92,9 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
       case ck_codec_raw:
         ck::decode_raw(bytes, byte_count, *limits, *result);
         break;
+      case ck_codec_exr:
+        ck::decode_exr(bytes, byte_count, *limits, *result);
+        break;
     }
     *image = result.release();
   });
@@ -105,16 +109,18 @@ ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_code
     if (codec == ck_codec_heif) ck::decode_heif_alpha(bytes, byte_count, *limits, *result);
     if (codec == ck_codec_tiff) ck::decode_tiff_alpha(bytes, byte_count, *limits, *result);
     if (codec == ck_codec_webp) ck::decode_webp_alpha(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_exr) ck::decode_exr_alpha(bytes, byte_count, *limits, *result);
     *image = result.release();
   });
 }
 
-ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count,
+ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                                 const ck_decode_limits* limits, ck_image** image) {
   return ck::guarded([&] {
     ck::require(bytes && byte_count > 0, "the file is empty");
     auto result = std::make_unique<ck_image>();
-    ck::decode_tiff_numbers(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_tiff) ck::decode_tiff_numbers(bytes, byte_count, *limits, *result);
+    if (codec == ck_codec_exr) ck::decode_exr_numbers(bytes, byte_count, *limits, *result);
     *image = result.release();
   });
 }

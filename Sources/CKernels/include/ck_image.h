@@ -26,6 +26,7 @@ typedef enum {
   ck_codec_bmp = 5,
   /// Camera raw files.
   ck_codec_raw = 6,
+  ck_codec_exr = 7,
 } ck_codec;
 
 /// Size limits, checked before a decoder allocates pixels.
@@ -54,9 +55,10 @@ ck_status ck_image_decode(const uint8_t* bytes, size_t byte_count, ck_codec code
 ck_status ck_image_decode_alpha(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                                 const ck_decode_limits* limits, ck_image** image);
 
-/// Decodes a TIFF file with one 32-bit floating-point number per pixel, for example a depth map,
-/// upright. Returns an image without pixels if the file has another pixel format.
-ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count,
+/// Decodes a TIFF or OpenEXR file with one floating-point number per pixel, for example a depth
+/// map, upright: 32 bits each, in OpenEXR also 16. Returns an image without pixels if the file has
+/// another pixel format.
+ck_status ck_image_decode_float(const uint8_t* bytes, size_t byte_count, ck_codec codec,
                                 const ck_decode_limits* limits, ck_image** image);
 
 /// Width in pixels.
@@ -114,6 +116,20 @@ typedef struct {
 
 /// Reads the properties of a camera raw file.
 ck_status ck_raw_inspect(const uint8_t* bytes, size_t byte_count, ck_raw_info* info);
+
+/// Properties of an OpenEXR file.
+typedef struct {
+  /// Size in pixels of the display window.
+  int32_t width, height;
+  /// Independent images; only files with one can be decoded.
+  int32_t parts;
+  /// Whether pixels have several samples at different depths, which can't be decoded.
+  bool is_deep;
+  bool has_alpha;
+} ck_exr_info;
+
+/// Reads the header of an OpenEXR file.
+ck_status ck_exr_inspect(const uint8_t* bytes, size_t byte_count, ck_exr_info* info);
 
 /// Options of HEIC encoding.
 typedef struct {

@@ -85,6 +85,7 @@ struct BatchDataset: Equatable, Sendable {
   private static func isImage(_ file: URL) -> Bool {
     [
       "jpg", "jpeg", "mpo", "png", "tif", "tiff", "bmp", "webp", "heic", "heif", "hif", "avif",
+      "exr",
       "dng", "cr2", "cr3", "crw", "nef", "nrw", "arw", "srf", "sr2", "raf", "orf", "rw2", "pef",
       "srw", "x3f", "iiq", "3fr", "erf", "kdc", "dcr", "mrw", "mos", "rwl",
     ]

@@ -11,6 +11,7 @@ extension ImageHeader {
     case heic = "HEIC"
     case avif = "AVIF"
     case cameraRaw = "camera raw"
+    case openEXR = "OpenEXR"
 
     /// The error for a variant of the format that its decoder can't read.
     package var unsupportedVariant: ImageError {

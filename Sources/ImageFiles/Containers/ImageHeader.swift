@@ -33,6 +33,9 @@ package struct ImageHeader: Hashable, Sendable {
       self = try Self.webP(reader)
     } else if let heif = HEIFFile.Kind(reader) {
       self = try Self.heif(heif, bytes)
+    } else if OpenEXRFile.isOpenEXR(reader) {
+      let info = try OpenEXRFile.inspect(bytes)
+      self = ImageHeader(format: .openEXR, width: info.width, height: info.height)
     } else if CameraRawFile.isRaw(reader) {
       let info = try CameraRawFile.inspect(bytes)
       self = ImageHeader(format: .cameraRaw, width: Int(info.width), height: Int(info.height))
@@ -132,6 +135,7 @@ package struct ImageHeader: Hashable, Sendable {
     if HEIFFile.Kind(reader) != nil {
       return (try? HEIFFile.inspect(bytes, .heic))?.hasAlpha == true
     }
+    if OpenEXRFile.isOpenEXR(reader) { return (try? OpenEXRFile.inspect(bytes))?.hasAlpha == true }
     guard let tiff = TIFFStructure(reader), !CameraRawFile.isRaw(reader) else { return false }
     // Samples in addition to the color channels.
     return tiff.entries(ofDirectoryAt: tiff.firstDirectory).contains {
@@ -143,7 +147,7 @@ package struct ImageHeader: Hashable, Sendable {
   private static func unsupported(_ reader: ByteReader) -> ImageError {
     if reader.hasText("ftyp", at: 4) { return .notAnImage("a video") }
     let images: [(bytes: [UInt8], name: String)] = [
-      (Array("GIF8".utf8), "a GIF image"), ([0x76, 0x2F, 0x31, 0x01], "an OpenEXR image"),
+      (Array("GIF8".utf8), "a GIF image"),
       ([0, 0, 0, 12, 0x6A, 0x50], "a JPEG 2000 image"),
       ([0xFF, 0x4F, 0xFF, 0x51], "a JPEG 2000 image"), ([0xFF, 0x0A], "a JPEG XL image"),
       ([0, 0, 0, 12, 0x4A, 0x58, 0x4C], "a JPEG XL image"),

@@ -4,10 +4,10 @@ import Kernels
 import SceneModel
 
 /// Separates the files that phones write next to photos from the photos: for `IMG_1.HEIC` the
-/// disparity map `IMG_1_depth.TIF` and the direction of gravity `IMG_1_gravity.TXT`, three numbers
-/// in the frame of the phone. These are the names used by Apple's sample app that captures photos
-/// for Object Capture, and by apps derived from it. Names are case-insensitive. Photos may hold
-/// readings, too: see `InspectedPhoto.findReading`.
+/// disparity map `IMG_1_depth.TIF` (or `.exr`) and the direction of gravity `IMG_1_gravity.TXT`,
+/// three numbers in the frame of the phone. These are the names used by Apple's sample app that
+/// captures photos for Object Capture, and by apps derived from it. Names are case-insensitive.
+/// Photos may hold readings, too: see `InspectedPhoto.findReading`.
 struct SensorFiles {
   /// The other files, in their original order.
   private(set) var photos: [URL] = []
@@ -23,7 +23,7 @@ struct SensorFiles {
     for file in files {
       let suffix = file.pathExtension.lowercased()
       if let owner = Self.owner(file, "_depth"), names.contains(owner),
-        ["tif", "tiff"].contains(suffix)
+        ["tif", "tiff", "exr"].contains(suffix)
       {
         depth[owner] = depth[owner] ?? file
       } else if let owner = Self.owner(file, "_gravity"), names.contains(owner), suffix == "txt" {

@@ -70,8 +70,7 @@ import Testing
     try folder.write(heicWithReadings(seed: 1), as: "IMG_1.HEIC")
     try folder.write(heicWithReadings(seed: 2), as: "IMG_2.HEIC")
     try folder.write("0,-1,0", as: "IMG_2_gravity.txt")
-    try folder.write(
-      TIFFWriter.numbers(width: 2, height: 1, [1, 2]), as: "IMG_2_depth.tif")
+    try folder.write(EXRWriter(width: 2, height: 1, ["Z": [1, 2]]).file, as: "IMG_2_depth.exr")
     try folder.write(heicWithReadings(seed: 3, accuracy: "relative"), as: "IMG_3.HEIC")
     try folder.write("down", as: "IMG_3_gravity.txt")
     let notes = StageNotes()

@@ -75,12 +75,13 @@ import Testing
   @Test func onlyJPEGAndPNGAreIndispensable() throws {
     let none = Check.imageFormats(failures: [:])
     #expect(none.status == .ok)
-    #expect(none.text == "JPEG, PNG, HEIC, AVIF, TIFF, WebP, BMP, camera raw were decoded.")
+    #expect(
+      none.text == "JPEG, PNG, HEIC, AVIF, TIFF, WebP, BMP, camera raw, OpenEXR were decoded.")
     let phone = Check.imageFormats(failures: [.heic: "no decoder"])
     #expect(phone.status == .note && phone.text.contains("HEIC can't be decoded (no decoder)"))
     #expect(try #require(phone.remedy).contains("libheif"))
     let part = Check.imageFormats(failures: [:], leftOut: [.cameraRaw])
-    #expect(part.status == .ok && part.text.hasSuffix("BMP were decoded. \(Self.withoutRaw)"))
+    #expect(part.status == .ok && part.text.hasSuffix("OpenEXR were decoded. \(Self.withoutRaw)"))
     #expect(Check.imageFormats(failures: [.png: "", .heic: ""]).status == .problem)
     #expect(Check.imageFormats(failures: [.bmp: ""]).remedy?.contains("scripts/setup") == true)
   }
