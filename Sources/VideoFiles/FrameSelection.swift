@@ -10,8 +10,8 @@ package struct FrameSelection: Sendable {
     package var minimumCount = 40
     package var maximumCount = 250
     /// How far a frame may be from its place to be the sharper one, as a share of the step. Chosen:
-    /// neighbors are then half a step to one and a half steps apart.
-    package var tolerance = 0.25
+    /// neighbors are then 0.2 to 1.8 steps apart. See `VideoAnalysis.Options.framesPerSecond`.
+    package var tolerance = 0.4
 
     package init() {}
   }

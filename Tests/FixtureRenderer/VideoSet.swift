@@ -23,12 +23,17 @@ struct VideoSet {
     ) { try video.frame($0, control) }
   }
 
-  /// Writes a still photo for each frame of the video that `frames` contains, to `stills`.
-  func writeStills(of frames: URL, to folder: URL, _ control: KernelControl) throws {
+  /// Writes photos of each frame of the video that `frames` contains: the frame itself, without the
+  /// video's compression, to `photos`, and what a still camera would have shown to `stills`.
+  func writePhotos(of frames: URL, to folder: URL, _ control: KernelControl) throws {
     let names = Set(try FileManager.default.contentsOfDirectory(atPath: frames.path))
     for index in 0..<video.frameCount where names.contains(name(index)) {
-      let jpeg = try ImageCodec.encodeJPEG(video.still(index, control), quality: 0.95)
-      try writeFile(jpeg, folder.appendingPathComponent("stills/\(name(index))"))
+      for (kind, image) in [
+        ("photos", try video.frame(index, control)), ("stills", try video.still(index, control)),
+      ] {
+        let jpeg = try ImageCodec.encodeJPEG(image, quality: 0.95)
+        try writeFile(jpeg, folder.appendingPathComponent("\(kind)/\(name(index))"))
+      }
     }
   }
 

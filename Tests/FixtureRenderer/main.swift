@@ -26,7 +26,8 @@ import TestSupport
 //
 // `video` writes `video-<seed>`: a video of 30 s, encoded with the program ffmpeg, with motion blur
 // and rolling shutter, of a walk around the statue of the dense stage. With the folder that
-// `photogrammetry-cli frames` made of it, it writes still photos of the same moments instead.
+// `photogrammetry-cli frames` made of it, it writes the same frames as photos instead, with and
+// without blur and rolling shutter.
 //
 // The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
 // is not part of the surface. Those of captures are z-up as well.
@@ -71,7 +72,7 @@ case "video":
   let set = VideoSet(video: WalkAroundVideo(seed: seed))
   let target = folder.appendingPathComponent("video-\(seed)", isDirectory: true)
   if let frames = words.dropFirst(2).first {
-    try set.writeStills(of: URL(fileURLWithPath: frames, isDirectory: true), to: target, control)
+    try set.writePhotos(of: URL(fileURLWithPath: frames, isDirectory: true), to: target, control)
   } else {
     try set.write(to: target, control)
   }

@@ -24,7 +24,7 @@ import VideoFiles
     let steps = zip(selected, selected.dropFirst()).map { $1.position - $0.position }
     let longest = try #require(
       zip(readings, readings.dropFirst()).map { $1.position - $0.position }.max())
-    for step in steps { #expect((0.5 * 0.03 - longest...1.5 * 0.03 + longest).contains(step)) }
+    for step in steps { #expect((0.2 * 0.03 - longest...1.8 * 0.03 + longest).contains(step)) }
   }
 
   @Test(arguments: 1...5) func selectedFramesAreSharperThanTheirNeighbors(seed: UInt64) {
@@ -33,7 +33,7 @@ import VideoFiles
     let step = (readings.last?.position ?? 0) / 100
     for (number, frame) in selected.enumerated() {
       let place = (Double(number) + 0.5) * step
-      let near = readings.filter { abs($0.position - place) < 0.25 * step - 1e-9 }
+      let near = readings.filter { abs($0.position - place) < 0.4 * step - 1e-9 }
       #expect(near.allSatisfy { $0.sharpness <= frame.sharpness })
     }
     let mean = { (list: [FrameReading]) in list.map(\.sharpness).reduce(0, +) / Double(list.count) }

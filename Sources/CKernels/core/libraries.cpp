@@ -46,6 +46,9 @@ std::string make_list() {
   };
   add("Eigen", numbers(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION));
   add("Embree", RTC_VERSION_STRING);
+  if (const std::string ffmpeg = ck::linked_ffmpeg_version(); !ffmpeg.empty()) {
+    add("FFmpeg", ffmpeg);
+  }
   add("glibc", gnu_get_libc_version());
   add("Little CMS", numbers(lcms / 1000, lcms % 1000 / 10, lcms % 10));
   add("libdeflate", LIBDEFLATE_VERSION_STRING);

@@ -1,6 +1,7 @@
 #include "video/ffmpeg.h"
 
 #include "ck_video.h"
+#include "core/optional_libraries.h"
 
 #ifdef CK_HAS_FFMPEG
 #include <optional>
@@ -91,3 +92,11 @@ ck_video_support_t ck_video_support(void) { return ck_video_not_built; }
 const char* ck_video_library_version(void) { return ""; }
 
 #endif
+
+std::string ck::linked_ffmpeg_version() {
+#ifdef PHOTOGRAMMETRY_LINKS_FFMPEG
+  return ck_video_library_version();
+#else
+  return "";
+#endif
+}

@@ -25,10 +25,10 @@ struct VideoArguments: ParsableArguments {
 
   static let help = """
     VIDEOS
-      A video that was filmed in one slow walk around the object, in MP4, QuickTime, Matroska,
-      AVI or MPEG format. Its frames become photos: the sharpest ones at even distances along
-      the camera's path. 'photogrammetry-cli frames clip.mov photos/' saves them. Photos have
-      more detail than videos, and a still camera no motion blur.
+      A video filmed in one slow walk around the object (MP4, QuickTime, Matroska,
+      AVI, MPEG). Its frames become photos: the sharpest ones at even distances
+      along the camera's path. 'photogrammetry-cli frames clip.mov photos/' saves
+      them. Photos have more pixels and less motion blur than videos.
 
     """
 }

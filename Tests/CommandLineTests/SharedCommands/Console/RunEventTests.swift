@@ -43,8 +43,8 @@ import Testing
   @Test func stagesHaveTheNamesOfTheSession() {
     #expect(
       RunStage.allCases.map(\.rawValue) == [
-        "preProcessing", "imageAlignment", "pointCloudGeneration", "meshGeneration",
-        "textureMapping", "optimization", "triangulation",
+        "frameSelection", "preProcessing", "imageAlignment", "pointCloudGeneration",
+        "meshGeneration", "textureMapping", "optimization", "triangulation",
       ])
   }
 }
