@@ -77,7 +77,8 @@ struct DryRun {
         + "and textures of \(limits.textureSide) x \(limits.textureSide)."
     }
     return report.lines + written + [
-      "It would take about \(RunProgress.duration(expectedSeconds)) with \(threadCount) threads, "
+      "It would take about \(RunProgress.duration(expectedSeconds)) with \(threadCount) "
+        + "thread\(threadCount == 1 ? "" : "s"), "
         + "at most \(Self.megabytes(memory.needed)) of memory "
         + "(\(Self.megabytes(memory.free)) free) and at most "
         + "\(Self.megabytes(space.needed)) of disk space"
