@@ -37,16 +37,35 @@ package struct RunReport: Codable, Sendable {
     package var status: Status
     /// Why it is not registered, as a sentence.
     package var reason: String?
+    /// Number of features, and of the photos with which it has enough matches; nil before matching.
+    package var features: Int?
+    package var partners: Int?
+    /// The group of photos that matches connect, from 0, the largest.
+    package var group: Int?
+    /// Number of its observations of sparse points; nil without a pose, as are the next two.
+    package var observations: Int?
+    /// Mean reprojection error in pixels, and that which 95 % of the observations don't exceed.
+    package var meanResidual: Double?
+    package var residual95: Double?
     /// How well its estimated mask agrees with those of all photos, 0…1: the intersection over
     /// union of the mask and the outline of their visual hull. Nil without an estimated mask.
     package var maskAgreement: Double?
   }
 
+  /// The pairs of photos that share features.
+  package struct Matches: Codable, Sendable {
+    /// The file names that the pairs refer to by index.
+    package var photos: [String]
+    package var pairs: MatchRecord
+  }
+
   /// The version of the report's format.
-  package var version: String = "1"
+  package var version: String = "2"
   package var configuration: PipelineConfiguration
   package var stages: [Stage] = []
   package var photos: [PhotoEntry] = []
+  /// Which photos match; nil before matching.
+  package var matches: Matches?
   /// In pixels; nil before alignment, as is the world frame.
   package var meanReprojectionError: Double?
   package var worldFrame: WorldFrame?

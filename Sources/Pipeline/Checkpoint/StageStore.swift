@@ -146,9 +146,11 @@ private struct SavedNotes: Codable {
   var warnings: [String]
   var concerns: [String]
   var details: [String]
+  var matches: MatchRecord?
 
   init(_ notes: StageNotes) {
     (counts, concerns, details) = (notes.counts, notes.concerns, notes.details)
+    matches = notes.matches
     warnings = notes.warnings.filter { !notes.concerns.contains($0) }
   }
 
@@ -165,5 +167,6 @@ private struct SavedNotes: Codable {
     warnings.forEach(notes.warn)
     concerns.forEach(notes.flagAsSuspect)
     details.forEach(notes.log)
+    if let matches { notes.record(matches) }
   }
 }

@@ -1,6 +1,6 @@
 import SceneModel
 
-/// Counts, warnings, details and the cost of steps that a stage records for `report.json`.
+/// Counts, warnings, details, matches and the cost of steps that a stage records for `report.json`.
 package final class StageNotes: Sendable {
   private struct State {
     var steps: [StepCost] = []
@@ -8,6 +8,7 @@ package final class StageNotes: Sendable {
     var warnings: [String] = []
     var concerns: [String] = []
     var details: [String] = []
+    var matches: MatchRecord?
 
     mutating func add(_ cost: StepCost) {
       if let index = steps.firstIndex(where: { $0.name == cost.name }) {
@@ -44,6 +45,11 @@ package final class StageNotes: Sendable {
     state.withLock { $0.counts[name] = value }
   }
 
+  /// Records which photos match; replaces what was recorded before.
+  package func record(_ matches: MatchRecord) {
+    state.withLock { $0.matches = matches }
+  }
+
   /// Records a warning for the user, as a sentence.
   package func warn(_ sentence: String) {
     state.withLock { $0.warnings.append(sentence) }
@@ -75,6 +81,7 @@ package final class StageNotes: Sendable {
       state.warnings += other.warnings
       state.concerns += other.concerns
       state.details += other.details
+      state.matches = other.matches ?? state.matches
     }
   }
 
@@ -82,4 +89,5 @@ package final class StageNotes: Sendable {
   package var warnings: [String] { state.withLock { $0.warnings } }
   package var concerns: [String] { state.withLock { $0.concerns } }
   package var details: [String] { state.withLock { $0.details } }
+  package var matches: MatchRecord? { state.withLock { $0.matches } }
 }

@@ -128,6 +128,7 @@ package struct ImageAlignment: Sendable {
         photos: photos, cameras: cameras, features: features, ordering: options.ordering,
         context.part(from: 0.55, to: 1))
     }
+    context.notes.record(MatchRecord(features, graph))
     return MatchedPhotos(photos: photos, cameras: calibrated, features: features, graph: graph)
   }
 

@@ -10,6 +10,8 @@ final class RunRecorder {
   /// The notes of the latest execution of each stage.
   private(set) var notes: [PipelineStage: StageNotes] = [:]
 
+  /// The names of the photos that are used, by photo ID.
+  private var photoNames: [String] = []
   private let threadCount: Int
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
@@ -85,6 +87,7 @@ final class RunRecorder {
     report.warnings += notes.warnings
     report.concerns += notes.concerns
     report.details += notes.details
+    if let matches = notes.matches { record(matches) }
     notes.warnings.forEach { onEvent(.warning($0)) }
     notes.details.forEach { onEvent(.detail($0)) }
   }
@@ -94,10 +97,13 @@ final class RunRecorder {
 
 extension RunRecorder {
   /// Records which photos of a folder are used; throws if there are fewer than `minimumPhotos`.
+  /// They have no pose yet.
   func record(_ ingested: IngestedPhotos, folder: URL, minimumPhotos: Int) throws {
     report.photos += ingested.rejected.map {
       .init(name: $0.name, status: .rejected, reason: $0.reason)
     }
+    photoNames = ingested.photos.map(\.name)
+    report.photos += photoNames.map { .init(name: $0, status: .notRegistered) }
     ingested.rejected.forEach { onEvent(.rejected($0)) }
     if ingested.isDownsampled { onEvent(.downsampled) }
     try recordingErrors {
@@ -109,6 +115,34 @@ extension RunRecorder {
     }
   }
 
+  /// Records which photos match.
+  private func record(_ matches: MatchRecord) {
+    guard matches.features.count == photoNames.count else { return }
+    report.matches = .init(photos: photoNames, pairs: matches)
+    let partners = matches.partners
+    var groupOfPhoto = [Int](repeating: 0, count: photoNames.count)
+    for (number, group) in matches.groups.enumerated() {
+      for photo in group { groupOfPhoto[photo] = number }
+    }
+    update(photoNames) { photo, entry in
+      entry.features = matches.features[photo]
+      entry.partners = partners[photo]
+      entry.group = groupOfPhoto[photo]
+    }
+  }
+
+  /// Changes the entries of photos; `change` receives the index of each name.
+  private func update(
+    _ names: [String], _ change: (Int, inout RunReport.PhotoEntry) -> Void
+  ) {
+    let entries = Dictionary(
+      zip(report.photos.map(\.name), report.photos.indices),
+      uniquingKeysWith: { first, _ in first })
+    for (index, name) in names.enumerated() {
+      if let entry = entries[name] { change(index, &report.photos[entry]) }
+    }
+  }
+
   /// Records cameras without a photo, by name.
   func record(missing names: [String]) {
     report.photos += names.map { .init(name: $0, status: .missing, reason: nil) }
@@ -116,25 +150,29 @@ extension RunRecorder {
 
   /// Records how sure the estimated masks are; `names` are those of the photos, by ID.
   func record(_ masks: EstimatedMasks, names: [String]) {
-    let agreement = Dictionary(
-      zip(names, masks.agreement), uniquingKeysWith: { first, _ in first })
-    for index in report.photos.indices {
-      report.photos[index].maskAgreement = agreement[report.photos[index].name] ?? nil
+    update(names) { photo, entry in
+      if photo < masks.agreement.count { entry.maskAgreement = masks.agreement[photo] }
     }
   }
 
-  /// Records which photos are registered, and the mean reprojection error.
+  /// Records which photos are registered, and the reprojection errors.
   func record(_ reconstruction: Reconstruction) {
-    report.photos += reconstruction.registered.map {
-      .init(name: reconstruction.photos[$0.index].name, status: .registered, reason: nil)
+    let residuals = reconstruction.residuals
+    update(reconstruction.photos.map(\.name)) { photo, entry in
+      guard reconstruction.poses[photo] != nil else { return }
+      let residuals = residuals[photo]
+      entry.status = .registered
+      entry.observations = residuals.count
+      entry.meanResidual =
+        residuals.isEmpty ? nil : residuals.reduce(0, +) / Double(residuals.count)
+      entry.residual95 = residuals.quantile(0.95)
     }
-    report.photos += reconstruction.unregistered.map {
-      .init(name: $0.name, status: .notRegistered, reason: $0.reason)
-    }
+    let unregistered = reconstruction.unregistered
+    update(unregistered.map(\.name)) { $1.reason = unregistered[$0].reason }
     report.photos.sort { $0.name < $1.name }
     report.meanReprojectionError = reconstruction.meanReprojectionError
     report.worldFrame = reconstruction.worldFrame
-    reconstruction.unregistered.forEach { onEvent(.rejected($0)) }
+    unregistered.forEach { onEvent(.rejected($0)) }
     let (registered, all) = (reconstruction.registered.count, reconstruction.photos.count)
     if registered < all { onEvent(.stitchingIncomplete(registered: registered, of: all)) }
   }

@@ -74,6 +74,38 @@ import Testing
     #expect(recorder.report.stages.count == 2)
   }
 
+  /// The report of a run without a model shows which photos match.
+  @Test func matchesAreInTheReportOfAFailure() throws {
+    let recorder = recorder()
+    let scene = SphereScene(viewCount: 4, imageSize: 64) { _ in SIMD3(120, 130, 140) }
+    try recorder.record(
+      IngestedPhotos(
+        photos: scene.reconstruction.photos, cameras: scene.reconstruction.cameras, rejected: [],
+        files: [], rejectedMasks: [], contentHashes: [1, 2, 3, 4], processingPixels: 1000,
+        isDownsampled: false),
+      folder: URL(filePath: "/photos"), minimumPhotos: PipelineError.minimumPhotos)
+    var matches = MatchRecord()
+    matches.features = [40, 30, 20, 10]
+    (matches.first, matches.second) = ([1, 2], [2, 3])
+    (matches.matches, matches.needed, matches.degrees) = ([15, 6], [0, 12], [4, 0])
+    let error = PipelineError.alignmentFailed(reason: "no two photos show the same surface.")
+    #expect(throws: error) {
+      try recorder.run(.imageAlignment) { context in
+        context.notes.record(matches)
+        throw error
+      }
+    }
+    let report = recorder.report
+    #expect(report.matches?.pairs == matches)
+    #expect(report.matches?.photos == scene.reconstruction.photos.map(\.name))
+    #expect(report.photos.map(\.features) == [40, 30, 20, 10])
+    #expect(report.photos.map(\.partners) == [0, 1, 1, 0])
+    #expect(report.photos.map(\.group) == [1, 0, 0, 2])
+    #expect(report.photos.allSatisfy { $0.status == .notRegistered && $0.observations == nil })
+    recorder.record(scene.reconstruction)
+    #expect(recorder.report.photos.allSatisfy { $0.status == .registered && $0.features != nil })
+  }
+
   @Test func aCanceledRunStartsNoStage() {
     let flag = CancellationFlag()
     flag.cancel()
@@ -99,7 +131,7 @@ import Testing
     }
     #expect(throws: PipelineError.tooFewPhotos(found: 2, needed: 3)) { try record() }
     #expect(events.withLock { $0 } == ["refused c.txt", "downsampled", "ingested 2"])
-    #expect(recorder.report.photos.map(\.status) == [.rejected])
+    #expect(recorder.report.photos.map(\.status) == [.rejected, .notRegistered, .notRegistered])
     photos.photos = []
     #expect(throws: PipelineError.noPhotos(folder: "/photos", rejected: 1)) { try record() }
   }
