@@ -12,10 +12,10 @@ package enum EmbeddedDepth: Hashable, Sendable {
   case relative
 
   /// Larger maps are thinned out: this is half the resolution of disparity maps, and more than that
-  /// of a LiDAR scanner.
+  /// of a LiDAR scanner. Chosen.
   private static let maximumSide = 384
   /// Maximum relative difference between the aspect ratios of map and photo. If it is larger, the
-  /// map shows something else, or isn't upright.
+  /// map shows something else, or isn't upright. Chosen: 4:3 and 3:2 differ by 0.125.
   private static let maximumAspectDifference = 0.05
 
   /// The map in the content of a file; nil if there is none, or none that can be used.

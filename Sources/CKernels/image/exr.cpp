@@ -2,6 +2,7 @@
 
 #include "core/guard.h"
 #include "core/optional_libraries.h"
+#include "image/srgb_curve.h"
 
 #ifdef PHOTOGRAMMETRY_WITHOUT_EXR
 
@@ -355,35 +356,12 @@ std::optional<Eigen::Matrix3f> srgb_from_file(const File& file) {
   const Eigen::Matrix3d target = xyz_from_rgb(kRec709);
   const Eigen::Vector3d white = Eigen::Vector3d::Ones();
   const Eigen::Matrix3d matrix = target.inverse() * adaptation(own * white, target * white) * own;
-  // Rounded primaries of sRGB
+  // Half of an 8-bit step: primaries of sRGB that are rounded to three digits change nothing.
+  // Chosen.
   constexpr double kNegligible = 2e-3;
   if (!matrix.allFinite() || matrix.isIdentity(kNegligible)) return std::nullopt;
   return matrix.cast<float>();
 }
-
-/// The curve of sRGB (IEC 61966-2-1), as a table.
-class Curve {
- public:
-  Curve() {
-    for (size_t i = 0; i < codes_.size(); ++i) {
-      const double linear = static_cast<double>(i) / kSteps;
-      const double encoded =
-          linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-      codes_[i] = static_cast<uint8_t>(std::lround(255 * encoded));
-    }
-  }
-
-  /// The 8-bit code of a linear value, clipped to 0…1.
-  uint8_t operator()(float linear) const {
-    if (!(linear > 0)) return codes_.front();
-    return linear < 1 ? codes_[static_cast<size_t>(linear * kSteps + 0.5F)] : codes_.back();
-  }
-
- private:
-  // Where the curve is steepest, a code has 20 entries.
-  static constexpr int kSteps = 65535;
-  std::array<uint8_t, kSteps + 1> codes_;
-};
 
 }  // namespace
 
@@ -404,7 +382,7 @@ void decode_exr(const uint8_t* bytes, size_t count, const ck_decode_limits& limi
                 ck_image& image) {
   const File file(bytes, count);
   prepare(file, limits, 3, image);
-  const auto curve = std::make_unique<Curve>();
+  const auto curve = std::make_unique<SRGBCurve>();
   if (file.has("R") && file.has("G") && file.has("B")) {
     const auto matrix = srgb_from_file(file);
     read(file, {"R", "G", "B"}, [&](size_t index, const float* values, size_t stride) {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "image/srgb_curve.h"
+
 namespace ck {
 namespace {
 
-/// Entries of the tables: four per level of a stream of 10 bits.
+/// Entries of the table of light: four per level of a stream of 10 bits. Chosen.
 constexpr int kLevels = 4096;
 
 using Rows = std::array<std::array<float, 3>, 3>;
@@ -42,20 +44,6 @@ double srgb(double value) {
 /// Peak of the display that HLG is rendered for, and the exponent of its system gamma (BT.2100);
 /// reference white (ITU-R BT.2408), all in cd/m².
 constexpr double kPeak = 1000, kSystemGamma = 1.2, kWhite = 203;
-
-/// Bytes of sRGB by light: the table is fine enough that each byte has an entry near black, too.
-const std::vector<uint8_t>& bytes_by_light() {
-  static const std::vector<uint8_t> table = [] {
-    std::vector<uint8_t> result(1 << 16);
-    for (size_t i = 0; i < result.size(); ++i) {
-      const double x = static_cast<double>(i) / static_cast<double>(result.size() - 1);
-      const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
-      result[i] = static_cast<uint8_t>(std::lround(255 * encoded));
-    }
-    return result;
-  }();
-  return table;
-}
 
 uint8_t rounded(float value, float largest) {
   return static_cast<uint8_t>(std::clamp(value * largest + 0.5f, 0.0f, largest));
@@ -93,12 +81,10 @@ void Transfer::encode(const std::array<float, 3>& rgb, uint8_t* out) const {
                        std::pow(brightness, static_cast<float>(kSystemGamma - 1));
     for (float& value : light) value *= gain;
   }
-  const std::vector<uint8_t>& bytes = bytes_by_light();
-  const auto largest = static_cast<float>(bytes.size() - 1);
+  static const SRGBCurve curve;
   for (int c = 0; c < 3; ++c) {
     const auto& row = primaries_[c];
-    const float value = row[0] * light[0] + row[1] * light[1] + row[2] * light[2];
-    out[c] = bytes[static_cast<size_t>(std::clamp(value * largest + 0.5f, 0.0f, largest))];
+    out[c] = curve(row[0] * light[0] + row[1] * light[1] + row[2] * light[2]);
   }
 }
 

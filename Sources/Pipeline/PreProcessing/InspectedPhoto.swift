@@ -29,7 +29,7 @@ package struct InspectedPhoto: Sendable {
 
 extension InspectedPhoto {
   /// Accelerations, in units of the gravity of Earth, of a phone that is held still; with others,
-  /// the direction isn't that of gravity.
+  /// the direction isn't that of gravity. Chosen.
   private static let accelerationAtRest = 0.8...1.2
 
   /// Finds gravity and depth in the file's content.
