@@ -1,3 +1,5 @@
+import Foundation
+
 /// The content of an image file.
 package struct EncodedImage: Equatable, Sendable {
   /// `png`, `jpg` or `webp`.
@@ -16,5 +18,10 @@ package struct EncodedImage: Equatable, Sendable {
     case "webp": "image/webp"
     default: "image/jpeg"
     }
+  }
+
+  /// The image as a data URL.
+  package var dataURL: String {
+    "data:\(mediaType);base64,\(Data(bytes).base64EncodedString())"
   }
 }

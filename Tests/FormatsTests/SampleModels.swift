@@ -51,4 +51,18 @@ enum Sample {
     return ModelContent(
       mesh: sphere(rings: rings, atlasCount: atlasCount), textures: textures, creator: "tests")
   }
+
+  /// A base color that readers recognize as PNG.
+  static func image(_ atlas: Int) -> EncodedImage {
+    EncodedImage(
+      fileExtension: "png", bytes: [0x89] + Array("PNG\r\n\u{1A}\n".utf8) + [UInt8(atlas)])
+  }
+
+  /// A model whose atlases start with quads, with a base color for each.
+  static func colored(rings: Int, atlasCount: Int = 1, quads: Int = 2) -> ModelContent {
+    var mesh = sphere(rings: rings, atlasCount: atlasCount)
+    for index in mesh.atlases.indices { mesh.atlases[index].quadCount = quads }
+    let textures = (0..<atlasCount).map { [EncodedTexture(map: .diffuseColor, image: image($0))] }
+    return ModelContent(mesh: mesh, textures: textures, creator: "tests")
+  }
 }

@@ -15,6 +15,36 @@ struct ByteCursor {
 
   var remaining: Int { bytes.count - offset }
 
+  /// Moves to an absolute position, at most the end.
+  mutating func seek(to position: Int) throws {
+    guard 0...bytes.count ~= position else { throw Truncated() }
+    offset = position
+  }
+
+  /// Reads an unsigned integer of 8 bytes that is a count, a size or a position.
+  mutating func count() throws -> Int {
+    guard let value = Int(exactly: try unsigned(8)) else { throw Truncated() }
+    return value
+  }
+
+  /// Reads the next `count` bytes.
+  mutating func take(_ count: Int) throws -> ArraySlice<UInt8> {
+    guard count >= 0, count <= remaining else { throw Truncated() }
+    defer { offset += count }
+    return bytes[offset..<offset + count]
+  }
+
+  /// Reads `count` little-endian numbers.
+  mutating func values<Value: BitwiseCopyable>(_ type: Value.Type, count: Int) throws -> [Value] {
+    let (size, overflow) = count.multipliedReportingOverflow(by: MemoryLayout<Value>.stride)
+    guard !overflow, size >= 0 else { throw Truncated() }
+    let source = try take(size)
+    return [Value](unsafeUninitializedCapacity: count) { buffer, initializedCount in
+      source.withUnsafeBytes { UnsafeMutableRawBufferPointer(buffer).copyMemory(from: $0) }
+      initializedCount = count
+    }
+  }
+
   /// Reads an unsigned integer of 1 to 8 bytes.
   mutating func unsigned(_ size: Int) throws -> UInt64 {
     guard remaining >= size else { throw Truncated() }

@@ -53,14 +53,14 @@ extension PLY {
     try read(url) { reader in
       guard let vertex = reader.header.elements.first(where: { $0.name == "vertex" }),
         let position = triple(vertex, "x", "y", "z")
-      else { throw PLYFault("it has no vertices with x, y and z") }
+      else { throw FormatFault("it has no vertices with x, y and z") }
       let normal = triple(vertex, "nx", "ny", "nz")
       let color = triple(vertex, "red", "green", "blue")
       var mesh = Mesh()
       try reader.forEachRow { element, row in
         if element.name == "vertex" {
           let point = vector(row, position)
-          guard point.isFinite else { throw PLYFault("a vertex is not finite") }
+          guard point.isFinite else { throw FormatFault("a vertex is not finite") }
           mesh.positions.append(point)
           if let normal { mesh.normals.append(vector(row, normal)) }
           if let color { mesh.colors.append(Self.color(row, color, in: element)) }
@@ -79,7 +79,7 @@ extension PLY {
   ) throws {
     let indices = try corners.map { corner in
       guard let index = UInt32(exactly: corner), index < vertices else {
-        throw PLYFault("a face refers to vertex \(corner) of \(vertices)")
+        throw FormatFault("a face refers to vertex \(corner) of \(vertices)")
       }
       return index
     }

@@ -45,7 +45,7 @@ extension PLY {
     try read(url) { reader in
       guard let vertex = reader.header.elements.first(where: { $0.name == "vertex" }),
         let columns = CloudColumns(vertex)
-      else { throw PLYFault("it has no vertices with x, y and z") }
+      else { throw FormatFault("it has no vertices with x, y and z") }
       var cloud = PointCloud()
       try reader.forEachRow { element, row in
         if element.name == "vertex" { try columns.append(row, of: element, to: &cloud) }
@@ -89,7 +89,7 @@ private struct CloudColumns {
     if let photos {
       for value in row.lists[photos] {
         guard let index = UInt16(exactly: value) else {
-          throw PLYFault("\(value) is not a photo index")
+          throw FormatFault("\(value) is not a photo index")
         }
         cloud.photoIndices.append(index)
       }

@@ -22,7 +22,7 @@ package enum PLY {
     do {
       var reader = try PLYReader(try contents(of: url))
       return try body(&reader)
-    } catch let fault as PLYFault {
+    } catch let fault as FormatFault {
       throw FormatError.malformed(path: url.path, reason: fault.reason)
     }
   }

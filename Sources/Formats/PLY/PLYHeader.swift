@@ -71,10 +71,10 @@ extension PLYHeader {
   /// Longer headers are rejected.
   private static let maximumLength = 1 << 16
 
-  /// Parses a header; throws a `PLYFault`.
+  /// Parses a header; throws a `FormatFault`.
   init(_ bytes: [UInt8]) throws {
     let (lines, length) = try Self.lines(of: bytes)
-    guard lines.first == "ply" else { throw PLYFault("it does not begin with 'ply'") }
+    guard lines.first == "ply" else { throw FormatFault("it does not begin with 'ply'") }
     var encoding: Encoding?
     var elements: [Element] = []
     for line in lines.dropFirst() {
@@ -84,22 +84,22 @@ extension PLYHeader {
         encoding = Encoding(rawValue: String(words[1]))
       case "element" where words.count == 3:
         guard let count = Int(words[2]), count >= 0 else {
-          throw PLYFault("the element count '\(words[2])' is not a number")
+          throw FormatFault("the element count '\(words[2])' is not a number")
         }
         guard !elements.contains(where: { $0.name == words[1] }) else {
-          throw PLYFault("it has two elements with the name '\(words[1])'")
+          throw FormatFault("it has two elements with the name '\(words[1])'")
         }
         elements.append(Element(name: String(words[1]), count: count))
       case "property":
         guard !elements.isEmpty, let property = Self.property(words) else {
-          throw PLYFault("the header line '\(line)' is not valid")
+          throw FormatFault("the header line '\(line)' is not valid")
         }
         elements[elements.count - 1].properties.append(property)
       case "comment", "obj_info", nil: break
-      default: throw PLYFault("the header line '\(line)' is not valid")
+      default: throw FormatFault("the header line '\(line)' is not valid")
       }
     }
-    guard let encoding else { throw PLYFault("it has no known format line") }
+    guard let encoding else { throw FormatFault("it has no known format line") }
     self.init(encoding: encoding, elements: elements, length: length)
   }
 
@@ -114,7 +114,7 @@ extension PLYHeader {
       if line == "end_header" { return (lines, start) }
       lines.append(line)
     }
-    throw PLYFault("its header has no end")
+    throw FormatFault("its header has no end")
   }
 
   private static func property(_ words: [Substring]) -> Property? {

@@ -22,7 +22,7 @@ struct PLYReader {
       let (size, overflow) = element.count.multipliedReportingOverflow(
         by: element.minimumRowSize(header.encoding))
       guard !overflow, size <= bytes.count, needed + size <= bytes.count else {
-        throw PLYFault(
+        throw FormatFault(
           "its header declares \(element.count) \(element.name) elements, but it is too short")
       }
       needed += size
@@ -42,7 +42,7 @@ struct PLYReader {
         }
       }
     } catch is ByteCursor.Truncated {
-      throw PLYFault("it ends before its last element")
+      throw FormatFault("it ends before its last element")
     }
   }
 
@@ -54,7 +54,7 @@ struct PLYReader {
       }
       let count = try readScalar(countType)
       guard count >= 0, count <= Double(remaining) else {
-        throw PLYFault("a list has the impossible length \(count)")
+        throw FormatFault("a list has the impossible length \(count)")
       }
       row.lists[index].removeAll(keepingCapacity: true)
       for _ in 0..<Int(count) { row.lists[index].append(try readScalar(property.type)) }
@@ -77,7 +77,7 @@ struct PLYReader {
     case .text(let bytes, var offset):
       let word = try Self.word(bytes, &offset)
       source = .text(bytes: bytes, offset: offset)
-      guard let value = Double(word) else { throw PLYFault("'\(word)' is not a number") }
+      guard let value = Double(word) else { throw FormatFault("'\(word)' is not a number") }
       return value
     }
   }

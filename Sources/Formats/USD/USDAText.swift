@@ -48,12 +48,17 @@ package enum USDAText {
     case .float2(let v): tuple([v.x, v.y])
     case .float3(let v): tuple([v.x, v.y, v.z])
     case .float4(let v): tuple([v.x, v.y, v.z, v.w])
+    case .double3(let v): tuple([v.x, v.y, v.z])
+    case .matrix4(let m):
+      "( " + (0..<4).map { tuple(Array(m[4 * $0..<4 * $0 + 4])) }.joined(separator: ", ") + " )"
     case .tokenArray(let values): list(values) { quoted($0) }
     case .intArray(let values): list(values) { "\($0)" }
     case .floatArray(let values): list(values) { number($0) }
     case .float2Array(let values): list(values) { tuple([$0.x, $0.y]) }
     case .float3Array(let values): list(values) { tuple([$0.x, $0.y, $0.z]) }
     case .float4Array(let values): list(values) { tuple([$0.x, $0.y, $0.z, $0.w]) }
+    case .references(let references):
+      list(references) { "@\($0.asset)@" + ($0.path.isEmpty ? "" : "<\($0.path)>") }
     case .dictionary: ""
     }
   }
@@ -67,7 +72,9 @@ package enum USDAText {
     return text.hasSuffix(".0") ? String(text.dropLast(2)) : text
   }
 
-  private static func tuple(_ values: [Float]) -> String {
+  private static func tuple(_ values: [some BinaryFloatingPoint & LosslessStringConvertible])
+    -> String
+  {
     "(" + values.map { number($0) }.joined(separator: ", ") + ")"
   }
 
@@ -183,6 +190,8 @@ extension USDValue {
     case .float2: "float2"
     case .float3: "float3"
     case .float4: "float4"
+    case .double3: "double3"
+    case .matrix4: "matrix4d"
     case .tokenArray: "token[]"
     case .intArray: "int[]"
     case .floatArray: "float[]"
@@ -190,6 +199,7 @@ extension USDValue {
     case .float3Array: "float3[]"
     case .float4Array: "float4[]"
     case .dictionary: "dictionary"
+    case .references: "references"
     }
   }
 }

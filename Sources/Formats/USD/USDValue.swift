@@ -1,6 +1,6 @@
 import SceneModel
 
-/// A value of a USD attribute or metadata field, limited to the storage types that the model layers
+/// A value of a USD attribute or metadata field, limited to the storage types that models
 /// use.
 ///
 /// The role of a value (color, point, texture coordinate) is determined by the type name of its
@@ -16,7 +16,11 @@ package indirect enum USDValue: Equatable, Sendable {
   case asset(String)
   case float2(SIMD2<Float>)
   case float3(SIMD3<Float>)
+  /// Also a quaternion, with its components in the order x, y, z, w.
   case float4(SIMD4<Float>)
+  case double3(SIMD3<Double>)
+  /// The 16 elements in rows, for row vectors: the last row is the translation.
+  case matrix4([Double])
   case tokenArray([String])
   case intArray([Int32])
   case floatArray([Float])
@@ -25,6 +29,8 @@ package indirect enum USDValue: Equatable, Sendable {
   case float4Array([SIMD4<Float>])
   /// Entries in the order of their keys.
   case dictionary([USDField])
+  /// Prims whose content a prim includes.
+  case references([USDReference])
 }
 
 /// A name-value pair: an entry of a dictionary or of a spec's metadata.

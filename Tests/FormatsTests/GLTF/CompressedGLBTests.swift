@@ -4,31 +4,6 @@ import Testing
 
 @testable import Formats
 
-/// Stores what it should encode, and reverses the order of the vertices.
-private struct StoringEncoder: GLTFMeshEncoder {
-  struct Failure: Error {}
-
-  var fails = false
-
-  func order(
-    _ indices: [UInt32], vertexCount: Int
-  ) throws -> (indices: [UInt32], newFromOld: [UInt32]) {
-    let last = UInt32(vertexCount) - 1
-    return (indices.map { last - $0 }, (0..<UInt32(vertexCount)).map { last - $0 })
-  }
-
-  func encode(vertices: [UInt8], stride: Int) throws -> [UInt8] {
-    if fails { throw Failure() }
-    return vertices
-  }
-
-  func encode(triangles: [UInt32], vertexCount: Int) throws -> [UInt8] {
-    var writer = ByteWriter()
-    triangles.forEach { writer.append($0) }
-    return writer.bytes
-  }
-}
-
 @Suite struct CompressedGLBTests {
   private let sphere = Sample.sphere(rings: 20, atlasCount: 2)
   private let materials = ["a", "b"].map {
@@ -57,7 +32,7 @@ private struct StoringEncoder: GLTFMeshEncoder {
   private func parsed(_ mesh: TexturedMesh) throws -> Parsed {
     try Parsed(
       try GLBFile.encode(
-        mesh, materials: materials, creator: "tests", compressedBy: StoringEncoder()))
+        mesh, materials: materials, creator: "tests", compressedBy: StoringCodec()))
   }
 
   @Test func extensionsAreRequired() throws {
@@ -185,14 +160,14 @@ private struct StoringEncoder: GLTFMeshEncoder {
     let empty = TexturedMesh(
       mesh: Mesh(), textureCoordinates: [], textureTriangles: [], atlases: [])
     let bytes = try GLBFile.encode(
-      empty, materials: [], creator: "tests", compressedBy: StoringEncoder())
+      empty, materials: [], creator: "tests", compressedBy: StoringCodec())
     #expect(Data(bytes).range(of: Data("extensions".utf8)) == nil)
   }
 
   @Test func errorsOfTheEncoderAreThrown() {
-    #expect(throws: StoringEncoder.Failure.self) {
+    #expect(throws: StoringCodec.Failure.self) {
       try GLBFile.encode(
-        sphere, materials: materials, creator: "tests", compressedBy: StoringEncoder(fails: true))
+        sphere, materials: materials, creator: "tests", compressedBy: StoringCodec(fails: true))
     }
   }
 }

@@ -1,19 +1,40 @@
 /// Value types of the crate format.
 enum CrateType: UInt64 {
   case bool = 1
+  case uchar = 2
   case int = 3
+  case uint = 4
+  case int64 = 5
+  case uint64 = 6
+  case half = 7
   case float = 8
   case double = 9
   case string = 10
   case token = 11
   case asset = 12
+  case matrix4d = 15
+  case quatd = 16
+  case quatf = 17
+  case quath = 18
+  case double2 = 19
   case float2 = 20
+  case half2 = 21
+  case double3 = 23
   case float3 = 24
+  case half3 = 25
+  case double4 = 27
   case float4 = 28
+  case half4 = 29
   case dictionary = 31
   case tokenListOp = 32
   case pathListOp = 34
+  case referenceListOp = 35
+  case pathVector = 40
   case tokenVector = 41
   case specifier = 42
   case variability = 44
+  case timeSamples = 46
+  case payload = 47
+  case stringVector = 50
+  case payloadListOp = 55
 }

@@ -6,6 +6,14 @@ struct CrateValueRep: Hashable {
   private static let inlined: UInt64 = 1 << 62
   private static let compressed: UInt64 = 1 << 61
 
+  var isArray: Bool { bits & Self.array != 0 }
+  var isInlined: Bool { bits & Self.inlined != 0 }
+  var isCompressed: Bool { bits & Self.compressed != 0 }
+  /// Nil for a type that this module doesn't know.
+  var type: CrateType? { CrateType(rawValue: bits >> 48 & 0xFF) }
+  /// The offset of the value, or the value itself in the lower half.
+  var payload: UInt64 { bits & 0xFFFF_FFFF_FFFF }
+
   /// A value that fits in the payload.
   static func inlined(_ type: CrateType, _ payload: UInt32) -> Self {
     Self(bits: inlined | type.rawValue << 48 | UInt64(payload))

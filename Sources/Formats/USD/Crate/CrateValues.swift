@@ -10,12 +10,7 @@ struct CrateValues {
   var strings = CrateTable<UInt32>()
   var paths = CratePaths()
 
-  /// Bits of a list edit's header.
-  private enum ListOpBits {
-    static let isExplicit: UInt8 = 1 << 0
-    static let hasExplicitItems: UInt8 = 1 << 1
-    static let hasPrependedItems: UInt8 = 1 << 5
-  }
+  private typealias ListOpBits = CrateListOpBits
 
   /// Shorter integer arrays are stored uncompressed.
   private static let minimumCompressedCount = 16
@@ -41,6 +36,8 @@ struct CrateValues {
     case .float2(let v): return storeVector(.float2, [v.x, v.y])
     case .float3(let v): return storeVector(.float3, [v.x, v.y, v.z])
     case .float4(let v): return storeVector(.float4, [v.x, v.y, v.z, v.w])
+    case .double3(let v): return storeNumbers(.double3, [v.x, v.y, v.z])
+    case .matrix4(let elements): return storeNumbers(.matrix4d, elements)
     case .tokenArray(let names):
       let indices = names.map { tokens.index($0) }
       return storeArray(.token, indices) { $1.append($0) }
@@ -54,7 +51,34 @@ struct CrateValues {
         $1.append($0.highHalf)
       }
     case .dictionary(let entries): return storeDictionary(entries)
+    case .references(let references): return store(references)
     }
+  }
+
+  private mutating func storeNumbers(_ type: CrateType, _ values: [Double]) -> CrateValueRep {
+    file.align(to: 8)
+    defer { for value in values { file.append(value) } }
+    return .stored(type, at: file.count)
+  }
+
+  /// An explicit list; each reference is a layer, a path, an offset and a scale of time, and an
+  /// empty dictionary.
+  private mutating func store(_ references: [USDReference]) -> CrateValueRep {
+    let indices = references.map {
+      (asset: string($0.asset), path: $0.path.isEmpty ? 0 : UInt32(paths.index($0.path, &tokens)))
+    }
+    file.align(to: 8)
+    let offset = file.count
+    file.append(ListOpBits.isExplicit | ListOpBits.hasExplicitItems)
+    file.append(UInt64(references.count))
+    for reference in indices {
+      file.append(reference.asset)
+      file.append(reference.path)
+      file.append(0.0)
+      file.append(1.0)
+      file.append(UInt64(0))
+    }
+    return .stored(.referenceListOp, at: offset)
   }
 
   private mutating func store(_ value: Double) -> CrateValueRep {

@@ -1,7 +1,7 @@
-/// Compresses bytes to one LZ4 block (LZ4 Block Format Description, Collet): greedy matching, hash
-/// table with one candidate.
+/// Bytes as one LZ4 block (LZ4 Block Format Description, Collet): compressed by greedy matching,
+/// with a hash table of one candidate.
 enum LZ4Block {
-  private static let minimumMatch = 4
+  static let minimumMatch = 4
   /// The format requires the last five bytes as literals, and no match start in the last twelve.
   private static let literalTail = 5
   private static let tail = 12
