@@ -101,6 +101,9 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "Pipeline", dependencies: ["Kernels", "ImageFiles", "Formats", "SceneModel"],
       swiftSettings: strict),
     .target(
+      name: "ReportPages", dependencies: ["Formats", "Kernels"],
+      resources: [.embedInCode("Resources")], swiftSettings: strict),
+    .target(
       name: "SceneRendering", dependencies: ["ImageFiles", "Kernels", "SceneModel"],
       swiftSettings: strict),
     appleModule("CoreFoundationTypes"),
@@ -132,8 +135,8 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       name: "EngineCommands",
       dependencies: [
         argumentParser, logging, "SharedCommands", "RealityFoundation", "Pipeline",
-        "SceneRendering", "VideoFiles", "ImageFiles", "Kernels", "Evaluation", "Formats",
-        "SceneModel",
+        "ReportPages", "SceneRendering", "VideoFiles", "ImageFiles", "Kernels", "Evaluation",
+        "Formats", "SceneModel",
       ],
       swiftSettings: strict),
     .target(
@@ -174,6 +177,8 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
         "DamagedInput", "VideoFiles", "ImageFiles", "Kernels", "SceneModel", "TestSupport",
       ],
       swiftSettings: strict),
+    .testTarget(
+      name: "ReportPagesTests", dependencies: ["ReportPages"], swiftSettings: strict),
     .testTarget(
       name: "AppleModulesTests",
       dependencies: [

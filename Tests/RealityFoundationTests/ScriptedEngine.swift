@@ -128,6 +128,8 @@ final class ScriptedEngine: SessionEngine {
   func finishTask() throws { journal.add("finished") }
 
   var report: RunReport? { RunReport(configuration: PipelineConfiguration()) }
+
+  func reportMaterial() throws -> ReportMaterial? { nil }
 }
 
 extension PhotogrammetrySession {

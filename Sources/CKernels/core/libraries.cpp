@@ -24,6 +24,12 @@
 #define CK_TEXT(value) #value
 #define CK_VALUE(macro) CK_TEXT(macro)
 
+extern "C" {
+// Defined by scripts/packaging/link.
+extern const unsigned char photogrammetry_viewer[] __attribute__((weak));
+extern const unsigned char photogrammetry_viewer_end[] __attribute__((weak));
+}
+
 namespace {
 
 std::string numbers(int a, int b, int c) {
@@ -77,4 +83,10 @@ std::string make_list() {
 const char* ck_library_versions(void) {
   static const std::string list = make_list();
   return list.c_str();
+}
+
+ck_span ck_viewer_bundle(void) {
+  if (!photogrammetry_viewer) return {nullptr, 0, 1};
+  return {photogrammetry_viewer,
+          static_cast<size_t>(photogrammetry_viewer_end - photogrammetry_viewer), 1};
 }

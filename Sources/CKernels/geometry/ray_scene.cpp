@@ -6,6 +6,7 @@
 #include <new>
 
 #include "core/guard.h"
+#include "core/parallel.h"
 
 ck_ray_scene::~ck_ray_scene() {
   if (scene) rtcReleaseScene(scene);
@@ -133,3 +134,16 @@ ck_status ck_ray_scene_create(const ck_mesh* mesh, const ck_control* control,
 }
 
 void ck_ray_scene_free(ck_ray_scene* scene) { delete scene; }
+
+ck_status ck_find_blocked(const ck_ray_scene* scene, ck_span from, ck_span to,
+                          const ck_control* control, uint8_t* is_blocked) {
+  return ck::guarded([&] {
+    ck::require(scene && is_blocked, "an argument is missing");
+    ck::require(from.count == to.count, "the numbers of points differ");
+    ck::parallel_for_blocks(control, from.count, 1024, [&](size_t i) {
+      const ck::Vec3 origin = ck::vec_at(from, i);
+      const ck::Vec3 way = ck::vec_at(to, i) - origin;
+      is_blocked[i] = ck::is_occluded(*scene, origin, way, 0.001f, 1) ? 1 : 0;
+    });
+  });
+}

@@ -97,6 +97,9 @@ uint64_t ck_hash(const void* bytes, size_t count, uint64_t seed);
 /// The libraries that are linked, one per line: name, space, version.
 const char* ck_library_versions(void);
 
+/// The JavaScript library of the report's page, if the program was linked with it; else empty.
+ck_span ck_viewer_bundle(void);
+
 /// Returns free memory of the C library's allocator to the system, where it can.
 void ck_release_free_memory(void);
 

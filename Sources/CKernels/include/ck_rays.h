@@ -54,6 +54,11 @@ ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_view* view, const
                            const uint8_t* mask, const ck_observe_options* options,
                            const ck_control* control, ck_face_observation* observations);
 
+/// Sets `is_blocked[i]` to 1 if the surface lies between point i of `from` and point i of `to`,
+/// else to 0. `from` may be on the surface: the first thousandth of the way is ignored.
+ck_status ck_find_blocked(const ck_ray_scene* scene, ck_span from, ck_span to,
+                          const ck_control* control, uint8_t* is_blocked);
+
 #ifdef __cplusplus
 }
 #endif

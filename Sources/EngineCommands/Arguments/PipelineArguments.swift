@@ -11,6 +11,8 @@ package struct PipelineArguments: EngineArguments {
 
   @OptionGroup var preview: PreviewArguments
 
+  @OptionGroup var viewer: ViewerArguments
+
   @OptionGroup var compression: CompressionArguments
 
   @OptionGroup var surface: SurfaceArguments
@@ -36,8 +38,9 @@ package struct PipelineArguments: EngineArguments {
     try compression.check(output.format, detail)
   }
 
-  package func outputs() throws -> EngineOutputs {
-    EngineOutputs(preview: try preview.file(), report: try runArguments.reportFile())
+  package func outputs(with model: ModelOutput) throws -> EngineOutputs {
+    _ = try viewerFile(of: model)
+    return EngineOutputs(preview: try preview.file())
   }
 
   package func configure(_ session: PhotogrammetrySession, photos folder: URL) throws {
@@ -48,12 +51,31 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.maskFolder = try masking.folder
     session.engineOptions.maskOutput = try maskOutput.folder(photos: folder)
     session.engineOptions.previewFile = try preview.file()
+    session.engineOptions.keepsReportMaterial =
+      try viewer.viewer || runArguments.reportFile()?.isPage == true
     session.engineOptions.compressesGLB = compression.compress
     session.engineOptions.closesObject = !surface.keepGaps
     session.engineOptions.refinesSurface = surface.refine
   }
 
-  package func report(of session: PhotogrammetrySession) throws -> Data? {
-    try session.report?.encoded()
+  private func viewerFile(of model: ModelOutput) throws -> ViewerFile? {
+    try viewer.file(of: model, besides: try runArguments.reportFile())
+  }
+
+  package func files(
+    of session: PhotogrammetrySession, photos: URL, model: ModelOutput
+  ) throws -> [EngineFile] {
+    let (report, material) = (session.report, session.reportMaterial)
+    var files: [EngineFile] = []
+    if let file = try runArguments.reportFile(), let report {
+      let content = try file.content(report, material, photos: photos, output: model.url)
+      files.append(EngineFile(kind: "report", url: file.url, content: content))
+    }
+    if let file = try viewerFile(of: model),
+      let content = try file.content(material, name: model.url.lastPathComponent)
+    {
+      files.append(EngineFile(kind: "viewer", url: file.url, content: content))
+    }
+    return files
   }
 }

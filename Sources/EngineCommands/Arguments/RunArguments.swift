@@ -7,16 +7,15 @@ struct RunArguments: ParsableArguments {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "Write a report of all stages and photos as JSON.", valueName: "file.json"),
-    completion: .file(extensions: ["json"]))
+      """
+      Write a report of the run, also if it fails: a page for a browser (.html), or all figures as \
+      JSON (.json).
+      """, valueName: "file"),
+    completion: .file(extensions: ["html", "json"]))
   var report: String?
 
   @OptionGroup var threading: ThreadArguments
 
   /// The file of the report; throws a `CommandFailure` if it can't be written.
-  func reportFile() throws -> URL? {
-    let url = report.map { URL(fileURLWithPath: $0, isDirectory: false) }
-    if let url { try ModelOutput.checkWritable(url) }
-    return url
-  }
+  func reportFile() throws -> ReportFile? { try report.map(ReportFile.init) }
 }

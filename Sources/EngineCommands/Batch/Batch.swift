@@ -27,6 +27,8 @@ struct Batch: AsyncParsableCommand {
             Another format and detail level.
         photogrammetry-cli batch sets/ models/ --jobs 4 --previews
             At most four datasets at once, and a picture of each model.
+        photogrammetry-cli batch sets/ models/ --reports
+            A page about each run, also if it fails: open models/index.html.
 
       JOBS
         Each dataset is processed in a separate process. One job runs per processor,
@@ -79,6 +81,11 @@ struct Batch: AsyncParsableCommand {
 
   @Flag(name: .long, help: "Render each model from eight sides, to <models>/<name>.png.")
   var previews = false
+
+  @Flag(
+    name: .long,
+    help: "Write the report of each run to <models>/<name>.html, and index.html with all of them.")
+  var reports = false
 
   @Flag(name: .long, help: "Write the camera poses to <models>/<name>.poses.json.")
   var poses = false
@@ -172,6 +179,11 @@ extension Batch {
   /// Throws a `CommandFailure` if a model of a dataset has the name of another dataset's.
   private func checkNames(of datasets: [BatchDataset]) throws {
     let names = Set(datasets.map(\.name))
+    guard !reports || !names.contains("index") else {
+      throw CommandFailure.usage(
+        "With --reports, the report of the dataset index would have the name of the list of all "
+          + "reports. Rename the dataset.")
+    }
     for name in datasets.map(\.name) {
       for level in detail.coarserLevels where names.contains("\(name)-\(level.rawValue)") {
         throw CommandFailure.usage(
@@ -182,7 +194,8 @@ extension Batch {
   }
 
   private var companions: [BatchCompanion] {
-    (previews ? [.preview] : []) + (poses ? [.poses] : []) + (pointClouds ? [.pointCloud] : [])
+    (previews ? [.preview] : []) + (reports ? [.report] : []) + (poses ? [.poses] : [])
+      + (pointClouds ? [.pointCloud] : [])
   }
 
   /// The options that affect models, as arguments of `reconstruct`.

@@ -1,11 +1,12 @@
 /// A file that a batch writes next to each model.
 enum BatchCompanion: CaseIterable, Sendable {
-  case preview, poses, pointCloud
+  case preview, report, poses, pointCloud
 
   /// The option of `reconstruct` that names the file.
   var option: String {
     switch self {
     case .preview: "--preview"
+    case .report: "--report"
     case .poses: "--poses"
     case .pointCloud: "--point-cloud"
     }
@@ -15,6 +16,7 @@ enum BatchCompanion: CaseIterable, Sendable {
   var suffix: String {
     switch self {
     case .preview: ".png"
+    case .report: ".html"
     case .poses: ".poses.json"
     case .pointCloud: ".points.ply"
     }

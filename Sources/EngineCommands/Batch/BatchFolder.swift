@@ -93,5 +93,11 @@ final class BatchFolder: Sendable {
     try AtomicFile.write(try summary.json(), to: summaryFile)
   }
 
+  /// Writes the page that lists the reports.
+  func writeIndex(of summary: BatchSummary) throws {
+    try AtomicFile.write(
+      summary.index(in: url).encoded, to: url.appendingPathComponent("index.html"))
+  }
+
   private var summaryFile: URL { url.appendingPathComponent("batch.json") }
 }

@@ -159,6 +159,10 @@ final class BatchRunner: Sendable {
 
   /// Writes the current summary, under the lock so that an older one never overwrites a newer one.
   private func save() throws {
-    try state.withLock { try folder.write(BatchSummary(datasets: $0.entries)) }
+    try state.withLock { state in
+      let summary = BatchSummary(datasets: state.entries)
+      try folder.write(summary)
+      if options.companions.contains(.report) { try folder.writeIndex(of: summary) }
+    }
   }
 }

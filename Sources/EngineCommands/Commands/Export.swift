@@ -63,6 +63,8 @@ struct Export: ParsableCommand {
 
   @OptionGroup var preview: PreviewArguments
 
+  @OptionGroup var viewer: ViewerArguments
+
   @OptionGroup var runArguments: RunArguments
 
   @OptionGroup var logging: LoggingOptions
@@ -76,7 +78,8 @@ struct Export: ParsableCommand {
     let geometry = ModelGeometry(shape.geometry ?? .init())
     let plan = EngineRun.Plan(
       source: .savedRun(try savedRun()), stages: [.preProcessing, .textureMapping, .optimization],
-      limits: detail.limits, coarserModels: coarser.map(\.level.limits))
+      output: target.url, limits: detail.limits, coarserModels: coarser.map(\.level.limits))
+    let page = try viewer.file(of: target, besides: try runArguments.reportFile())
     let reporter = RunReporter(logging.style())
     let run = try EngineRun(plan, configuration, runArguments, reporter)
     try run.perform(missing: "\(coarser.isEmpty ? "no" : "not every") model was written") {
@@ -88,6 +91,13 @@ struct Export: ParsableCommand {
       }
       try pipeline.writeModel(plan.limits, in: geometry, to: target.url)
       Terminal.shared.result(target.url.relativePath)
+      if let page,
+        let content = try page.content(
+          try pipeline.reportMaterial(), name: target.url.lastPathComponent)
+      {
+        try AtomicFile.write(content, to: page.url)
+        Terminal.shared.result(page.url.relativePath)
+      }
     }
     if let file = configuration.previewFile { Terminal.shared.result(file.relativePath) }
     Logger(label: "photogrammetry-cli")
@@ -102,6 +112,7 @@ extension Export {
       try preview.apply(to: &configuration)
       shape.apply(to: &configuration)
       compression.apply(to: &configuration)
+      configuration.keepsReportMaterial = viewer.viewer
       runArguments.threading.apply(to: &configuration)
       return configuration
     }

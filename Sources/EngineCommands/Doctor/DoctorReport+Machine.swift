@@ -11,7 +11,7 @@ extension DoctorReport {
     let environment = ProcessInfo.processInfo.environment
     let checks: [Check?] = [
       .version(
-        of: .current, fingerprint: ProgramIdentity.fingerprint, system: systemName),
+        of: .current, fingerprint: ProgramIdentity.fingerprint, system: SystemDescription.name),
       .memory(of: machine),
       .threads(.current),
       .instructions(Instructions.supported, of: machine),
@@ -31,17 +31,5 @@ extension DoctorReport {
     path.split(separator: ":").contains {
       FileManager.default.isExecutableFile(atPath: "\($0)/\(name)")
     }
-  }
-
-  /// `Debian GNU/Linux 12 (bookworm), x86-64`.
-  private static var systemName: String {
-    let system = ProcessInfo.processInfo.operatingSystemVersionString
-    #if arch(x86_64)
-      return "\(system), x86-64"
-    #elseif arch(arm64)
-      return "\(system), arm64"
-    #else
-      return system
-    #endif
   }
 }

@@ -12,7 +12,7 @@ package enum PipelineEngine: EngineSupport {
 
   package static var commands: [any ParsableCommand.Type] {
     [
-      Batch.self, Align.self, Densify.self, Export.self, Inspect.self, Doctor.self,
+      Batch.self, Align.self, Densify.self, Export.self, View.self, Inspect.self, Doctor.self,
       Frames.self, Demo<Self>.self,
     ]
   }

@@ -8,7 +8,8 @@ import SharedCommands
 struct EngineRun {
   private let pipeline: ReconstructionPipeline
   private let listener: PipelineListener
-  private let reportFile: URL?
+  private let reportFile: ReportFile?
+  private let plan: Plan
   private let flag: CancellationFlag
 
   /// The stages and parameters of a command's run.
@@ -16,6 +17,8 @@ struct EngineRun {
     var source: RunSource
     /// In the order of work.
     var stages: [PipelineStage]
+    /// The model; nil if the command makes none.
+    var output: URL?
     /// The limits that the first stages work for.
     var limits: DetailSpecification
     /// The limits of models that are made before that of `limits`.
@@ -34,6 +37,9 @@ struct EngineRun {
     _ reporter: RunReporter
   ) throws {
     reportFile = try arguments.reportFile()
+    self.plan = plan
+    var configuration = configuration
+    if reportFile?.isPage == true { configuration.keepsReportMaterial = true }
     flag = CancellationFlag()
     listener = PipelineListener(
       reporter, stages: plan.stages, coarserModels: plan.coarserModels,
@@ -65,7 +71,11 @@ struct EngineRun {
   /// Writes the report into the checkpoint directory, and to the file of `--report`.
   private func writeReport() throws {
     try pipeline.writeReport()
-    if let reportFile { try AtomicFile.write(try pipeline.report.encoded(), to: reportFile) }
+    guard let reportFile else { return }
+    let content = try reportFile.content(
+      pipeline.report, try pipeline.reportMaterial(), photos: plan.source.photoFolder,
+      output: plan.output)
+    try AtomicFile.write(content, to: reportFile.url)
   }
 }
 

@@ -58,6 +58,18 @@ package final class RayScene: Sendable {
     }
     return result
   }
+
+  /// Whether the surface lies between each point of `origins` and the point of `targets` at the
+  /// same index. The origins may be on the surface: the first thousandth of the way is ignored.
+  package func isBlocked(
+    from origins: [SIMD3<Float>], to targets: [SIMD3<Float>], _ control: KernelControl
+  ) throws -> [Bool] {
+    var blocked = [UInt8](repeating: 0, count: origins.count)
+    try withKernel(control) { control in
+      withSpans(origins, targets) { ck_find_blocked(handle, $0, $1, control, &blocked) }
+    }
+    return blocked.map { $0 != 0 }
+  }
 }
 
 extension Array where Element == SIMD2<Float> {

@@ -15,7 +15,7 @@ import SceneModel
 /// report.json
 /// ```
 /// Every file is written atomically.
-struct Checkpoint {
+package struct Checkpoint {
   let directory: URL
 
   init(directory: URL) {
@@ -27,8 +27,11 @@ struct Checkpoint {
   }
 
   func write(_ cloud: PointCloud) throws {
-    try PLY.write(cloud, to: try folder("dense").appendingPathComponent("points.ply"))
+    _ = try folder("dense")
+    try PLY.write(cloud, to: self.cloud)
   }
+
+  var cloud: URL { directory.appendingPathComponent("dense/points.ply") }
 
   /// The folder of `PatchWorkspace`.
   var views: URL { directory.appendingPathComponent("dense/views", isDirectory: true) }
@@ -67,9 +70,10 @@ struct Checkpoint {
 
   func write(_ report: RunReport) throws {
     try FileManager.default.createDirectory(at: directory, withIntermediateDirectories: true)
-    try AtomicFile.write(
-      try report.encoded(), to: directory.appendingPathComponent("report.json"))
+    try AtomicFile.write(try report.encoded(), to: self.report)
   }
+
+  var report: URL { directory.appendingPathComponent("report.json") }
 
   /// Removes the unfinished files of runs that were killed.
   func removeRemains() {

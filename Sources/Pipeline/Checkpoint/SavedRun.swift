@@ -12,6 +12,9 @@ package struct SavedRun: Sendable {
   package let record: SurfaceRecord
   /// The folder of the estimated masks, if there are any.
   let maskFolder: URL
+  /// The files of the dense points, if there are any, and of the report.
+  let cloudFile: URL
+  let reportFile: URL
   /// The current folder of the photos.
   package let photoFolder: URL
 
@@ -19,7 +22,8 @@ package struct SavedRun: Sendable {
   /// `SavedRunError`.
   package init(checkpoint directory: URL, photos: URL? = nil) throws {
     let checkpoint = Checkpoint(directory: directory)
-    maskFolder = checkpoint.masks
+    (maskFolder, cloudFile) = (checkpoint.masks, checkpoint.cloud)
+    reportFile = checkpoint.report
     try Self.checkPresence(checkpoint)
     record = try Self.record(checkpoint)
     photoFolder = photos ?? URL(fileURLWithPath: record.photoFolder, isDirectory: true)

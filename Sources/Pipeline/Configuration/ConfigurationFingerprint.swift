@@ -22,6 +22,7 @@ enum ConfigurationFingerprint {
     Exclusion("checkpointDirectory", "results do not depend on where they are written"),
     Exclusion("maskOutput", "it receives masks that are used anyway"),
     Exclusion("previewFile", "it shows a finished model"),
+    Exclusion("keepsReportMaterial", "it shows a finished run"),
     Exclusion("ingestion.maskFolder", "the masks in use are hashed by content"),
     Exclusion("ingestion.inspection.usesMasks", "the masks in use are hashed by content"),
     Exclusion("ingestion.maximumPhotos", "the photos in use are hashed by content"),

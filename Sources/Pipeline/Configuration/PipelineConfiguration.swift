@@ -29,6 +29,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var maskOutput: URL?
   /// The PNG file of a preview that shows each model from several sides; nil renders none.
   package var previewFile: URL?
+  /// Whether pictures, the model and points are kept for the page of a report.
+  package var keepsReportMaterial = false
   /// The number of threads of all stages; does not affect the results.
   package var threadCount: Int = ProcessorShare.current.threads
 

@@ -20,3 +20,14 @@ package struct ResourceUsage {
       peakMemoryBytes: usage.ru_maxrss * 1024)
   }
 }
+
+extension ResourceUsage {
+  /// The resident memory of the process at this moment; nil if the system does not report it.
+  static var residentBytes: Int? {
+    guard let text = try? String(contentsOfFile: "/proc/self/statm", encoding: .utf8) else {
+      return nil
+    }
+    let fields = text.split(separator: " ")
+    return fields.count > 1 ? Int(fields[1]).map { $0 * Int(sysconf(Int32(_SC_PAGESIZE))) } : nil
+  }
+}

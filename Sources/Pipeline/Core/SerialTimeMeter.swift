@@ -7,7 +7,6 @@ package final class SerialTimeMeter: Sendable {
   private struct State {
     var serialSeconds = 0.0
     var last = Sample.now
-    var isStopped = false
   }
 
   private struct Sample {
@@ -29,42 +28,30 @@ package final class SerialTimeMeter: Sendable {
   /// running threads at each of them.
   private static let interval = 0.02
 
-  private let state = Locked(State())
-  private let condition = NSCondition()
+  private let state: Locked<State>
+  private let thread: PeriodicThread
 
   package init() {
-    let thread = Thread { [self] in
-      condition.lock()
-      defer { condition.unlock() }
-      while !state.withLock({ $0.isStopped }) {
-        _ = condition.wait(until: Date(timeIntervalSinceNow: Self.interval))
-        sample()
-      }
-    }
-    thread.name = "serial time"
-    thread.start()
+    let state = Locked(State())
+    self.state = state
+    thread = PeriodicThread("serial time", interval: Self.interval) { Self.sample(state) }
   }
 
   /// The serial time so far, in seconds.
   package var serialSeconds: Double {
-    sample()
+    Self.sample(state)
     return state.withLock { $0.serialSeconds }
   }
 
-  package func stop() {
-    state.withLock { $0.isStopped = true }
-    condition.lock()
-    condition.broadcast()
-    condition.unlock()
-  }
+  package func stop() { thread.stop() }
 
   /// Adds the time since the last sample, if fewer than two threads were busy in it. Between one
   /// and two threads on average, both are taken to have been busy for a part of it.
-  private func sample() {
+  private static func sample(_ state: Locked<State>) {
     state.withLock { state in
       // In the lock, so that samples of different threads are in order.
       let now = Sample.now
-      state.serialSeconds += Self.serialSeconds(
+      state.serialSeconds += serialSeconds(
         in: now.seconds - state.last.seconds, cpuSeconds: now.cpuSeconds - state.last.cpuSeconds)
       state.last = now
     }

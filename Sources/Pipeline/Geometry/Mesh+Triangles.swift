@@ -13,12 +13,15 @@ extension Mesh {
     return (a + b + c) / 3
   }
 
+  /// The normal of a triangle, as long as twice its area.
+  func scaledNormal(of triangle: Triangle) -> SIMD3<Float> {
+    let (a, b, c) = corners(of: triangle)
+    return (b - a).cross(c - a)
+  }
+
   /// Area of each triangle.
   func triangleAreas() -> [Float] {
-    triangles.map { triangle in
-      let (a, b, c) = corners(of: triangle)
-      return (b - a).cross(c - a).length / 2
-    }
+    triangles.map { scaledNormal(of: $0).length / 2 }
   }
 
   /// The mesh with only the vertices that triangles reference, in their order.

@@ -44,8 +44,8 @@ package struct PhotoIngestion: Sendable {
     let sensors = SensorFiles(masks.photos)
     let files = sensors.photos
     var (candidates, rejected) = try inspect(files, masks, context.part(from: 0, to: 0.95))
-    // Those that are rejected as blurred here were decoded, too.
-    let decoded = candidates.count + rejected.count { $0.fault == .blurred }
+    // Blank ones were decoded, too.
+    let decoded = candidates.count + rejected.count { $0.fault == .blank }
     context.notes.record("decodedPhotos", Double(decoded))
     let originals = try DuplicateDetection(options.duplicates)
       .run(candidates, context.part(from: 0.95, to: 1))

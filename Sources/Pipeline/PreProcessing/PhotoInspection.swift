@@ -54,7 +54,7 @@ package struct PhotoInspection: Sendable {
       do {
         sharpness = try SharpnessLadder(reduced)
       } catch KernelError.degenerate {
-        throw rejection(.blurred, "it is blank: it is badly exposed, or the lens was covered")
+        throw rejection(.blank, "it is blank: it is badly exposed, or the lens was covered")
       }
       var photo = InspectedPhoto(
         sampleID: sampleID, url: url, width: upright.width, height: upright.height,

@@ -12,6 +12,8 @@ struct ReconstructionMethod {
   let configuration: PipelineConfiguration
   let cache: StageCache
   let recorder: RunRecorder
+  /// Nil if nobody wants the page of a report.
+  let collector: MaterialCollector?
 
   /// The number of pixels per view in the dense stage.
   var viewPixels: Int { configuration.pointCloudGeneration.maximumPixelsPerView }
@@ -32,6 +34,7 @@ struct ReconstructionMethod {
     try recorder.recordingErrors { try cache.lockDirectory() }
     return try cache.photos {
       let ingested = try recorder.run(.preProcessing) { try source.ingest(configuration, $0) }
+      collector?.add(ingested)
       try recorder.record(
         ingested, folder: source.photoFolder,
         minimumPhotos: configuration.alignment.minimumPhotos)
@@ -95,6 +98,7 @@ struct ReconstructionMethod {
         let cloud = try PointCloudGeneration(options: configuration.pointCloudGeneration)
           .run(reconstruction, images: photos.images, folder: cache.checkpoint?.views, context)
         CloudMetrics().run(cloud, reconstruction, context.notes)
+        collector?.add(cloud)
         return cloud
       }
       try cache.checkpoint?.write(cloud)
@@ -152,8 +156,32 @@ struct ReconstructionMethod {
       if !configuration.isObjectMaskingEnabled { texturing.options.presence = nil }
       return try texturing.run(
         mesh, dense: dense, occluders: parts?.outside ?? Mesh(), reconstruction: reconstruction,
-        images: photos.images, context.part(from: 0.15, to: 1))
+        images: photos.images, context.part(from: 0.15, to: 1)
+      ) { evidence in
+        try context.notes.step("review") { try review(evidence, of: scene, context.control) }
+      }
     }
+  }
+
+  /// Records how the photos show the surface, and what photos are missing. Without masks, the
+  /// surface ends where the photos do, so that its rim indicates nothing.
+  private func review(
+    _ evidence: ModelEvidence, of scene: ObjectScene, _ control: KernelControl
+  ) throws {
+    let control = control.part(from: 0, to: 0)
+    let (images, reconstruction) = (scene.photos.images, scene.reconstruction)
+    var statistics = SurfaceStatistics(
+      evidence, residual: reconstruction.meanReprojectionError)
+    var advice: [Advice] = []
+    if configuration.isObjectMaskingEnabled, images.hasMasks {
+      statistics.outlineShare = try OutlineCoverage()
+        .run(evidence, reconstruction, images: images, control)
+      let found = try SurfaceAdvice(evidence, reconstruction, control)
+      statistics.missingShare = found?.missingShare
+      advice = found?.advice ?? []
+    }
+    recorder.record(evidence, statistics, advice)
+    try collector?.add(evidence, reconstruction, control)
   }
 
   /// Writes the model in the format of the URL's extension, and renders a preview if configured.
@@ -171,6 +199,11 @@ struct ReconstructionMethod {
       try context.notes.step("export") {
         try ModelExport(options: configuration.export)
           .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
+      }
+      if let collector {
+        try context.notes.step("report") {
+          try collector.add(model, reconstruction, context.part(from: end, to: end))
+        }
       }
       guard let preview = configuration.previewFile else { return }
       // The preview is rendered in the frame of the cameras.

@@ -13,6 +13,7 @@ package final class ReconstructionPipeline {
   private let source: RunSource
   private let recorder: RunRecorder
   private let cache: StageCache
+  private let collector: MaterialCollector?
   private var finestViewPixels = 0
   private var maximumViewPixels = Int.max
 
@@ -24,6 +25,7 @@ package final class ReconstructionPipeline {
     self.source = source
     self.configuration = configuration
     recorder = RunRecorder(configuration, flag: flag, onEvent: onEvent)
+    collector = configuration.keepsReportMaterial ? MaterialCollector() : nil
     cache = StageCache(
       directory: configuration.checkpointDirectory, access: checkpointAccess,
       sealsStages: source.isPhotosOnly, recorder: recorder)
@@ -31,6 +33,14 @@ package final class ReconstructionPipeline {
 
   /// The report of the run so far.
   package var report: RunReport { recorder.report }
+
+  /// What the page of the report shows besides the report; nil unless the configuration asks for
+  /// it. Works after a failure, too.
+  package func reportMaterial() throws -> ReportMaterial? {
+    try collector?.material(
+      names: report.photos.map(\.name), images: cache.currentImages, cache.currentReconstruction,
+      KernelControl(threadCount: configuration.threadCount))
+  }
 
   /// Announces the models that will be requested, so that shared stages work at the highest
   /// resolution needed.
@@ -133,6 +143,6 @@ package final class ReconstructionPipeline {
   private func method(_ configuration: PipelineConfiguration? = nil) -> ReconstructionMethod {
     ReconstructionMethod(
       source: source, configuration: configuration ?? self.configuration, cache: cache,
-      recorder: recorder)
+      recorder: recorder, collector: collector)
   }
 }

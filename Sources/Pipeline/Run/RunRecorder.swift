@@ -15,6 +15,11 @@ final class RunRecorder {
   private let threadCount: Int
   private let flag: CancellationFlag
   private let onEvent: @Sendable (PipelineEvent) -> Void
+  /// The uptime at which the run began.
+  private let beginning = ResourceUsage.now.seconds
+  /// The cameras of the photos before alignment, by photo ID.
+  private var initialCameras: [Camera] = []
+  private let memory = Locked(MemoryRecord())
 
   init(
     _ configuration: PipelineConfiguration, flag: CancellationFlag,
@@ -50,7 +55,11 @@ final class RunRecorder {
     _ stage: PipelineStage, images: ImageStore? = nil, _ body: (StageContext) throws -> Value
   ) throws -> Value {
     let meter = SerialTimeMeter()
-    defer { meter.stop() }
+    let memoryThread = recordingMemory()
+    defer {
+      meter.stop()
+      memoryThread.stop()
+    }
     let notes = StageNotes(meter: meter)
     let control = KernelControl(threadCount: threadCount, flag: flag) { [onEvent] fraction in
       onEvent(.progress(stage, fraction: fraction))
@@ -76,18 +85,32 @@ final class RunRecorder {
     }
   }
 
+  /// A thread that records the resident memory until it is stopped.
+  private func recordingMemory() -> PeriodicThread {
+    let (memory, beginning) = (memory, beginning)
+    @Sendable func sample() {
+      guard let bytes = ResourceUsage.residentBytes else { return }
+      let time = ResourceUsage.now.seconds - beginning
+      memory.withLock { $0.add(bytes, at: time) }
+    }
+    sample()
+    return PeriodicThread("memory", interval: MemoryRecord.shortestInterval, sample)
+  }
+
   private func add(_ stage: PipelineStage, _ notes: StageNotes, since start: ResourceUsage) {
     let end = ResourceUsage.now
     report.stages.append(
       .init(
-        name: stage.rawValue, seconds: end.seconds - start.seconds,
+        name: stage.rawValue, start: start.seconds - beginning,
+        seconds: end.seconds - start.seconds,
         cpuSeconds: end.cpuSeconds - start.cpuSeconds,
         serialSeconds: notes.meter?.serialSeconds ?? 0, peakMemoryBytes: end.peakMemoryBytes,
         counts: notes.counts, steps: notes.steps))
+    report.memory = memory.withLock { $0 }
     report.warnings += notes.warnings
     report.concerns += notes.concerns
     report.details += notes.details
-    if let matches = notes.matches { record(matches) }
+    if let matches = notes.matches { report.add(matches, of: photoNames) }
     notes.warnings.forEach { onEvent(.warning($0)) }
     notes.details.forEach { onEvent(.detail($0)) }
   }
@@ -99,11 +122,9 @@ extension RunRecorder {
   /// Records which photos of a folder are used; throws if there are fewer than `minimumPhotos`.
   /// They have no pose yet.
   func record(_ ingested: IngestedPhotos, folder: URL, minimumPhotos: Int) throws {
-    report.photos += ingested.rejected.map {
-      .init(name: $0.name, status: .rejected, reason: $0.reason)
-    }
+    report.add(ingested)
     photoNames = ingested.photos.map(\.name)
-    report.photos += photoNames.map { .init(name: $0, status: .notRegistered) }
+    initialCameras = ingested.photos.map { ingested.cameras[$0.camera.index] }
     ingested.rejected.forEach { onEvent(.rejected($0)) }
     if ingested.isDownsampled { onEvent(.downsampled) }
     try recordingErrors {
@@ -115,34 +136,6 @@ extension RunRecorder {
     }
   }
 
-  /// Records which photos match.
-  private func record(_ matches: MatchRecord) {
-    guard matches.features.count == photoNames.count else { return }
-    report.matches = .init(photos: photoNames, pairs: matches)
-    let partners = matches.partners
-    var groupOfPhoto = [Int](repeating: 0, count: photoNames.count)
-    for (number, group) in matches.groups.enumerated() {
-      for photo in group { groupOfPhoto[photo] = number }
-    }
-    update(photoNames) { photo, entry in
-      entry.features = matches.features[photo]
-      entry.partners = partners[photo]
-      entry.group = groupOfPhoto[photo]
-    }
-  }
-
-  /// Changes the entries of photos; `change` receives the index of each name.
-  private func update(
-    _ names: [String], _ change: (Int, inout RunReport.PhotoEntry) -> Void
-  ) {
-    let entries = Dictionary(
-      zip(report.photos.map(\.name), report.photos.indices),
-      uniquingKeysWith: { first, _ in first })
-    for (index, name) in names.enumerated() {
-      if let entry = entries[name] { change(index, &report.photos[entry]) }
-    }
-  }
-
   /// Records cameras without a photo, by name.
   func record(missing names: [String]) {
     report.photos += names.map { .init(name: $0, status: .missing, reason: nil) }
@@ -150,26 +143,49 @@ extension RunRecorder {
 
   /// Records how sure the estimated masks are; `names` are those of the photos, by ID.
   func record(_ masks: EstimatedMasks, names: [String]) {
-    update(names) { photo, entry in
+    report.update(names) { photo, entry in
       if photo < masks.agreement.count { entry.maskAgreement = masks.agreement[photo] }
+      if photo < masks.masks.count { entry.maskShare = masks.masks[photo]?.coverage }
+    }
+  }
+
+  /// Records how the photos show the surface of a model, and where photos are missing.
+  func record(
+    _ evidence: ModelEvidence, _ statistics: SurfaceStatistics, _ advice: [Advice]
+  ) {
+    report.surface = statistics
+    report.advice.removeAll { $0.kind == .surface }
+    report.advice += advice
+    let shares = evidence.areaShares
+    report.update(photoNames) { photo, entry in
+      entry.exposure = evidence.gains[ID(photo)].map { -Double(log2($0)) }
+      entry.textureShare = evidence.gains[ID(photo)].map { _ in shares[ID(photo)] ?? 0 }
     }
   }
 
   /// Records which photos are registered, and the reprojection errors.
   func record(_ reconstruction: Reconstruction) {
     let residuals = reconstruction.residuals
-    update(reconstruction.photos.map(\.name)) { photo, entry in
-      guard reconstruction.poses[photo] != nil else { return }
+    report.update(reconstruction.photos.map(\.name)) { photo, entry in
+      guard let pose = reconstruction.poses[photo] else { return }
       let residuals = residuals[photo]
       entry.status = .registered
+      entry.camera = reconstruction.photos[photo].camera.index
+      entry.position = pose.center
+      let rotation = pose.rotation.conjugate
+      entry.rotation = [rotation.w, rotation.x, rotation.y, rotation.z]
       entry.observations = residuals.count
       entry.meanResidual =
         residuals.isEmpty ? nil : residuals.reduce(0, +) / Double(residuals.count)
       entry.residual95 = residuals.quantile(0.95)
     }
     let unregistered = reconstruction.unregistered
-    update(unregistered.map(\.name)) { $1.reason = unregistered[$0].reason }
+    report.update(unregistered.map(\.name)) {
+      ($1.reason, $1.fault) = (unregistered[$0].reason, unregistered[$0].fault)
+    }
     report.photos.sort { $0.name < $1.name }
+    report.cameras = CameraEntry.entries(of: reconstruction, initial: initialCameras)
+    report.tracks = TrackStatistics(reconstruction, residuals: residuals)
     report.meanReprojectionError = reconstruction.meanReprojectionError
     report.worldFrame = reconstruction.worldFrame
     unregistered.forEach { onEvent(.rejected($0)) }

@@ -66,6 +66,12 @@ final class StageCache {
     if let emptied = scene?.photos.emptied { scene?.photos = emptied }
   }
 
+  /// The photos so far, with masks if there are any; nil before they are read.
+  var currentImages: ImageStore? { (scene?.photos ?? photos)?.images }
+
+  /// The reconstruction so far; nil before alignment.
+  var currentReconstruction: Reconstruction? { aligned?.reconstruction }
+
   func photos(_ make: () throws -> PhotoSet) throws -> PhotoSet {
     if let photos { return photos }
     let result = try make()

@@ -1,3 +1,4 @@
+import Foundation
 import SceneModel
 
 /// Maps a photo's colors to the set's mean exposure.
@@ -15,6 +16,9 @@ struct ExposureGain: Hashable, Sendable {
 
   /// Added to a color times the factors.
   var offset: SIMD3<Float> { Self.encodingOffset * (factors - .one) }
+
+  /// The factor on light, of green: sRGB stores about the 2.4th root of light, IEC 61966-2-1.
+  var light: Float { pow(factors.y, 2.4) }
 
   /// A photo color, 0…255, at the mean exposure.
   func apply(_ color: SIMD3<Float>) -> SIMD3<Float> { color * factors + offset }

@@ -50,22 +50,26 @@ package struct TextureMapping: Sendable {
   package init(options: Options = Options()) { self.options = options }
 
   /// Textures `mesh`; its maps are baked from `dense`, the surface before simplification.
-  /// `occluders` block the photos' view of the mesh but get no texture.
+  /// `occluders` block the photos' view of the mesh but get no texture. `onEvidence` receives how
+  /// the photos show the surface, before it is painted.
   ///
   /// Throws `PipelineError.noSurface` for an empty mesh.
   package func run(
     _ mesh: Mesh, dense: Mesh, occluders: Mesh = Mesh(), reconstruction: Reconstruction,
-    images: ImageStore, _ context: StageContext
+    images: ImageStore, _ context: StageContext, onEvidence: EvidenceHandler? = nil
   ) throws -> TexturedMesh {
     let images = images.decodingOnce(forSizesUpTo: options.painting.maximumPixels)
     return try run(
       mesh, dense: dense, occluders: occluders,
-      source: ViewSource(reconstruction, images: images), context)
+      source: ViewSource(reconstruction, images: images), context, onEvidence: onEvidence)
   }
+
+  /// Receives how the photos show a surface.
+  package typealias EvidenceHandler = (ModelEvidence) throws -> Void
 
   func run(
     _ input: Mesh, dense: Mesh, occluders: Mesh = Mesh(), source: ViewSource,
-    _ context: StageContext
+    _ context: StageContext, onEvidence: EvidenceHandler? = nil
   ) throws -> TexturedMesh {
     let mesh = try checked(input)
     let notes = context.notes
@@ -81,7 +85,8 @@ package struct TextureMapping: Sendable {
     }
     let colors = try colors(
       of: mesh, topology, draining: &seen, source, isCropped: !occluders.triangles.isEmpty,
-      context)
+      needsEvidence: onEvidence != nil, context)
+    try onEvidence?(evidence(colors, of: mesh, scene, views))
     let layout = try notes.step("layout") {
       try self.layout(of: mesh, dense, topology, colors, context.part(from: 0.26, to: 0.39))
     }
@@ -103,18 +108,25 @@ package struct TextureMapping: Sendable {
     var gains: [ExposureGain]
     var rated: RatedViews
     var labels: [Int32]
+    /// Empty if nobody asks for them.
+    var evidence: [ModelEvidence.Face]
   }
 
   /// Chooses the views of each face. `seen` is left empty.
   private func colors(
     of mesh: Mesh, _ topology: MeshTopology, draining seen: inout FaceViews,
-    _ source: ViewSource, isCropped: Bool, _ context: StageContext
+    _ source: ViewSource, isCropped: Bool, needsEvidence: Bool, _ context: StageContext
   ) throws -> FaceColors {
     let notes = context.notes
     let views = source.reconstruction.registered
     let gains = try notes.step("exposure") {
       try ExposureCompensation(options: options.exposure)
         .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
+    }
+    let evidence = try notes.step("evidence") {
+      guard needsEvidence else { return [ModelEvidence.Face]() }
+      return try EvidenceSurvey(source.reconstruction, gains: gains)
+        .run(mesh, seen: seen, context.part(from: 0, to: 0).control)
     }
     // A user who cropped the model decided what is in it.
     if let presence = options.presence, !isCropped {
@@ -142,7 +154,17 @@ package struct TextureMapping: Sendable {
         &rated, labels: labels, mesh: mesh, topology: topology,
         context.part(from: 0.26, to: 0.26).control)
     }
-    return FaceColors(gains: gains, rated: rated, labels: labels)
+    return FaceColors(gains: gains, rated: rated, labels: labels, evidence: evidence)
+  }
+
+  /// How the photos show the surface.
+  private func evidence(
+    _ colors: FaceColors, of mesh: Mesh, _ scene: RayScene, _ views: [ID<Photo>]
+  ) -> ModelEvidence {
+    ModelEvidence(
+      mesh: mesh, scene: scene, faces: colors.evidence,
+      painters: colors.labels.map { $0 < 0 ? nil : views[Int($0)] },
+      gains: Dictionary(uniqueKeysWithValues: zip(views, colors.gains.map(\.light))))
   }
 
   /// Where the faces lie in the textures, how their photos are blended there, and the surface that

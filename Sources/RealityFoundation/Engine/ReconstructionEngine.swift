@@ -34,6 +34,8 @@ final class ReconstructionEngine: SessionEngine {
 
   var report: RunReport? { pipeline.report }
 
+  func reportMaterial() throws -> ReportMaterial? { try pipeline.reportMaterial() }
+
   func plan(for specifications: [DetailSpecification]) { pipeline.plan(for: specifications) }
 
   func finishTask() throws {
@@ -108,6 +110,7 @@ extension PipelineConfiguration {
     meshPrimitive = configuration.meshPrimitive == .quad ? .quad : .triangle
     checkpointDirectory = configuration.checkpointDirectory
     previewFile = options.previewFile
+    keepsReportMaterial = options.keepsReportMaterial
     export.glbCompression = options.compressesGLB ? GLBCompression() : nil
     maskOutput = options.maskOutput
     threadCount = options.threadCount

@@ -12,6 +12,7 @@ final class SessionCore: SessionWorker {
     var state = SessionState()
     var flag = CancellationFlag()
     var report: RunReport?
+    var material: ReportMaterial?
   }
 
   /// The state of the session's thread.
@@ -42,6 +43,7 @@ final class SessionCore: SessionWorker {
     shared.withLock { $0.state.activeRequests }
   }
   var report: RunReport? { shared.withLock { $0.report } }
+  var reportMaterial: ReportMaterial? { shared.withLock { $0.material } }
 
   func process(
     _ requests: [PhotogrammetrySession.Request], options: EngineOptions,
@@ -108,8 +110,11 @@ final class SessionCore: SessionWorker {
     } catch {
       sessionLogger.warning("The report can't be written: \(sentence(of: error))")
     }
-    let report = engine.report
-    shared.withLock { $0.report = report ?? $0.report }
+    let (report, material) = (engine.report, try? engine.reportMaterial())
+    shared.withLock {
+      $0.report = report ?? $0.report
+      $0.material = material ?? $0.material
+    }
   }
 
   private func work(

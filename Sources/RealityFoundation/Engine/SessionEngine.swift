@@ -25,6 +25,8 @@ protocol SessionEngine: AnyObject {
   func limitResolution(to viewPixels: Int)
   /// The report of the run so far.
   var report: RunReport? { get }
+  /// What the page of the report shows besides it; nil unless the options ask for it.
+  func reportMaterial() throws -> ReportMaterial?
 }
 
 extension SessionEngine {

@@ -16,6 +16,8 @@ package struct EngineOptions: Equatable, Sendable {
   /// The PNG file of a preview that shows the model from several sides, the finest one of several;
   /// nil renders none.
   package var previewFile: URL?
+  /// Whether pictures, the model and points are kept for the page of a report.
+  package var keepsReportMaterial = false
   /// Whether GLB files are compressed, by extensions of glTF that readers must support.
   package var compressesGLB = false
   /// Formats of model files that are accepted in addition to USDZ. None by default: a program

@@ -70,6 +70,9 @@ public class PhotogrammetrySession: @unchecked Sendable {
 
   /// The report of the run so far; nil before the first request ends.
   package var report: RunReport? { worker.report }
+
+  /// What the page of the report shows besides it; nil unless the options ask for it.
+  package var reportMaterial: ReportMaterial? { worker.reportMaterial }
 }
 
 extension PhotogrammetrySession: Identifiable {

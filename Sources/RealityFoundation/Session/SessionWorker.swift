@@ -13,6 +13,8 @@ protocol SessionWorker: Sendable {
   var activeRequests: [Request] { get }
   /// The report of the run so far; nil before the first request ends.
   var report: RunReport? { get }
+  /// What the page of the report shows besides it; nil unless the options ask for it.
+  var reportMaterial: ReportMaterial? { get }
 
   /// Starts to process requests and returns; `session` is kept alive until the work has ended.
   /// Throws if a request is invalid or work is in progress.

@@ -2,7 +2,7 @@
 package struct RejectedPhoto: Hashable, Codable, Sendable {
   /// The kind of fault.
   package enum Fault: String, Hashable, Codable, Sendable {
-    case unreadable, unsupportedFormat, tooSmall, tooLarge, blurred, duplicate, tooMany
+    case unreadable, unsupportedFormat, tooSmall, tooLarge, blank, blurred, duplicate, tooMany
     case notRegistered
   }
 

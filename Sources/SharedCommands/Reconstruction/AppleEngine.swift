@@ -10,9 +10,11 @@ package enum AppleEngine: EngineSupport {
     package init() {}
 
     package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {}
-    package func outputs() throws -> EngineOutputs { EngineOutputs() }
+    package func outputs(with model: ModelOutput) throws -> EngineOutputs { EngineOutputs() }
     package func configure(_ session: PhotogrammetrySession, photos: URL) throws {}
-    package func report(of session: PhotogrammetrySession) throws -> Data? { nil }
+    package func files(
+      of session: PhotogrammetrySession, photos: URL, model: ModelOutput
+    ) throws -> [EngineFile] { [] }
   }
 
   package static var commands: [any ParsableCommand.Type] { [] }

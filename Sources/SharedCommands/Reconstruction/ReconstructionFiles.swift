@@ -28,7 +28,7 @@ struct ReconstructionFiles {
     }
     poses = try url(arguments.poses)
     pointCloud = try url(arguments.pointCloud)
-    additional = try arguments.engine.outputs()
+    additional = try arguments.engine.outputs(with: output)
     checkpoint = try url(arguments.checkpointDirectory, isDirectory: true)
   }
 

@@ -35,7 +35,7 @@ struct ReconstructionJob<Engine: EngineSupport> {
       throw error
     }
     reporter.finish()
-    try writeReport(of: session, reporter)
+    try writeFiles(of: session, reporter)
     if run.isCancelled { throw interrupted }
     if let failure = run.failures.first {
       for sentence in run.failures.dropFirst() { logger.error("\(sentence)") }
@@ -109,12 +109,16 @@ struct ReconstructionJob<Engine: EngineSupport> {
     return requests
   }
 
-  private func writeReport(of session: PhotogrammetrySession, _ reporter: RunReporter) throws {
-    guard let url = files.additional.report,
-      let data = try arguments.engine.report(of: session)
-    else { return }
-    try AtomicFile.write(data, to: url)
-    reporter.wrote("report", url.relativePath)
+  /// Writes what the engine makes of the run.
+  private func writeFiles(of session: PhotogrammetrySession, _ reporter: RunReporter) throws {
+    let photos =
+      switch files.input {
+      case .folder(let url), .video(let url): url
+      }
+    for file in try arguments.engine.files(of: session, photos: photos, model: files.output) {
+      try AtomicFile.write(file.content, to: file.url)
+      reporter.wrote(file.kind, file.url.relativePath)
+    }
   }
 }
 

@@ -63,4 +63,17 @@ import Testing
       positions: [.zero, [.infinity, 0, 0], [0, 1, 0]], triangles: [.init(0, 1, 2)])
     #expect(throws: KernelError.self) { try RayScene(infinite, KernelControl()) }
   }
+
+  @Test func raysAreBlockedByWhatIsBetween() throws {
+    let scene = try RayScene(SyntheticMesh.sphere(subdivisions: 3), KernelControl())
+    let starts: [SIMD3<Float>] = [[0, 0, 3], [0, 0, 3], [0, 3, 3], [0, 0, 1], [0, 0, 1]]
+    let ends: [SIMD3<Float>] = [[0, 0, -3], [0, 0, 1.5], [0, 3, -3], [0, 0, 3], [0, 0, -3]]
+    #expect(
+      try scene.isBlocked(from: starts, to: ends, KernelControl())
+        == [true, false, false, false, true])
+    #expect(try scene.isBlocked(from: [], to: [], KernelControl()).isEmpty)
+    #expect(throws: KernelError.self) {
+      try scene.isBlocked(from: [[0, 0, 0]], to: [], KernelControl())
+    }
+  }
 }

@@ -13,7 +13,7 @@ import Testing
     let faults = Dictionary(uniqueKeysWithValues: result.rejected.map { ($0.name, $0.fault) })
     #expect(
       faults == [
-        "black.jpg": .blurred, "blurred.jpg": .blurred, "corrupt.jpg": .unreadable,
+        "black.jpg": .blank, "blurred.jpg": .blurred, "corrupt.jpg": .unreadable,
         "empty.jpg": .unreadable, "notes.txt": .unsupportedFormat,
         "recoded.jpg": .duplicate, "text-named-as.jpg": .unsupportedFormat,
         "tiny.png": .tooSmall, "truncated.jpg": .unreadable,

@@ -50,7 +50,7 @@ import Testing
       faults == [
         "cut.jpg": .unreadable, "notes.txt": .unsupportedFormat, "empty.jpg": .unreadable,
         "tiny.png": .tooSmall, "IMG_9.jpg": .duplicate, "recoded.jpg": .duplicate,
-        "soft.jpg": .blurred, "dark.jpg": .blurred,
+        "soft.jpg": .blurred, "dark.jpg": .blank,
       ])
     #expect(
       result.photos.map(\.name) == [

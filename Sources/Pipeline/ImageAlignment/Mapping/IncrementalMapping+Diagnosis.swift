@@ -61,8 +61,15 @@ private struct UnregisteredPhotoDiagnosis {
     self.links = links.map { $0.sorted { ($1.matches, $0.other) < ($0.matches, $1.other) } }
   }
 
+  /// A photo with less of its detail is blurred. Chosen: half the pixels would show as much.
+  private static let minimumDetail = 0.5
+
   /// A sentence without its subject, the name of the photo, and without the final period.
   func reason(_ photo: Int) -> String {
+    if photos[photo].detail(at: photos[photo].width * photos[photo].height) < Self.minimumDetail {
+      return "is blurred, and shares too few features with the other photos; take it again with a "
+        + "steady, focused camera"
+    }
     let verified = links[photo].filter { $0.needed == nil }
     if let group = others.first(where: { $0.isRegistered(photo) }) {
       return separate(photo, in: group)

@@ -20,7 +20,7 @@ import Testing
     let path = temporary.url.path
     #expect(try RunArguments.parse([]).reportFile() == nil)
     #expect(
-      try RunArguments.parse(["--report", path + "/r.json"]).reportFile()?.lastPathComponent
+      try RunArguments.parse(["--report", path + "/r.json"]).reportFile()?.url.lastPathComponent
         == "r.json")
     let failure = #expect(throws: CommandFailure.self) {
       try RunArguments.parse(["--report", path + "/none/r.json"]).reportFile()

@@ -1,0 +1,37 @@
+import Foundation
+import SceneModel
+
+/// Points in 16 bits per coordinate, as the page shows them.
+package struct PagePoints: Encodable, Sendable {
+  /// The position is `origin` + `size` · coordinates / 65535.
+  package var origin: SIMD3<Float>
+  package var size: Float
+  /// 16 bits each, little-endian.
+  package var positions: Data
+  /// RGB.
+  package var colors: Data
+
+  /// Chosen: 360 KB, and an even cover of the picture.
+  static let maximumCount = 40_000
+
+  /// Of more than `maximumCount` points, every nth; nil without points.
+  init?(_ positions: [SIMD3<Float>], _ colors: [SIMD3<UInt8>]) {
+    guard !positions.isEmpty else { return nil }
+    let step = max(1, (positions.count + Self.maximumCount - 1) / Self.maximumCount)
+    let chosen = stride(from: 0, to: positions.count, by: step).map { $0 }
+    let grid = UnitGrid(chosen.map { positions[$0] })
+    (origin, size) = (grid.origin, grid.size)
+    self.positions = grid.data(chosen.map { positions[$0] })
+    self.colors = colors.count == positions.count ? Data(rgb: chosen.map { colors[$0] }) : Data()
+  }
+}
+
+extension Data {
+  /// Colors, one after the other.
+  init(rgb colors: [SIMD3<UInt8>]) {
+    var bytes: [UInt8] = []
+    bytes.reserveCapacity(3 * colors.count)
+    for color in colors { for channel in 0..<3 { bytes.append(color[channel]) } }
+    self.init(bytes)
+  }
+}
