@@ -82,6 +82,8 @@ function adviceSection(report, photos, selection, showPlaces) {
     ...messages(report.concerns, '!', 'concern'), ...advice];
   return section('advice', 'What to do next', null,
     items.length > 0 && element('ul', { class: 'messages' }, items),
+    items.length === 0 && report.verdict?.level === 'good'
+      && element('p', {}, 'Nothing: the photos show the object from all sides.'),
     commandLine(report.run?.command));
 }
 

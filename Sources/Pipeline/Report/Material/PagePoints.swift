@@ -11,8 +11,8 @@ package struct PagePoints: Encodable, Sendable {
   /// RGB.
   package var colors: Data
 
-  /// Chosen: 360 KB, and an even cover of the picture.
-  static let maximumCount = 40_000
+  /// Chosen: 270 KB, and an even cover of the picture.
+  static let maximumCount = 30_000
 
   /// Of more than `maximumCount` points, every nth; nil without points.
   init?(_ positions: [SIMD3<Float>], _ colors: [SIMD3<UInt8>]) {
