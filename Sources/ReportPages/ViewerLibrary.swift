@@ -65,7 +65,8 @@ package struct ViewerLibrary: Sendable {
     let text =
       module[..<export.lowerBound] + "globalThis.THREE_LIBRARY={\(names.joined(separator: ","))};"
     scripts = [Data("<script type=\"module\">\n\(text)\n</script>\n".utf8)]
-    (name, license) = ("three.js r180", Self.mit("2010-2025 three.js authors, 2021 Zauberzeug GmbH (NiceGUI)"))
+    name = "three.js r180"
+    license = Self.mit("2010-2025 three.js authors, 2021 Zauberzeug GmbH (NiceGUI)")
   }
 
   /// A classic script that sets `THREE`; nil if it is missing.

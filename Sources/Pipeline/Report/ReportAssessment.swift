@@ -7,6 +7,7 @@ struct ReportAssessment {
   func run(_ report: RunReport) -> RunReport {
     var result = report
     result.verdict = RunVerdict(report)
+    if !report.errors.isEmpty { result.explainUnusedPhotos() }
     let onPhotos = PhotoAdvice().run(report)
     // What a surface that isn't the object's lacks is no advice.
     let isWhole = report.concerns.isEmpty && !onPhotos.contains { $0.kind == .texture }
@@ -16,6 +17,15 @@ struct ReportAssessment {
 }
 
 extension RunReport {
+  /// Gives photos that were not looked at, because the run failed, a reason.
+  fileprivate mutating func explainUnusedPhotos() {
+    for index in photos.indices
+    where photos[index].status == .notRegistered && photos[index].reason == nil {
+      photos[index].reason =
+        "\(photos[index].name) can be used, but the run ended before its camera was found."
+    }
+  }
+
   /// The report with its verdict and all advice.
   package var assessed: RunReport { ReportAssessment().run(self) }
 

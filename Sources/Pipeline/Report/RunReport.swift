@@ -120,10 +120,13 @@ package struct RunReport: Codable, Sendable {
 
   /// Adds the description of an error, unless it is present already.
   mutating func note(_ error: any Error) {
+    let known = error as? any LocalizedError
     let sentence =
       error is CancellationError
       ? "The run was canceled."
-      : (error as? any LocalizedError)?.errorDescription ?? String(describing: error)
+      : known?.errorDescription.map { text in
+        ([text] + [known?.recoverySuggestion].compactMap(\.self)).joined(separator: " ")
+      } ?? String(describing: error)
     if !errors.contains(sentence) { errors.append(sentence) }
   }
 }

@@ -63,6 +63,7 @@ import Testing
     failed.errors = ["The photos show nothing."]
     #expect(failed.assessed.verdict?.level == .failed)
     #expect(failed.assessed.verdict?.sentence == "There is no model. The photos show nothing.")
+    #expect(failed.assessed.photos.allSatisfy { $0.reason?.contains("the run ended") == true })
     var suspect = report(used: 20, of: 20)
     suspect.concerns = ["It may be the table."]
     #expect(suspect.assessed.verdict?.level == .poor)

@@ -70,7 +70,9 @@ import Testing
         try recorder.run(.textureMapping) { _ in throw PipelineError.emptyCrop }
       }
     }
-    #expect(recorder.report.errors == [PipelineError.emptyCrop.errorDescription])
+    let error = PipelineError.emptyCrop
+    let sentences = [error.errorDescription, error.recoverySuggestion].compactMap(\.self)
+    #expect(recorder.report.errors == [sentences.joined(separator: " ")])
     #expect(recorder.report.stages.count == 2)
   }
 
