@@ -144,12 +144,14 @@ package struct PageModel: Encodable, Sendable {
   mutating func set(coordinates: [SIMD2<Float>]) {
     let low = coordinates.reduce(SIMD2(0, 0)) { pointwiseMin($0, $1) }
     let high = coordinates.reduce(SIMD2(1, 1)) { pointwiseMax($0, $1) }
-    (coordinateOrigin, coordinateSize) = (low, high - low)
+    let largest = SIMD2<Float>(repeating: .greatestFiniteMagnitude)
+    let size = pointwiseMin(high - low, largest)
+    (coordinateOrigin, coordinateSize) = (low, size)
     var numbers: [UInt16] = []
     numbers.reserveCapacity(2 * coordinates.count)
     for coordinate in coordinates {
-      let scaled = ((coordinate - low) / (high - low)).clamped(lowerBound: .zero, upperBound: .one)
-      for axis in 0..<2 { numbers.append(UInt16((scaled[axis] * 65535).rounded())) }
+      let scaled = ((coordinate - low) / size).clamped(lowerBound: .zero, upperBound: .one)
+      for axis in 0..<2 { numbers.append(UInt16(saturating: scaled[axis] * 65535)) }
     }
     self.coordinates = Data(littleEndian: numbers)
   }
@@ -159,7 +161,7 @@ package struct PageModel: Encodable, Sendable {
     numbers.reserveCapacity(3 * normals.count)
     for normal in normals {
       let scaled = (normal.normalized * 127).rounded(.toNearestOrAwayFromZero)
-      for axis in 0..<3 { numbers.append(Int8(scaled[axis])) }
+      for axis in 0..<3 { numbers.append(Int8(saturating: scaled[axis])) }
     }
     return Data(littleEndian: numbers)
   }

@@ -59,10 +59,10 @@ package struct PhotoPicture: Encodable, Sendable {
       let place = (residual.pixel / size).clamped(lowerBound: .zero, upperBound: .one) * 65535
       let offset = (residual.offset * 100).clamped(
         lowerBound: SIMD2(repeating: -32767), upperBound: SIMD2(repeating: 32767))
-      numbers.append(UInt16(place.x))
-      numbers.append(UInt16(place.y))
-      numbers.append(UInt16(bitPattern: Int16(offset.x)))
-      numbers.append(UInt16(bitPattern: Int16(offset.y)))
+      numbers.append(UInt16(saturating: place.x))
+      numbers.append(UInt16(saturating: place.y))
+      numbers.append(UInt16(bitPattern: Int16(saturating: offset.x)))
+      numbers.append(UInt16(bitPattern: Int16(saturating: offset.y)))
     }
     self.residuals = Data(littleEndian: numbers)
   }

@@ -20,7 +20,7 @@ struct UnitGrid {
     for position in positions {
       let unit = ((position - origin) / size).clamped(lowerBound: .zero, upperBound: .one)
       let scaled = (unit * 65535).rounded(.toNearestOrAwayFromZero)
-      for axis in 0..<3 { numbers.append(UInt16(scaled[axis])) }
+      for axis in 0..<3 { numbers.append(UInt16(saturating: scaled[axis])) }
     }
     return Data(littleEndian: numbers)
   }

@@ -1,4 +1,6 @@
+import Formats
 import Foundation
+import ImageFiles
 import Kernels
 import SceneModel
 import TestSupport
@@ -86,5 +88,24 @@ import Testing
       #expect(colors[3 * vertex] == (position.x > 0 ? 200 : 0))
       #expect(abs(Float(values[vertex]) / 254 - max(0, position.y)) < 0.1)
     }
+  }
+
+  /// Numbers of files may be of any size.
+  @Test func extremeNumbersDoNotTrap() throws {
+    let huge = Float.greatestFiniteMagnitude
+    var part = LoadedModel.Part()
+    part.positions = [[-huge, 0, 0], [huge, huge, 0], [0, -huge, huge]]
+    part.normals = [[huge, huge, 0], .zero, [0, 0, -huge]]
+    part.textureCoordinates = [[-huge, 0], [huge, huge], [0, -huge]]
+    part.triangles = [Triangle(0, 1, 2)]
+    part.baseColor = EncodedImage(
+      fileExtension: "png",
+      bytes: try ImageCodec.encodePNG(
+        RasterImage(width: 2, height: 2, channels: 3, filledWith: 9)))
+    let page = try PageModel(LoadedModel(parts: [part]), KernelControl())
+    #expect(numbers(page.positions, as: UInt16.self).count == 9)
+    #expect(numbers(page.normals, as: Int8.self).count == 9)
+    #expect(numbers(page.coordinates, as: UInt16.self).count == 6)
+    #expect(page.size.isFinite && page.coordinateSize.x.isFinite)
   }
 }
