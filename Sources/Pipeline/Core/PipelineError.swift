@@ -18,11 +18,9 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
     case .noPhotos(let folder, let rejected):
       rejected == 0
         ? "\(folder) holds no photos."
-        : "\(folder) holds no usable photo; "
-          + "\(rejected) file\(rejected == 1 ? " was" : "s were") refused."
+        : "\(folder) holds no usable photo; \(rejected) files were refused."
     case .tooFewPhotos(let found, let needed):
-      "Only \(found) usable photo\(found == 1 ? "" : "s"); "
-        + "a reconstruction needs at least \(needed)."
+      "Only \(found) usable photos; a reconstruction needs at least \(needed)."
     case .tooFewCameras(let count, let needed, let photos, let cameras):
       "Only \(count) of the \(photos) photos match one of the \(cameras) given cameras; "
         + "\(needed) are needed."

@@ -74,7 +74,9 @@ import Testing
     for name in ["aligned/report.json", "r.json", "made/report.json", "q.json"] {
       let data = try Data(contentsOf: folder.appendingPathComponent(name))
       let report = try JSONDecoder().decode(RunReport.self, from: data)
-      #expect(report.errors == [PipelineError.tooFewPhotos(found: 2, needed: 3).errorDescription])
+      let error = PipelineError.tooFewPhotos(found: 2, needed: 3)
+      let sentences = [error.errorDescription, error.recoverySuggestion].compactMap(\.self)
+      #expect(report.errors == [sentences.joined(separator: " ")])
       #expect(report.stages.map(\.name) == ["preProcessing"])
     }
   }
