@@ -12,8 +12,9 @@ struct PartBuilder {
     var color: SIMD3<UInt8>?
   }
 
-  /// Vertices at one position that are compared with a corner before it gets a new one. Real models
-  /// have a few; without a limit, hostile files would take quadratic time.
+  /// Vertices at one position that are compared with a corner before it gets a new one. Without
+  /// a limit, hostile files would take quadratic time. Chosen: where more charts than this meet,
+  /// vertices are only not shared.
   private static let maximumComparisons = 32
   private static let none = UInt32.max
 

@@ -129,7 +129,7 @@ final class ScriptedEngine: SessionEngine {
 
   var report: RunReport? { RunReport(configuration: PipelineConfiguration()) }
 
-  func reportMaterial() throws -> ReportMaterial? { nil }
+  func reportMaterial() -> ReportMaterial? { nil }
 }
 
 extension PhotogrammetrySession {

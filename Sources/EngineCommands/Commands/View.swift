@@ -2,6 +2,7 @@ import ArgumentParser
 import Formats
 import Foundation
 import Kernels
+import Logging
 import Pipeline
 import SceneModel
 import SharedCommands
@@ -91,6 +92,11 @@ extension View {
       loaded = try ModelFile.read(source, decompressedBy: MeshoptDecoder())
     } catch let error as FormatError {
       throw CommandFailure.usage(CommandFailure(error).sentence)
+    }
+    if !loaded.missingFiles.isEmpty {
+      let names = loaded.missingFiles.joined(separator: ", ")
+      Logger(label: "photogrammetry-cli").warning(
+        "\(model) refers to files that can't be shown: \(names).")
     }
     var material = ReportMaterial()
     material.isViewer = true

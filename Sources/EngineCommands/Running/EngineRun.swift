@@ -72,8 +72,9 @@ struct EngineRun {
   private func writeReport() throws {
     try pipeline.writeReport()
     guard let reportFile else { return }
+    let material = pipeline.reportMaterial()
     let content = try reportFile.content(
-      pipeline.report, try pipeline.reportMaterial(), photos: plan.source.photoFolder,
+      pipeline.report, material, photos: plan.source.photoFolder,
       output: plan.output)
     try AtomicFile.write(content, to: reportFile.url)
   }

@@ -2,11 +2,11 @@ import Foundation
 
 /// Parses decimal numbers of text formats from bytes: much faster than via strings.
 enum DecimalNumber {
-  /// Powers of ten that doubles represent exactly.
+  /// Powers of ten that doubles represent exactly: 5²² < 2⁵³.
   private static let powers: [Double] = (0...22).map { pow(10, Double($0)) }
-  /// Integers of so many digits are exact, too.
+  /// Integers of so many digits are exact, too: 10¹⁵ < 2⁵³ (IEEE 754).
   private static let exactDigits = 15
-  /// Longer words are no numbers.
+  /// Longer words are no numbers. Chosen: doubles are written with 24 characters at most.
   private static let maximumLength = 64
 
   /// The number at `offset`, which then is after it; nil without a number. Accepts `nan` and `inf`.

@@ -3,6 +3,7 @@
 /// Compressed and repeated content can stand for more memory than any computer has. What a model
 /// needs is proportional to the size of its file, with a generous factor.
 final class MemoryBudget {
+  /// Bytes of memory for any file, and for each byte of a file. Chosen.
   private static let base = 64 << 20
   private static let factor = 64
 

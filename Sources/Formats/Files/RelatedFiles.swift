@@ -3,7 +3,7 @@ import Foundation
 /// The files that a model refers to by paths relative to its folder.
 final class RelatedFiles {
   private let folder: URL
-  /// Bytes that may still be read: a file can refer to others any number of times.
+  /// Bytes that may still be read: a file can refer to others any number of times. Chosen.
   private var rest = 1 << 32
 
   init(folder: URL) { self.folder = folder }

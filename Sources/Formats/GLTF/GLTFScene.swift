@@ -2,7 +2,7 @@ import SceneModel
 
 /// Collects the triangles of the nodes of an untrusted glTF scene.
 struct GLTFScene {
-  /// Nested deeper than real scenes; the stack of a thread has an end.
+  /// Deeper nodes are rejected, since the stack of a thread is limited. Chosen.
   private static let maximumDepth = 128
 
   private let content: GLTFContent

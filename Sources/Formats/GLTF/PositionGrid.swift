@@ -4,7 +4,7 @@ import SceneModel
 ///
 /// All parts of a model share the grid, so that their borders stay together. It is a cube, since
 /// normals would need another transform than positions if the axes had different scales.
-struct PositionGrid: Equatable, Sendable {
+package struct PositionGrid: Equatable, Sendable {
   /// Bits per coordinate. At 16 bits the error is at most a 130,000th of the model's longest side:
   /// a tenth of a texel of an atlas of 8192² texels, which has about 5,000 across such a model. 14
   /// bits would be enough up to 2048² texels, but save only 2 % of the file.
@@ -12,12 +12,14 @@ struct PositionGrid: Equatable, Sendable {
   private static let maximum = Float(1 << bits - 1)
 
   /// The smallest corner of the bounds.
-  let origin: SIMD3<Float>
+  package let origin: SIMD3<Float>
   /// The distance of two grid points, in the unit of the positions.
-  let step: Float
+  package let step: Float
+  /// The side of the cube.
+  package var extent: Float { step * Self.maximum }
 
   /// The grid over the bounds of `positions`.
-  init(_ positions: [SIMD3<Float>]) {
+  package init(_ positions: [SIMD3<Float>]) {
     let bounds = Mesh(positions: positions).bounds ?? (.zero, .zero)
     let extent = (bounds.max - bounds.min).max()
     origin = bounds.min
@@ -25,7 +27,7 @@ struct PositionGrid: Equatable, Sendable {
   }
 
   /// The nearest grid point.
-  func coordinates(of position: SIMD3<Float>) -> SIMD3<UInt16> {
+  package func coordinates(of position: SIMD3<Float>) -> SIMD3<UInt16> {
     let v = ((position - origin) / step).rounded(.toNearestOrAwayFromZero)
     return SIMD3(Self.clamped(v.x), Self.clamped(v.y), Self.clamped(v.z))
   }

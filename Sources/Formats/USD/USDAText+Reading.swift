@@ -12,6 +12,7 @@ extension USDAText {
 
 /// A recursive descent parser of layers.
 private struct USDAParser {
+  /// Deeper prims are rejected, since the stack of a thread is limited. Chosen.
   private static let maximumDepth = 128
 
   private var tokenizer: USDATokenizer

@@ -39,10 +39,7 @@ final class MaterialCollector {
   private static func withSmallTextures(_ model: TexturedMesh) throws -> TexturedMesh {
     var result = model
     for index in result.atlases.indices {
-      let color = try result.atlases[index].maps[.diffuseColor].map { image in
-        try image.resized(
-          width: min(image.width, previewTexture), height: min(image.height, previewTexture))
-      }
+      let color = try result.atlases[index].maps[.diffuseColor]?.fitted(to: previewTexture)
       result.atlases[index].maps = color.map { [.diffuseColor: $0] } ?? [:]
     }
     return result

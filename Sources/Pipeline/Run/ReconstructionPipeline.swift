@@ -14,6 +14,7 @@ package final class ReconstructionPipeline {
   private let recorder: RunRecorder
   private let cache: StageCache
   private let collector: MaterialCollector?
+  private let flag: CancellationFlag
   private var finestViewPixels = 0
   private var maximumViewPixels = Int.max
 
@@ -22,7 +23,7 @@ package final class ReconstructionPipeline {
     checkpointAccess: CheckpointAccess = .exclusive, flag: CancellationFlag = CancellationFlag(),
     onEvent: @escaping @Sendable (PipelineEvent) -> Void = { _ in }
   ) {
-    self.source = source
+    (self.source, self.flag) = (source, flag)
     self.configuration = configuration
     recorder = RunRecorder(configuration, flag: flag, onEvent: onEvent)
     collector = configuration.keepsReportMaterial ? MaterialCollector() : nil
@@ -36,10 +37,19 @@ package final class ReconstructionPipeline {
 
   /// What the page of the report shows besides the report; nil unless the configuration asks for
   /// it. Works after a failure, too.
-  package func reportMaterial() throws -> ReportMaterial? {
-    try collector?.material(
-      names: report.photos.map(\.name), images: cache.currentImages, cache.currentReconstruction,
-      KernelControl(threadCount: configuration.threadCount))
+  package func reportMaterial() -> ReportMaterial? {
+    guard let collector else { return nil }
+    do {
+      return try collector.material(
+        names: report.photos.map(\.name), images: cache.currentImages, cache.currentReconstruction,
+        KernelControl(threadCount: configuration.threadCount, flag: flag))
+    } catch is CancellationError {
+      // Who interrupts a run doesn't wait for pictures.
+      return ReportMaterial()
+    } catch {
+      recorder.warn("The pictures of the report could not be made (\(error)).")
+      return ReportMaterial()
+    }
   }
 
   /// Announces the models that will be requested, so that shared stages work at the highest

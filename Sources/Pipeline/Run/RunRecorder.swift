@@ -165,7 +165,7 @@ extension RunRecorder {
 
   /// Records which photos are registered, and the reprojection errors.
   func record(_ reconstruction: Reconstruction) {
-    let residuals = reconstruction.residuals
+    let residuals = reconstruction.residuals.map { $0.map(\.offset.length) }
     report.update(reconstruction.photos.map(\.name)) { photo, entry in
       guard let pose = reconstruction.poses[photo] else { return }
       let residuals = residuals[photo]

@@ -110,7 +110,9 @@ final class SessionCore: SessionWorker {
     } catch {
       sessionLogger.warning("The report can't be written: \(sentence(of: error))")
     }
-    let (report, material) = (engine.report, try? engine.reportMaterial())
+    // The material first: warnings about it belong into the report.
+    let material = engine.reportMaterial()
+    let report = engine.report
     shared.withLock {
       $0.report = report ?? $0.report
       $0.material = material ?? $0.material

@@ -26,7 +26,7 @@ protocol SessionEngine: AnyObject {
   /// The report of the run so far.
   var report: RunReport? { get }
   /// What the page of the report shows besides it; nil unless the options ask for it.
-  func reportMaterial() throws -> ReportMaterial?
+  func reportMaterial() -> ReportMaterial?
 }
 
 extension SessionEngine {

@@ -23,7 +23,8 @@ import Testing
             Observation(photo: ID(2), feature: 0, pixel: [0, 0]),
           ])
       ])
-    #expect(reconstruction.residuals == [[5], [0], []])
+    #expect(reconstruction.residuals.map { $0.map(\.pixel) } == [[[53, 54]], [[50, 50]], []])
+    #expect(reconstruction.residuals.map { $0.map(\.offset) } == [[[-3, -4]], [[0, 0]], []])
     #expect(reconstruction.meanReprojectionError == 2.5)
   }
 }

@@ -26,6 +26,7 @@ struct CrateFile {
     try header.seek(to: 16)
     let contents = try header.count()
     try header.seek(to: contents)
+    // The format defines six sections; 64 is chosen.
     for _ in 0..<min(try header.count(), 64) {
       let name = String(decoding: try header.take(16).prefix { $0 != 0 }, as: UTF8.self)
       let (start, size) = (try header.count(), try header.count())

@@ -1,3 +1,4 @@
+import Formats
 import Foundation
 import Kernels
 import SceneModel
@@ -87,9 +88,7 @@ package struct PageModel: Encodable, Sendable {
       Part(
         first: atlas.triangles.lowerBound, count: atlas.triangles.count,
         texture: try atlas.maps[.diffuseColor].map { image in
-          let fitted = try image.resized(
-            width: min(image.width, side), height: min(image.height, side))
-          return try fitted.dataURL(quality: options.quality)
+          try image.fitted(to: side).dataURL(quality: options.quality)
         })
     }
     maps = figures.map { figure in
@@ -127,8 +126,8 @@ package struct PageModel: Encodable, Sendable {
   }
 
   init(_ positions: [SIMD3<Float>], normals: [SIMD3<Float>], triangles: [Triangle]) {
-    let grid = UnitGrid(positions)
-    (origin, size) = (grid.origin, grid.size)
+    let grid = PositionGrid(positions)
+    (origin, size) = (grid.origin, grid.extent)
     self.positions = grid.data(positions)
     self.normals = Self.data(normals: normals)
     var indices: [UInt32] = []
@@ -168,7 +167,7 @@ package struct PageModel: Encodable, Sendable {
 }
 
 extension PageModel.Map {
-  fileprivate init(_ figure: VertexFigures, _ bytes: [UInt8]) {
+  init(_ figure: VertexFigures, _ bytes: [UInt8]) {
     self.init(
       key: figure.kind, name: figure.name, unit: figure.unit, high: figure.high,
       values: Data(bytes))

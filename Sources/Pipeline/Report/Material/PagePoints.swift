@@ -1,3 +1,4 @@
+import Formats
 import Foundation
 import SceneModel
 
@@ -19,10 +20,24 @@ package struct PagePoints: Encodable, Sendable {
     guard !positions.isEmpty else { return nil }
     let step = max(1, (positions.count + Self.maximumCount - 1) / Self.maximumCount)
     let chosen = stride(from: 0, to: positions.count, by: step).map { $0 }
-    let grid = UnitGrid(chosen.map { positions[$0] })
-    (origin, size) = (grid.origin, grid.size)
-    self.positions = grid.data(chosen.map { positions[$0] })
+    let points = chosen.map { positions[$0] }
+    let grid = PositionGrid(points)
+    (origin, size) = (grid.origin, grid.extent)
+    self.positions = grid.data(points)
     self.colors = colors.count == positions.count ? Data(rgb: chosen.map { colors[$0] }) : Data()
+  }
+}
+
+extension PositionGrid {
+  /// The coordinates of positions, 16 bits each.
+  func data(_ positions: [SIMD3<Float>]) -> Data {
+    var numbers: [UInt16] = []
+    numbers.reserveCapacity(3 * positions.count)
+    for position in positions {
+      let coordinates = coordinates(of: position)
+      for axis in 0..<3 { numbers.append(coordinates[axis]) }
+    }
+    return Data(littleEndian: numbers)
   }
 }
 

@@ -44,14 +44,8 @@ package struct PhotoPicture: Encodable, Sendable {
     }
   }
 
-  /// An observation and the projection of its point, in pixels.
-  struct Residual {
-    var pixel: SIMD2<Double>
-    var offset: SIMD2<Double>
-  }
-
   /// `size` is that of the photo in pixels.
-  mutating func add(_ residuals: [Residual], size: SIMD2<Double>) {
+  mutating func add(_ residuals: [Reconstruction.Residual], size: SIMD2<Double>) {
     let largest = residuals.sorted { $0.offset.squaredLength > $1.offset.squaredLength }
       .prefix(Self.maximumResiduals)
     var numbers: [UInt16] = []

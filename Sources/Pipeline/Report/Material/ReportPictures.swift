@@ -20,7 +20,7 @@ struct ReportPictures {
       ingested.photos.map { ($0.name, $0) }, uniquingKeysWith: { first, _ in first })
     let rejected = Dictionary(
       ingested.rejected.map { ($0.name, $0.sampleID) }, uniquingKeysWith: { first, _ in first })
-    let residuals = residuals
+    let residuals = reconstruction?.residuals ?? []
     return try control.parallelMap(names.count) { index in
       if let photo = photos[names[index]] {
         return try? picture(of: photo, side, residuals)
@@ -30,7 +30,7 @@ struct ReportPictures {
   }
 
   private func picture(
-    of photo: Photo, _ side: Int, _ residuals: [[PhotoPicture.Residual]]
+    of photo: Photo, _ side: Int, _ residuals: [[Reconstruction.Residual]]
   ) throws -> PhotoPicture {
     let longer = Double(max(photo.width, photo.height))
     func pixels(_ side: Int) -> Int {
@@ -56,22 +56,5 @@ struct ReportPictures {
         .turned(byOrientation: PhotoMetadata(bytes).orientation).fitted(to: side)
     else { return nil }
     return try? PhotoPicture(image)
-  }
-
-  /// The observations with their errors, by photo ID.
-  private var residuals: [[PhotoPicture.Residual]] {
-    guard let reconstruction else { return [] }
-    var result = [[PhotoPicture.Residual]](
-      repeating: [], count: reconstruction.photos.count)
-    for point in reconstruction.points {
-      for observation in point.track {
-        guard let pose = reconstruction.poses[observation.photo.index] else { continue }
-        let projected = reconstruction.camera(of: observation.photo)
-          .project(pose * point.position)
-        result[observation.photo.index].append(
-          .init(pixel: observation.pixel, offset: projected - observation.pixel))
-      }
-    }
-    return result
   }
 }

@@ -56,6 +56,35 @@ import Testing
     #expect(whole.advice.contains { $0.kind == .surface && $0.sentence.contains("underside") })
   }
 
+  /// Nine neighbors of the lower ring: the other five, and the upper ring, are missing.
+  @Test(.endToEnd) func adviceNamesThePhotosBesideAGap() throws {
+    let target = folder.appendingPathComponent("photos", isDirectory: true)
+    try FileManager.default.createDirectory(at: target, withIntermediateDirectories: true)
+    for number in 3...11 {
+      let name = "view_\(number < 10 ? "0" : "")\(number).jpg"
+      try FileManager.default.copyItem(
+        at: Fixtures.images(of: "orbit").appendingPathComponent(name),
+        to: target.appendingPathComponent(name))
+    }
+    let run = try CommandProcess.run(
+      ["photos", "m.glb", "-d", "preview", "--report", "gap.json"], in: folder)
+    #expect(run.exitCode == 0, "\(run.errors)")
+    let gap = try JSONDecoder().decode(RunReport.self, from: report("gap.json")).assessed
+    let advice = try #require(gap.advice.first)
+    #expect(gap.verdict?.level != .good)
+    #expect(
+      advice.sentence.contains("view_11.jpg and view_03.jpg")
+        || advice.sentence.contains("view_03.jpg and view_11.jpg"), "\(advice.sentence)")
+    // The places are on the side without photos.
+    let positions = gap.photos.compactMap(\.position)
+    let middle = positions.reduce(.zero, +) / Double(positions.count)
+    #expect(!advice.places.isEmpty)
+    for place in advice.places {
+      let (taken, wanted) = (middle - place.target, place.position - place.target)
+      #expect(taken.x * wanted.x + taken.z * wanted.z < 0)
+    }
+  }
+
   @Test(.endToEnd) func runsThatFailHaveReports() throws {
     try temporary.writeNoisePhotos(3, to: "photos")
     try temporary.write("This is no photo.", as: "photos/text.jpg")
