@@ -2,13 +2,13 @@ import Foundation
 import SceneModel
 
 /// A color whose components are proportional to light, 0…1.
-struct LinearColor {
-  var components: SIMD3<Float>
+package struct LinearColor: Sendable {
+  package var components: SIMD3<Float>
 
-  init(_ components: SIMD3<Float>) { self.components = components }
+  package init(_ components: SIMD3<Float>) { self.components = components }
 
   /// The linear color of components in sRGB, 0…1.
-  init(sRGB components: SIMD3<Float>) {
+  package init(sRGB components: SIMD3<Float>) {
     func linear(_ value: Float) -> Float {
       value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4)
     }
@@ -16,7 +16,7 @@ struct LinearColor {
   }
 
   /// The color in sRGB, 0…255.
-  var bytes: SIMD3<UInt8> {
+  package var bytes: SIMD3<UInt8> {
     [Self.byte(components.x), Self.byte(components.y), Self.byte(components.z)]
   }
 

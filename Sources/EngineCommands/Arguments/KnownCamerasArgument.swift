@@ -9,7 +9,8 @@ import SharedCommands
 struct KnownCamerasArgument {
   let cameras: KnownCameras
 
-  /// Reads COLMAP's text files, in the folder or in its sparse/ or sparse/0/, or a cameras.json.
+  /// Reads COLMAP's files, in the folder or in its sparse/ or sparse/0/, or a cameras.json without
+  /// the photos that it marks as held out.
   ///
   /// Throws a `CommandFailure` if there are no usable cameras. With `isMetric` their unit is the
   /// meter; otherwise the report.json that `align` writes next to sparse/ determines the scale.
@@ -27,30 +28,19 @@ struct KnownCamerasArgument {
   }
 
   private static func read(_ folder: URL, _ path: String) throws -> KnownCameras {
-    let places = ["", "sparse", "sparse/0"].map {
-      folder.appendingPathComponent($0, isDirectory: true)
-    }
-    if let place = places.first(where: { exists($0, "images.txt") }) {
-      return KnownCameras(try COLMAPText.read(place))
-    }
+    if let reconstruction = try COLMAPFolder.read(folder) { return KnownCameras(reconstruction) }
     if exists(folder, "cameras.json") {
       return try cameras(json: folder.appendingPathComponent("cameras.json"))
     }
-    if let place = places.first(where: { exists($0, "images.bin") }) {
-      throw CommandFailure.usage(
-        "\(place.relativePath) holds COLMAP's binary files. Convert them with: colmap "
-          + "model_converter --input_path \(place.relativePath) --output_path "
-          + "\(place.relativePath) --output_type TXT")
-    }
     throw CommandFailure.usage(
-      "\(path) holds no cameras: neither cameras.txt and images.txt, directly in it or in "
-        + "sparse/ or sparse/0/, nor cameras.json.")
+      "\(path) holds no cameras: neither COLMAP's files, directly in it or in sparse/ or "
+        + "sparse/0/, nor cameras.json.")
   }
 
   private static func cameras(json file: URL) throws -> KnownCameras {
     let named: [NamedCamera]
     do {
-      named = try NamedCamera.cameras(json: try Data(contentsOf: file))
+      named = try NamedCamera.cameras(json: try Data(contentsOf: file)).filter { !$0.isHeldOut }
     } catch EvaluationError.invalidReference(let reason) {
       throw CommandFailure.usage("\(file.relativePath) can't be used: \(reason).")
     }

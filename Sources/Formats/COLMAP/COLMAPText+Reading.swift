@@ -11,7 +11,7 @@ extension COLMAPText {
   package static func read(
     _ folder: URL, images: URL = URL(fileURLWithPath: "/")
   ) throws -> Reconstruction {
-    var reading = Reading(imageFolder: images)
+    var reading = Reading()
     try reading.parse(folder, "cameras.txt") { try $0.addCamera($1) }
     var isPose = true
     try reading.parse(folder, "images.txt", keepsEmptyLines: true) { reading, line in
@@ -24,35 +24,15 @@ extension COLMAPText {
     if FileManager.default.fileExists(atPath: folder.appendingPathComponent(points).path) {
       try reading.parse(folder, points) { try $0.addPoint($1) }
     }
-    return reading.reconstruction()
+    return reading.content.reconstruction(images: images)
   }
 }
 
-/// The content of the files parsed so far.
+/// Parses lines and collects their content.
 private struct Reading {
   struct Fault: Error { var reason: String }
 
-  struct Image {
-    var id: Int
-    var camera: Int
-    var name: String
-    var pose: RigidTransform
-    var pixels: [SIMD2<Double>] = []
-  }
-
-  struct Point {
-    var id: Int
-    var point: ScenePoint
-    /// Image ids and keypoint indices.
-    var track: [(image: Int, keypoint: Int)]
-  }
-
-  let imageFolder: URL
-  var cameras: [(id: Int, camera: Camera)] = []
-  var images: [Image] = []
-  var points: [Point] = []
-
-  init(imageFolder: URL) { self.imageFolder = imageFolder }
+  var content = COLMAPContent()
 
   /// Calls `line` for each line of a file, except comments, without the blanks around it: COLMAP
   /// ends its lists of keypoints with one. Adds file and line number to errors.
@@ -84,43 +64,19 @@ private struct Reading {
       let height = Int(words[3]), width > 0, height > 0
     else { throw Fault(reason: "no camera with id, model, width and height") }
     let p = try numbers(words.dropFirst(4))
-    guard var camera = Self.camera(words[1], p) else {
-      guard Self.parameterCounts[String(words[1])] == p.count else {
-        throw Fault(reason: "camera model \(words[1]) with \(p.count) parameters")
+    let model = String(words[1])
+    guard var camera = COLMAPContent.camera(model, p) else {
+      guard COLMAPContent.unsupportedModels[model] == p.count else {
+        throw Fault(reason: "camera model \(model) with \(p.count) parameters")
       }
-      throw UnsupportedCameraModel(path: "", model: String(words[1]))
+      throw UnsupportedCameraModel(path: "", model: model)
     }
     guard camera.focalLength.x > 0, camera.focalLength.y > 0 else {
       throw Fault(reason: "the focal length is not positive")
     }
     (camera.width, camera.height) = (width, height)
-    cameras.append((id, camera))
+    content.cameras.append((id, camera))
   }
-
-  /// The camera from a model's parameters, without its size; nil if `Camera` can't represent it.
-  private static func camera(_ model: Substring, _ p: [Double]) -> Camera? {
-    var camera = Camera(width: 0, height: 0, focalLength: .zero, calibration: .refined)
-    switch (model, p.count) {
-    case ("SIMPLE_PINHOLE", 3), ("SIMPLE_RADIAL", 4), ("RADIAL", 5):
-      camera.focalLength = [p[0], p[0]]
-      camera.principalPoint = [p[1], p[2]]
-      camera.distortion = [p.count > 3 ? p[3] : 0, p.count > 4 ? p[4] : 0, 0, 0]
-    case ("PINHOLE", 4), ("OPENCV", 8), ("FULL_OPENCV", 12):
-      guard p.dropFirst(8).allSatisfy({ $0 == 0 }) else { return nil }
-      camera.focalLength = [p[0], p[1]]
-      camera.principalPoint = [p[2], p[3]]
-      if p.count >= 8 { camera.distortion = [p[4], p[5], p[6], p[7]] }
-    default: return nil
-    }
-    return camera
-  }
-
-  /// COLMAP's models that `Camera` can't represent, with their parameter counts.
-  private static let parameterCounts = [
-    "OPENCV_FISHEYE": 8, "FULL_OPENCV": 12, "FOV": 5, "SIMPLE_RADIAL_FISHEYE": 4,
-    "RADIAL_FISHEYE": 5, "THIN_PRISM_FISHEYE": 12, "RAD_TAN_THIN_PRISM_FISHEYE": 16,
-    "SIMPLE_DIVISION": 4, "DIVISION": 5, "SIMPLE_FISHEYE": 3, "FISHEYE": 4, "EQUIRECTANGULAR": 2,
-  ]
 
   /// Whether a line where keypoints are expected is the next photo's pose: hand-written files with
   /// cameras only often omit the empty lines.
@@ -137,15 +93,9 @@ private struct Reading {
       throw Fault(reason: "no image with id, pose, camera and name")
     }
     let p = try numbers(words[1...7])
-    // A quaternion that this program wrote has unit length up to rounding and stays as it is.
-    let rotation = Quaternion(x: p[1], y: p[2], z: p[3], w: p[0])
-    let length = p[0..<4].reduce(0) { $0 + $1 * $1 }
-    images.append(
-      Image(
-        id: id, camera: camera, name: String(words[9]),
-        pose: RigidTransform(
-          rotation: abs(length - 1) < 1e-14 ? rotation : rotation.normalized,
-          translation: [p[4], p[5], p[6]])))
+    content.images.append(
+      COLMAPContent.Image(
+        id: id, camera: camera, name: String(words[9]), pose: COLMAPContent.pose(p)))
   }
 
   mutating func addKeypoints(_ line: Substring) throws {
@@ -153,7 +103,7 @@ private struct Reading {
     guard values.count % 3 == 0 else {
       throw Fault(reason: "\(values.count) numbers are not a list of keypoints")
     }
-    images[images.count - 1].pixels = stride(from: 0, to: values.count, by: 3).map {
+    content.images[content.images.count - 1].pixels = stride(from: 0, to: values.count, by: 3).map {
       [values[$0], values[$0 + 1]]
     }
   }
@@ -174,7 +124,7 @@ private struct Reading {
     }
     let point = ScenePoint(
       position: [p[0], p[1], p[2]], color: [color[0], color[1], color[2]], error: p[6])
-    points.append(Point(id: id, point: point, track: track))
+    content.points.append(COLMAPContent.Point(id: id, point: point, track: track))
   }
 
   private func numbers(_ words: some Sequence<Substring>) throws -> [Double] {
@@ -184,40 +134,6 @@ private struct Reading {
       }
       return number
     }
-  }
-
-  /// Converts the ids to indices; references to missing entries are dropped.
-  func reconstruction() -> Reconstruction {
-    let cameras = self.cameras.sorted { $0.id < $1.id }
-    let cameraIDs = Dictionary(
-      cameras.enumerated().map { ($1.id, ID<Camera>($0)) }, uniquingKeysWith: { first, _ in first })
-    let images = self.images.sorted { $0.id < $1.id }.filter { cameraIDs[$0.camera] != nil }
-    let indices = Dictionary(
-      images.enumerated().map { ($1.id, $0) }, uniquingKeysWith: { first, _ in first })
-    var photos: [Photo] = []
-    for (index, image) in images.enumerated() {
-      guard let camera = cameraIDs[image.camera] else { continue }
-      let size = cameras[camera.index].camera
-      photos.append(
-        Photo(
-          id: ID(index), sampleID: index, name: image.name,
-          url: imageFolder.appendingPathComponent(image.name), width: size.width,
-          height: size.height, orientation: 1, camera: camera))
-    }
-    let points = self.points.sorted { $0.id < $1.id }.map { entry in
-      var point = entry.point
-      point.track = entry.track.compactMap { observation in
-        guard let index = indices[observation.image],
-          images[index].pixels.indices.contains(observation.keypoint)
-        else { return nil }
-        return Observation(
-          photo: ID(index), feature: Int32(observation.keypoint),
-          pixel: images[index].pixels[observation.keypoint])
-      }.sorted { $0.photo < $1.photo }
-      return point
-    }
-    return Reconstruction(
-      cameras: cameras.map(\.camera), photos: photos, poses: images.map(\.pose), points: points)
   }
 }
 

@@ -49,7 +49,7 @@ import Testing
     try temporary.write("", as: "binary/sparse/images.bin")
     for (folder, words) in [
       ("none", "does not exist"), ("empty/x", "is a file"), ("empty", "holds no cameras"),
-      ("binary", "colmap model_converter"),
+      ("binary", "cameras.bin can't be read"),
     ] {
       let failure = #expect(throws: CommandFailure.self, "\(folder)") { try cameras(folder) }
       #expect(failure?.exitCode == 2 && failure?.sentence.contains(words) == true, "\(folder)")

@@ -127,9 +127,10 @@ import Testing
   @Test func unusableCamerasAreExplained() throws {
     try temporary.write("x", as: "photos/p.jpg")
     try temporary.write("", as: "binary/sparse/0/images.bin")
+    try temporary.write("", as: "binary/sparse/0/cameras.bin")
     try expectFailure(
       ["photos", "binary", "work"], code: 2,
-      mentioning: ["colmap model_converter", "--output_type TXT", "binary/sparse/0"])
+      mentioning: ["binary/sparse/0/cameras.bin", "ends too early"])
     try temporary.write("", as: "fisheye/images.txt")
     try temporary.write("1 OPENCV_FISHEYE 9 9 5 5 4 4 0 0 0 0\n", as: "fisheye/cameras.txt")
     try expectFailure(
