@@ -71,6 +71,12 @@ struct ZipArchive {
         reason: "\(entry.name) in it is compressed, which USDZ does not allow",
         remedy: "Package it with usdzip of OpenUSD.")
     }
+    var cursor = ByteCursor(bytes, from: try dataOffset(of: entry))
+    return Array(try cursor.take(entry.size))
+  }
+
+  /// The position of an entry's data. Throws a `FormatFault` or `ByteCursor.Truncated`.
+  func dataOffset(of entry: Entry) throws -> Int {
     var cursor = ByteCursor(bytes)
     try cursor.seek(to: entry.offset)
     guard try cursor.unsigned(4) == Self.localHeader else {
@@ -79,6 +85,6 @@ struct ZipArchive {
     _ = try cursor.take(22)
     let (nameSize, extra) = (Int(try cursor.unsigned(2)), Int(try cursor.unsigned(2)))
     _ = try cursor.take(nameSize + extra)
-    return Array(try cursor.take(entry.size))
+    return cursor.offset
   }
 }
