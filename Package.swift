@@ -34,7 +34,6 @@ var products: [Product] = [
 var targets: [Target] = [
   .target(name: "SceneModel", swiftSettings: strict),
   .target(name: "Formats", dependencies: ["SceneModel"], swiftSettings: strict),
-  .target(name: "Evaluation", dependencies: ["SceneModel"], swiftSettings: strict),
   .target(
     name: "DamagedInput", dependencies: ["SceneModel"], path: "Tests/DamagedInput",
     swiftSettings: strict),
@@ -43,12 +42,10 @@ var targets: [Target] = [
   .testTarget(
     name: "FormatsTests", dependencies: ["Formats", "SceneModel", "DamagedInput", "TestFiles"],
     swiftSettings: strict),
-  .testTarget(
-    name: "EvaluationTests", dependencies: ["Evaluation", "SceneModel"], swiftSettings: strict),
 ]
 // The command line for any engine; on macOS it is linked against Apple's RealityKit.
 var sharedCommands: [Target.Dependency] = [
-  argumentParser, logging, "Evaluation", "Formats", "SceneModel",
+  argumentParser, logging, "Formats", "SceneModel",
 ]
 var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneModel"]
 
@@ -105,6 +102,10 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
       resources: [.embedInCode("Resources")], swiftSettings: strict),
     .target(
       name: "SceneRendering", dependencies: ["ImageFiles", "Kernels", "SceneModel"],
+      swiftSettings: strict),
+    .target(
+      name: "Evaluation",
+      dependencies: ["SceneRendering", "ImageFiles", "Kernels", "Formats", "SceneModel"],
       swiftSettings: strict),
     appleModule("CoreFoundationTypes"),
     appleModule("BitmapGraphics", ["CoreFoundationTypes", "Kernels", "SceneModel"]),
@@ -185,6 +186,13 @@ var program: [Target.Dependency] = [argumentParser, "SharedCommands", "SceneMode
         "BitmapGraphics", "Combine", "CoreFoundationTypes", "CoreImage", "CoreMotion", "CoreVideo",
         "ImageFiles", "ImageIO", "Metal", "OSLog", "QuartzCore", "SceneModel", "TestSupport",
         "UniformTypeIdentifiers", "os", "simd", logging,
+      ],
+      swiftSettings: strict),
+    .testTarget(
+      name: "EvaluationTests",
+      dependencies: [
+        "Evaluation", "DamagedInput", "Formats", "ImageFiles", "Kernels", "SceneModel",
+        "TestSupport",
       ],
       swiftSettings: strict),
     .testTarget(

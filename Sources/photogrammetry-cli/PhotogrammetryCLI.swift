@@ -30,7 +30,7 @@ struct PhotogrammetryCLI: AsyncParsableCommand {
       130 interrupted.
       """,
     version: ProgramVersion.current,
-    subcommands: [Reconstruct<Engine>.self] + Engine.commands + [Evaluate.self],
+    subcommands: [Reconstruct<Engine>.self] + Engine.commands,
     defaultSubcommand: Reconstruct<Engine>.self)
 
   /// Runs the command of the arguments and ends the process with its exit code.

@@ -6,7 +6,7 @@ import PackageDescription
 
 /// The platform-independent modules are compiled again, with aliases: the `package` declarations of
 /// the engine's package are not accessible from here.
-let modules = ["SceneModel", "Formats", "Evaluation", "SharedCommands"]
+let modules = ["SceneModel", "Formats", "SharedCommands"]
 let settings: [SwiftSetting] = [
   .define("APPLE_ENGINE"), .treatAllWarnings(as: .error),
   .unsafeFlags(modules.flatMap { ["-module-alias", "\($0)=Mac\($0)"] }),
@@ -32,11 +32,10 @@ let package = Package(
   targets: [
     module("SceneModel", []),
     module("Formats", ["MacSceneModel"]),
-    module("Evaluation", ["MacSceneModel"]),
     module(
       "SharedCommands",
       [
-        "MacSceneModel", "MacFormats", "MacEvaluation", argumentParser,
+        "MacSceneModel", "MacFormats", argumentParser,
         .product(name: "Logging", package: "swift-log"),
         .product(name: "RealityKit", package: "photogrammetry-cli"),
       ]),

@@ -8,6 +8,8 @@ package struct NamedCamera: Hashable, Sendable {
   package var cameraFromWorld: RigidTransform
   /// Whether the camera's width and height are those of the photo rather than a guess.
   package var isSizeKnown: Bool
+  /// Whether the photo was held out of the input, to be compared with the model.
+  package var isHeldOut = false
 
   package init(
     name: String, camera: Camera, cameraFromWorld: RigidTransform, isSizeKnown: Bool = true
@@ -39,7 +41,7 @@ extension NamedCamera {
   }
 
   /// Reads a list of `{"name", "K", "R", "t"}`: calibration matrix, rotation and translation of
-  /// `x_camera = R x_world + t`. Photos marked as held out are skipped.
+  /// `x_camera = R x_world + t`.
   ///
   /// If an entry doesn't specify `"width"` and `"height"`, they are assumed to be twice the
   /// principal point, up to `maximumSide`. Throws `EvaluationError.invalidReference`.
@@ -51,7 +53,7 @@ extension NamedCamera {
       throw EvaluationError.invalidReference(
         "it is not a list of cameras with name, K, R and t")
     }
-    return try entries.filter { $0.holdout != true }.map { try NamedCamera($0) }
+    return try entries.map { try NamedCamera($0) }
   }
 
   private struct Entry: Decodable {
@@ -96,6 +98,7 @@ extension NamedCamera {
         rotation: Quaternion(Matrix3(rows: r[0], r[1], r[2])),
         translation: [entry.t[0], entry.t[1], entry.t[2]]),
       isSizeKnown: (entry.width ?? 0) > 0 && (entry.height ?? 0) > 0)
+    isHeldOut = entry.holdout == true
   }
 
   private static func isMatrix(_ rows: [[Double]]) -> Bool {

@@ -30,8 +30,8 @@ package struct PoseErrors: Codable, Hashable, Sendable {
 }
 
 extension PoseErrors {
-  /// Compares `result` with `reference`, with photos matched by name. Also returns the similarity
-  /// `referenceFromResult`.
+  /// Compares `result` with `reference`, with photos matched by `PhotoTable`. Also returns the
+  /// similarity `referenceFromResult`.
   ///
   /// The result may contain photos rotated upright that the reference has in stored orientation;
   /// the quarter turn about the optical axis that best explains the relative rotations is applied
@@ -39,7 +39,7 @@ extension PoseErrors {
   package static func comparing(
     _ result: [NamedCamera], with reference: [NamedCamera]
   ) throws -> (errors: PoseErrors, alignment: SimilarityTransform) {
-    let estimates = Dictionary(result.map { ($0.name, $0.cameraFromWorld) }) { first, _ in first }
+    let estimates = PhotoTable(result.map { ($0.name, $0.cameraFromWorld) })
     let common = reference.compactMap { camera in
       estimates[camera.name].map { (truth: camera.cameraFromWorld, estimate: $0) }
     }
@@ -128,9 +128,4 @@ extension PoseErrors {
     }
     return (area + (threshold - lastError) * lastRecall) / threshold
   }
-}
-
-extension [Double] {
-  /// The middle element of a sorted array; 0 for an empty one.
-  var median: Double { isEmpty ? 0 : self[count / 2] }
 }

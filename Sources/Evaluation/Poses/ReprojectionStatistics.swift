@@ -8,6 +8,8 @@ package struct ReprojectionStatistics: Codable, Hashable, Sendable {
   /// Mean number of observations per point.
   package var meanTrackLength: Double
   package var meanPixels: Double
+  /// The mean over the points of each point's mean, as COLMAP reports it.
+  package var meanOfPointsPixels: Double
   package var rootMeanSquarePixels: Double
   package var medianPixels: Double
   /// The 95th percentile.
@@ -17,7 +19,9 @@ package struct ReprojectionStatistics: Codable, Hashable, Sendable {
   /// the camera.
   package init(_ reconstruction: Reconstruction) {
     var errors: [Double] = []
+    var (pointMeans, observedPoints) = (0.0, 0.0)
     for point in reconstruction.points {
+      let first = errors.count
       for observation in point.track {
         guard let pose = reconstruction.poses[observation.photo.index] else { continue }
         let inCamera = pose * point.position
@@ -25,6 +29,10 @@ package struct ReprojectionStatistics: Codable, Hashable, Sendable {
         let pixel = reconstruction.camera(of: observation.photo).project(inCamera)
         errors.append((pixel - observation.pixel).length)
       }
+      let own = errors[first...]
+      guard !own.isEmpty else { continue }
+      pointMeans += own.reduce(0, +) / Double(own.count)
+      observedPoints += 1
     }
     errors.sort()
     let count = Double(max(1, errors.count))
@@ -34,6 +42,7 @@ package struct ReprojectionStatistics: Codable, Hashable, Sendable {
     meanTrackLength =
       Double(reconstruction.points.reduce(0) { $0 + $1.track.count }) / Double(max(1, points))
     meanPixels = errors.reduce(0, +) / count
+    meanOfPointsPixels = pointMeans / max(1, observedPoints)
     rootMeanSquarePixels = (errors.reduce(0) { $0 + $1 * $1 } / count).squareRoot()
     medianPixels = errors.median
     percentile95Pixels = errors.isEmpty ? 0 : errors[min(errors.count - 1, errors.count * 95 / 100)]

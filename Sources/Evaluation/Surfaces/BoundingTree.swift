@@ -90,14 +90,23 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
 
   /// The distance to the nearest item, at most `limit`.
   func distance(to point: SIMD3<Float>, limit: Float, _ stack: inout Stack) -> Float {
+    nearest(to: point, limit: limit, &stack)?.distance ?? limit
+  }
+
+  /// The nearest item that is closer than `limit`, and its distance.
+  func nearest(
+    to point: SIMD3<Float>, limit: Float, _ stack: inout Stack
+  ) -> (item: Item, distance: Float)? {
     var best = limit * limit
+    var found: Int?
     stack.entries.removeAll(keepingCapacity: true)
     stack.entries.append((0, boxes[0].squaredDistance(to: point)))
     while let (node, distance) = stack.entries.popLast() {
       guard distance < best else { continue }
       if node >= firstLeaf {
         for item in leafRange(node - firstLeaf) {
-          best = min(best, items[item].squaredDistance(to: point))
+          let distance = items[item].squaredDistance(to: point)
+          if distance < best { (best, found) = (distance, item) }
         }
         continue
       }
@@ -112,7 +121,7 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
         stack.entries.append((right, rightDistance))
       }
     }
-    return best.squareRoot()
+    return found.map { (items[$0], best.squareRoot()) }
   }
 
   /// Whether `body` is true for any item in a leaf that the ray intersects before `limit`.

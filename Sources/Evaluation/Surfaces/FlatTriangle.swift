@@ -20,6 +20,13 @@ struct FlatTriangle: BoundedItem {
     (pointwiseMin(pointwiseMin(a, b), c), pointwiseMax(pointwiseMax(a, b), c))
   }
 
+  /// Unit length, or zero for a degenerate triangle.
+  var normal: SIMD3<Double> {
+    let normal = SIMD3<Double>(b - a).cross(SIMD3<Double>(c - a))
+    let length = normal.length
+    return length > 0 ? normal / length : .zero
+  }
+
   var area: Float { (b - a).cross(c - a).length / 2 }
 
   func squaredDistance(to point: SIMD3<Float>) -> Float {

@@ -5,9 +5,9 @@ import SceneModel
 /// Maps contiguous ranges that cover `0..<count` on multiple threads and concatenates the results
 /// in order.
 func parallelChunks<Element: Sendable>(
-  _ count: Int, threads: Int, _ body: @Sendable (Range<Int>) -> [Element]
+  _ count: Int, threads: Int, size chunkSize: Int = 4096,
+  _ body: @Sendable (Range<Int>) -> [Element]
 ) -> [Element] {
-  let chunkSize = 4096
   let chunks = (count + chunkSize - 1) / chunkSize
   let results = Locked([[Element]](repeating: [], count: chunks))
   let next = Atomic<Int>(0)

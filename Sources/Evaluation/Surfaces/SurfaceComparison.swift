@@ -43,6 +43,15 @@ package struct SurfaceComparison: Sendable {
     return try scores(points, BoundingTree(points), reference)
   }
 
+  /// The distance of each vertex of `result`, transformed by `alignment`, to the surface
+  /// `reference`, at most `maximumDistance`; in units of the reference.
+  package func distances(
+    of result: Mesh, _ alignment: SimilarityTransform, to reference: Mesh
+  ) -> [Float] {
+    let tree = BoundingTree(reference.triangles.map { FlatTriangle($0, of: reference) })
+    return distances(transformed(result.positions, alignment), tree)
+  }
+
   private func transformed(
     _ points: [SIMD3<Float>], _ transform: SimilarityTransform
   ) -> [SIMD3<Float>] {

@@ -13,6 +13,13 @@ package struct SimilarityTransform: Hashable, Codable, Sendable {
   package static let identity = SimilarityTransform(
     scale: 1, rotation: .identity, translation: .zero)
 
+  /// `aFromB` of a transform `bFromA`.
+  package var inverse: SimilarityTransform {
+    let r = rotation.conjugate
+    return SimilarityTransform(
+      scale: 1 / scale, rotation: r, translation: -(r * translation) / scale)
+  }
+
   /// Maps a point from frame a to frame b.
   package static func * (bFromA: SimilarityTransform, point: SIMD3<Double>) -> SIMD3<Double> {
     bFromA.scale * (bFromA.rotation * point) + bFromA.translation

@@ -7,7 +7,7 @@ package protocol EngineSupport: Sendable {
   /// Options of `reconstruct` that only this engine has.
   associatedtype Arguments: EngineArguments
 
-  /// Subcommands besides `reconstruct` and `evaluate`.
+  /// Subcommands besides `reconstruct`.
   static var commands: [any ParsableCommand.Type] { get }
   /// Formats of model files that the engine writes.
   static var modelFormats: [ModelFormat] { get }

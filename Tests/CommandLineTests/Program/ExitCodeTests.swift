@@ -50,7 +50,10 @@ import Testing
       mentioning: ["folder of the photos", "another folder"])
     try expectFailure(
       ["evaluate", "photos", "--reference", "photos"], code: 2,
-      mentioning: ["holds no result"])
+      mentioning: ["holds no reference", "mesh.ply"])
+    try temporary.write("x", as: "texts/readme")
+    try expectFailure(["evaluate", "texts"], code: 2, mentioning: ["holds no result"])
+    try expectFailure(["check", "photos"], code: 2, mentioning: ["photos"])
   }
 
   @Test func runsWithoutResultExitWithOne() throws {

@@ -20,14 +20,14 @@ import Testing
 
   @Test(arguments: [
     "photogrammetry-cli", "reconstruct", "batch", "align", "densify", "export", "inspect",
-    "doctor", "demo", "evaluate", "frames", "view",
+    "doctor", "demo", "evaluate", "check", "frames", "view",
   ])
   func helpMatchesItsSnapshot(_ name: String) throws {
     let commands: [String: any ParsableCommand.Type] = [
       "reconstruct": Reconstruct<PipelineEngine>.self, "batch": Batch.self, "align": Align.self,
       "densify": Densify.self, "export": Export.self, "inspect": Inspect.self,
       "doctor": Doctor.self, "demo": Demo<PipelineEngine>.self, "evaluate": Evaluate.self,
-      "frames": Frames.self, "view": View.self,
+      "check": CheckModel.self, "frames": Frames.self, "view": View.self,
     ]
     let help =
       commands[name].map { PhotogrammetryCLI.helpMessage(for: $0, columns: 80) }

@@ -129,7 +129,8 @@ import Testing
         "R": [[1, 0, 0], [0, 1, 0], [0, 0, 1]], "t": [0, 0, 0]}]
       """
     let cameras = try NamedCamera.cameras(json: Data(json.utf8))
-    #expect(cameras.map(\.name) == ["a.jpg"])
+    #expect(cameras.map(\.name) == ["a.jpg", "b.jpg"])
+    #expect(cameras.map(\.isHeldOut) == [false, true])
     #expect(cameras[0].camera.focalLength == [100, 110])
     #expect(cameras[0].camera.width == 100 && cameras[0].camera.height == 80)
     let point = cameras[0].cameraFromWorld * SIMD3<Double>(0, 0, 1)

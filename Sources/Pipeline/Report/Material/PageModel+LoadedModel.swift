@@ -34,6 +34,11 @@ extension PageModel {
     }
   }
 
+  /// Adds a heat map; `figures` have a value for each vertex of the model that was loaded.
+  package mutating func show(_ figures: VertexFigures) {
+    maps.append(Map(figures, figures.bytes))
+  }
+
   /// The texture as a data URL; nil if it can't be decoded. Browsers read JPEG and WebP as they
   /// are; PNG would make the page several times as large.
   private static func texture(_ image: EncodedImage) -> String? {

@@ -4,7 +4,7 @@ import SceneModel
 /// A figure at each vertex of a model, for a heat map.
 package struct VertexFigures: Sendable {
   package enum Kind: String, Encodable, Sendable {
-    case photos, reprojection, photometric, uncertainty, closed
+    case photos, reprojection, photometric, uncertainty, closed, distance
   }
 
   package var kind: Kind
@@ -14,6 +14,15 @@ package struct VertexFigures: Sendable {
   package var values: [Float]
   /// What the end of the scale stands for; larger values have its color.
   package var high: Float
+
+  /// The scale ends at the value that 98 % don't exceed, unless it is given.
+  package init(
+    _ kind: Kind, _ name: String, _ unit: String, _ values: [Float], high: Float? = nil
+  ) {
+    (self.kind, self.name, self.unit, self.values) = (kind, name, unit, values)
+    self.high = high ?? values.filter(\.isFinite).quantile(0.98) ?? 1
+    if !(self.high > 0) { self.high = 1 }
+  }
 }
 
 extension VertexFigures {
@@ -42,15 +51,6 @@ extension VertexFigures {
         .closed, "Closed by guess: no photo shows it", "share",
         mean { evidence.painters[$0] == nil ? 1 : 0 }, high: 1),
     ]
-  }
-
-  /// The scale ends at the value that 98 % don't exceed, unless it is given.
-  private init(
-    _ kind: Kind, _ name: String, _ unit: String, _ values: [Float], high: Float? = nil
-  ) {
-    (self.kind, self.name, self.unit, self.values) = (kind, name, unit, values)
-    self.high = high ?? values.filter(\.isFinite).quantile(0.98) ?? 1
-    if !(self.high > 0) { self.high = 1 }
   }
 
   /// Millimeters, or thousandths of the model's size if its scale is arbitrary.

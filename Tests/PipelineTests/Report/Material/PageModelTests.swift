@@ -62,7 +62,7 @@ import Testing
 
   @Test func figuresFollowTheVertices() throws {
     let figure = VertexFigures(
-      kind: .photos, name: "n", unit: "u", values: [0, 5, 10, .nan], high: 10)
+      .photos, "n", "u", [0, 5, 10, .nan], high: 10)
     let model = try PageModel(square, [figure], context())
     let order = numbers(model.triangles, as: UInt16.self)
     let bytes = [UInt8](try #require(model.maps.first).values)
@@ -78,7 +78,7 @@ import Testing
     var options = PageModel.Options()
     options.maximumTriangles = 500
     let heights = VertexFigures(
-      kind: .photos, name: "n", unit: "u", values: mesh.positions.map { max(0, $0.y) }, high: 1)
+      .photos, "n", "u", mesh.positions.map { max(0, $0.y) }, high: 1)
     let page = try PageModel(model, [heights], options: options, context())
     let positions = positions(page)
     #expect((300...500).contains(page.triangleCount))
