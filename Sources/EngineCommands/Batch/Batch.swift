@@ -29,6 +29,8 @@ struct Batch: AsyncParsableCommand {
             At most four datasets at once, and a picture of each model.
         photogrammetry-cli batch sets/ models/ --reports
             A page about each run, also if it fails: open models/index.html.
+        photogrammetry-cli batch sets/ new/ --baseline models/batch.json
+            What got worse since an earlier batch, for continuous integration.
 
       JOBS
         Each dataset is processed in a separate process. One job runs per processor,
@@ -39,14 +41,15 @@ struct Batch: AsyncParsableCommand {
       EVENTS (with --json: one JSON object per line on stdout, and nothing else)
         began     dataset
         ended     dataset, status (done, skipped, failed, cancelled), photos,
-                  registered, triangles, seconds, attempts, path, message
+                  registered, triangles, quality, seconds, attempts, path, message
         and the events of 'reconstruct' with their dataset. The last event is one of
         complete, failed, cancelled
-                  datasets, done, skipped, failed, cancelled, seconds, message
+                  datasets, done, skipped, failed, cancelled, worse, seconds,
+                  message
 
       \(DetailArguments.help)
       Exit codes: 0 all datasets have a model, 1 some have none, 2 invalid arguments or paths, \
-      130 interrupted.
+      3 with --baseline: all have a model, but some got worse, 130 interrupted.
       """)
 
   @Argument(
@@ -93,6 +96,14 @@ struct Batch: AsyncParsableCommand {
   @Flag(name: .long, help: "Write the colored points to <models>/<name>.points.ply.")
   var pointClouds = false
 
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "Report which datasets got worse since an earlier batch: fewer photos with a pose, a worse "
+        + "verdict, larger errors, missing surface.", valueName: "batch.json"),
+    completion: .file(extensions: ["json"]))
+  var baseline: String?
+
   @OptionGroup var detail: DetailArguments
 
   @OptionGroup var alignment: AlignmentArguments
@@ -132,10 +143,12 @@ struct Batch: AsyncParsableCommand {
     let reporter = RunReporter(logging.style(json: json))
     let failure: CommandFailure?
     do {
+      let baseline = try baseline.map { try BatchBaseline($0) }
       let runner = try makeRunner(reporter.style)
       let interrupts = InterruptHandler { runner.stop() }
       try await runner.run()
-      failure = conclude(runner.summary, wasInterrupted: interrupts.wasInterrupted, reporter)
+      failure = conclude(
+        runner.summary, baseline, wasInterrupted: interrupts.wasInterrupted, reporter)
     } catch {
       let failure = CommandFailure(engineError: error)
       reporter.failed(failure)
@@ -223,9 +236,15 @@ extension Batch {
 
   /// Prints the summary; returns a failure unless all datasets have a model.
   private func conclude(
-    _ summary: BatchSummary, wasInterrupted: Bool, _ reporter: RunReporter
+    _ summary: BatchSummary, _ baseline: BatchBaseline?, wasInterrupted: Bool,
+    _ reporter: RunReporter
   ) -> CommandFailure? {
-    if !json { summary.lines.forEach(Terminal.shared.result) }
+    let regressions = baseline?.regressions(in: summary)
+    if !json {
+      summary.lines.forEach(Terminal.shared.result)
+      regressions?.map(\.sentence).forEach(Terminal.shared.result)
+      if regressions?.isEmpty == true { Terminal.shared.result("Nothing got worse.") }
+    }
     let failed = summary.count(.failed)
     let cancelled = summary.count(.cancelled)
     var failure: CommandFailure?
@@ -236,6 +255,8 @@ extension Batch {
       failure = .run(
         "\(failed + cancelled) of \(summary.datasets.count) datasets have no model. The reasons "
           + "are in \(reasons).")
+    } else if let regressions, !regressions.isEmpty {
+      failure = .regression(regressions.map(\.sentence).joined(separator: " "))
     }
     reporter.event(
       RunEvent(failure == nil ? "complete" : wasInterrupted ? "cancelled" : "failed") { event in
@@ -243,7 +264,7 @@ extension Batch {
         event.seconds = reporter.elapsed
         (event.datasets, event.done) = (summary.datasets.count, summary.count(.done))
         (event.skipped, event.failed) = (summary.count(.skipped), failed)
-        event.cancelled = cancelled
+        (event.cancelled, event.worse) = (cancelled, regressions?.count)
       })
     return failure
   }

@@ -9,6 +9,8 @@ struct BatchEntry: Codable, Equatable, Sendable {
   /// Number of photos with a pose.
   var registered: Int?
   var triangles: Int?
+  /// What the run's report says about the model.
+  var quality: RunQuality?
   /// Duration of all attempts.
   var seconds = 0.0
   var attempts = 0

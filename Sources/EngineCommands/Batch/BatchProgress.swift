@@ -60,6 +60,7 @@ final class BatchProgress: Sendable {
         (event.status, event.attempts) = (entry.status, entry.attempts)
         (event.seconds, event.photos) = (entry.seconds, entry.photos)
         (event.registered, event.triangles) = (entry.registered, entry.triangles)
+        event.quality = entry.quality
       }.write()
     } else if entry.status == .failed {
       logger.warning("\(entry.name) failed: \(entry.error ?? "")")

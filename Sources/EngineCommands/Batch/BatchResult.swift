@@ -57,6 +57,7 @@ extension BatchEntry {
     if let counts = result.counts {
       photos = counts.photos ?? photos
       (registered, triangles) = (counts.registered, counts.triangles)
+      quality = counts.quality
     }
   }
 }

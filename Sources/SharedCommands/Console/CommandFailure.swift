@@ -6,6 +6,8 @@ package struct CommandFailure: Error, Equatable {
   package static let runCode: Int32 = 1
   /// Exit code of invalid arguments or paths.
   package static let usageCode: Int32 = 2
+  /// Exit code of a batch with a result that is worse than that of its baseline.
+  package static let regressionCode: Int32 = 3
   /// Exit code after an interrupt, as shells report SIGINT.
   package static let interruptedCode: Int32 = 130
 
@@ -27,6 +29,11 @@ package struct CommandFailure: Error, Equatable {
   /// The arguments are invalid, or a path that they name can't be used.
   package static func usage(_ sentence: String) -> CommandFailure {
     CommandFailure(sentence: sentence, exitCode: usageCode)
+  }
+
+  /// All results were written, but some are worse than those of a baseline.
+  package static func regression(_ sentence: String) -> CommandFailure {
+    CommandFailure(sentence: sentence, exitCode: regressionCode)
   }
 
   /// A signal ended the command before its result was written.

@@ -32,6 +32,8 @@ package struct RunEvent: Codable, Equatable, Sendable {
   package var registered: Int?
   /// Number of triangles of the model.
   package var triangles: Int?
+  /// Of a complete run: what its report says about the model.
+  package var quality: RunQuality?
   /// Of a plan: the usual duration of the run.
   package var expectedSeconds: Double?
   /// Of a plan: the usual upper bound of the memory.
@@ -49,6 +51,8 @@ package struct RunEvent: Codable, Equatable, Sendable {
   package var skipped: Int?
   package var failed: Int?
   package var cancelled: Int?
+  /// Of a batch with a baseline: the number of datasets that got worse.
+  package var worse: Int?
 
   /// Creates an event of the kind `event`, whose fields `fill` sets.
   package init(_ event: String, _ fill: (inout RunEvent) -> Void = { _ in }) {

@@ -85,8 +85,23 @@ import Testing
     let events = third.output.split(separator: "\n").map { RunEvent(line: $0.utf8) }
     #expect(events.map(\.?.event) == ["ended", "complete"])
     #expect(events.last??.skipped == 1)
+    try expectComparisonWithBaseline()
     let after = try FileManager.default.attributesOfItem(atPath: model.path)[.modificationDate]
     #expect(time as? Date == after as? Date)
+  }
+
+  /// Compares the batch with itself, and with one that had more.
+  private func expectComparisonWithBaseline() throws {
+    var baseline = try summary()
+    #expect(baseline.datasets[0].quality?.verdict != nil)
+    #expect(baseline.datasets[0].quality?.reprojection != nil)
+    let same = try batch(["--baseline", "models/batch.json"])
+    #expect(same.exitCode == 0 && same.output.contains("Nothing got worse."))
+    baseline.datasets[0].registered = 21
+    try temporary.write([UInt8](try baseline.json()), as: "earlier.json")
+    let worse = try batch(["--baseline", "earlier.json"])
+    #expect(worse.exitCode == CommandFailure.regressionCode)
+    #expect(worse.errors.contains("orbit got worse: 20 photos have a pose, 21 before."))
   }
 
   @Test func killedRunIsRetried() throws {
