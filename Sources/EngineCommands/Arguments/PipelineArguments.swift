@@ -36,6 +36,7 @@ package struct PipelineArguments: EngineArguments {
 
   package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {
     try compression.check(output.format, detail)
+    try runArguments.checkOverrides()
   }
 
   package func outputs(with model: ModelOutput) throws -> EngineOutputs {
@@ -56,6 +57,7 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.compressesGLB = compression.compress
     session.engineOptions.closesObject = !surface.keepGaps
     session.engineOptions.refinesSurface = surface.refine
+    session.engineOptions.overrides = runArguments.set
   }
 
   private func viewerFile(of model: ModelOutput) throws -> ViewerFile? {

@@ -1,5 +1,6 @@
 import ArgumentParser
 import Foundation
+import Pipeline
 import SharedCommands
 
 /// Options of every run: threads and the report.
@@ -16,6 +17,29 @@ struct RunArguments: ParsableArguments {
 
   @OptionGroup var threading: ThreadArguments
 
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      """
+      Change an option of the method, to measure what it does; docs/Tuning.md lists them. Can be \
+      repeated.
+      """, valueName: "option=value"))
+  var set: [OptionOverride] = []
+
   /// The file of the report; throws a `CommandFailure` if it can't be written.
   func reportFile() throws -> ReportFile? { try report.map(ReportFile.init) }
+
+  /// Throws a `CommandFailure` if an option does not exist or has another kind of value.
+  func checkOverrides() throws {
+    do {
+      _ = try PipelineConfiguration().applying(set)
+    } catch {
+      throw CommandFailure.usage("--set: \(CommandFailure(error).sentence)")
+    }
+  }
+}
+
+extension OptionOverride: ExpressibleByArgument {
+  /// Parses `path=value`.
+  public init?(argument: String) { self.init(argument) }
 }

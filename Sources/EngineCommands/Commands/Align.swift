@@ -84,6 +84,7 @@ extension Align {
     try scale.apply(to: &configuration, photos: photos)
     frame.apply(to: &configuration)
     runArguments.threading.apply(to: &configuration)
-    return configuration
+    try runArguments.checkOverrides()
+    return try configuration.applying(runArguments.set)
   }
 }

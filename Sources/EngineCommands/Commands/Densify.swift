@@ -101,7 +101,8 @@ extension Densify {
     configuration.meshGeneration.isolatesObject = false
     runArguments.threading.apply(to: &configuration)
     without.forEach { $0.apply(to: &configuration.pointCloudGeneration) }
-    return configuration
+    try runArguments.checkOverrides()
+    return try configuration.applying(runArguments.set)
   }
 
   private var limits: DetailSpecification {

@@ -93,7 +93,7 @@ struct Export: ParsableCommand {
       Terminal.shared.result(target.url.relativePath)
       if let page,
         let content = try page.content(
-          try pipeline.reportMaterial(), name: target.url.lastPathComponent)
+          pipeline.reportMaterial(), name: target.url.lastPathComponent)
       {
         try AtomicFile.write(content, to: page.url)
         Terminal.shared.result(page.url.relativePath)
@@ -114,7 +114,8 @@ extension Export {
       compression.apply(to: &configuration)
       configuration.keepsReportMaterial = viewer.viewer
       runArguments.threading.apply(to: &configuration)
-      return configuration
+      try runArguments.checkOverrides()
+      return try configuration.applying(runArguments.set)
     }
   }
 

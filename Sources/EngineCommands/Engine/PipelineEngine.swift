@@ -12,8 +12,8 @@ package enum PipelineEngine: EngineSupport {
 
   package static var commands: [any ParsableCommand.Type] {
     [
-      Batch.self, Align.self, Densify.self, Export.self, View.self, Inspect.self, Doctor.self,
-      Frames.self, Demo<Self>.self,
+      Batch.self, Align.self, Densify.self, Export.self, View.self, Inspect.self,
+      Evaluate.self, CheckModel.self, Doctor.self, Frames.self, Demo<Self>.self,
     ]
   }
   package static let modelFormats = ModelFormat.files
@@ -51,6 +51,12 @@ package enum PipelineEngine: EngineSupport {
     event.registered = report.photos.count { $0.status == .registered }
     let textured = report.stages.last { $0.name == PipelineStage.textureMapping.rawValue }
     event.triangles = textured?.counts["triangles"].map { Int($0) }
+    var quality = RunQuality()
+    quality.verdict = report.assessed.verdict?.level.rawValue
+    quality.reprojection = report.meanReprojectionError
+    quality.missingShare = report.surface?.missingShare
+    quality.outlineShare = report.surface?.outlineShare
+    event.quality = quality
   }
 
   package static func concerns(about session: PhotogrammetrySession) -> [String] {

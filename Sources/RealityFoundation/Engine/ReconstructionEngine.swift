@@ -17,7 +17,8 @@ final class ReconstructionEngine: SessionEngine {
   private init(
     _ task: EngineTask, _ flag: CancellationFlag, _ onEvent: @escaping SessionCore.EventHandler
   ) throws {
-    let configuration = PipelineConfiguration(task.configuration, task.options)
+    let configuration = try PipelineConfiguration(task.configuration, task.options)
+      .applying(task.options.overrides)
     switch task.input {
     case .folder(let url):
       samples = nil
@@ -34,7 +35,7 @@ final class ReconstructionEngine: SessionEngine {
 
   var report: RunReport? { pipeline.report }
 
-  func reportMaterial() throws -> ReportMaterial? { try pipeline.reportMaterial() }
+  func reportMaterial() -> ReportMaterial? { pipeline.reportMaterial() }
 
   func plan(for specifications: [DetailSpecification]) { pipeline.plan(for: specifications) }
 
