@@ -21,6 +21,30 @@ package struct RayCaster: Sendable {
     /// Range in `triangles`; empty for inner nodes, whose first child follows.
     var first: Int32
     var count: Int32
+
+    var range: Range<Int> { Int(first)..<Int(first + count) }
+
+    /// Where a ray enters the box, at least `nearest`; infinite if it misses the box or leaves it
+    /// before.
+    @inline(__always)
+    func entry(
+      _ origin: SIMD3<Float>, _ inverse: SIMD3<Float>, _ nearest: Float
+    ) -> Float {
+      let a = (low - origin) * inverse
+      let b = (high - origin) * inverse
+      // The sides in the order in which the ray crosses their planes. NaN (a ray inside a face of
+      // the box) drops out of the comparisons, so that the ray enters.
+      let first = a.replacing(with: b, where: inverse .< 0)
+      let last = b.replacing(with: a, where: inverse .< 0)
+      var (enter, leave) = (nearest, Float.infinity)
+      if first.x > enter { enter = first.x }
+      if first.y > enter { enter = first.y }
+      if first.z > enter { enter = first.z }
+      if last.x < leave { leave = last.x }
+      if last.y < leave { leave = last.y }
+      if last.z < leave { leave = last.z }
+      return enter > leave ? .infinity : enter
+    }
   }
 
   private struct Corners {
@@ -28,6 +52,30 @@ package struct RayCaster: Sendable {
     var edge1: SIMD3<Float>
     var edge2: SIMD3<Float>
     var index: Int32
+
+    var center: SIMD3<Float> { origin + (edge1 + edge2) / 3 }
+
+    var box: Box { Box().union(origin).union(origin + edge1).union(origin + edge2) }
+  }
+
+  /// An axis-aligned box, empty at first.
+  private struct Box {
+    var low = SIMD3<Float>(repeating: .infinity)
+    var high = SIMD3<Float>(repeating: -.infinity)
+
+    /// Half of the surface area.
+    var area: Float {
+      let size = high - low
+      return size.x * size.y + size.y * size.z + size.z * size.x
+    }
+
+    func union(_ point: SIMD3<Float>) -> Box {
+      Box(low: pointwiseMin(low, point), high: pointwiseMax(high, point))
+    }
+
+    func union(_ other: Box) -> Box {
+      Box(low: pointwiseMin(low, other.low), high: pointwiseMax(high, other.high))
+    }
   }
 
   private var nodes: [Node] = []
@@ -40,38 +88,70 @@ package struct RayCaster: Sendable {
     if !triangles.isEmpty { build(0..<triangles.count) }
   }
 
-  /// Splits at the median along the longest side of the bounding box of the centers.
-  private mutating func build(_ range: Range<Int>) {
-    func center(_ t: Corners) -> SIMD3<Float> { t.origin + (t.edge1 + t.edge2) / 3 }
-    var low = SIMD3<Float>(repeating: .infinity)
-    var high = -low
-    var (centerLow, centerHigh) = (low, high)
-    for t in triangles[range] {
-      for p in [t.origin, t.origin + t.edge1, t.origin + t.edge2] {
-        low = pointwiseMin(low, p)
-        high = pointwiseMax(high, p)
-      }
-      centerLow = pointwiseMin(centerLow, center(t))
-      centerHigh = pointwiseMax(centerHigh, center(t))
-    }
+  /// Adds the node of a range of triangles and those below it. From a depth on they are divided in
+  /// halves, so that a ray never has to remember more than 64 nodes.
+  private mutating func build(_ range: Range<Int>, depth: Int = 0) {
+    let box = triangles[range].reduce(Box()) { $0.union($1.box) }
     let index = nodes.count
     let isLeaf = range.count <= 4
     nodes.append(
       Node(
-        low: low, high: high, skip: 0, first: Int32(range.lowerBound),
+        low: box.low, high: box.high, skip: 0, first: Int32(range.lowerBound),
         count: isLeaf ? Int32(range.count) : 0))
     if !isLeaf {
-      let size = centerHigh - centerLow
-      let axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2
-      triangles[range].sort {
-        let (a, b) = (center($0)[axis], center($1)[axis])
-        return a != b ? a < b : $0.index < $1.index
-      }
-      let middle = (range.lowerBound + range.upperBound) / 2
-      build(range.lowerBound..<middle)
-      build(middle..<range.upperBound)
+      let middle = split(range, isBalanced: depth > 30)
+      build(range.lowerBound..<middle, depth: depth + 1)
+      build(middle..<range.upperBound, depth: depth + 1)
     }
     nodes[index].skip = Int32(nodes.count)
+  }
+
+  /// Divides triangles in two parts where the surface area heuristic expects the least cost (Wald,
+  /// "On fast construction of SAH-based bounding volume hierarchies", 2007), and returns the first
+  /// of the second part.
+  private mutating func split(_ range: Range<Int>, isBalanced: Bool) -> Int {
+    let centers = triangles[range].reduce(Box()) { $0.union($1.center) }
+    let size = centers.high - centers.low
+    let scale = Float(Self.binCount) * 0.999_999 / pointwiseMax(size, SIMD3(repeating: 1e-30))
+    func bin(_ triangle: Corners, _ axis: Int) -> Int {
+      let place = (triangle.center[axis] - centers.low[axis]) * scale[axis]
+      // The first for values that aren't numbers, too.
+      return place > 0 ? Int(min(place, Float(Self.binCount - 1))) : 0
+    }
+    var best: (cost: Float, axis: Int, bin: Int)?
+    for axis in 0..<3 where size[axis] > 0 && !isBalanced {
+      var bins = [(box: Box, count: Int)](repeating: (Box(), 0), count: Self.binCount)
+      for triangle in triangles[range] {
+        let number = bin(triangle, axis)
+        bins[number] = (bins[number].box.union(triangle.box), bins[number].count + 1)
+      }
+      let costs = Self.costs(bins)
+      for (number, cost) in zip(1..., costs) where cost < best?.cost ?? .infinity {
+        best = (cost, axis, number)
+      }
+    }
+    let middle = (range.lowerBound + range.upperBound) / 2
+    guard let best else { return middle }
+    let parts = [true, false].map { isFirst in
+      triangles[range].filter { (bin($0, best.axis) < best.bin) == isFirst }
+    }
+    triangles.replaceSubrange(range, with: parts[0] + parts[1])
+    return range.lowerBound + parts[0].count
+  }
+
+  private static let binCount = 16
+
+  /// The costs of dividing before each bin but the first; infinite if a part is empty.
+  private static func costs(_ bins: [(box: Box, count: Int)]) -> [Float] {
+    func partial(_ bins: some Sequence<(box: Box, count: Int)>) -> [Float] {
+      var (box, count) = (Box(), 0)
+      return bins.map { bin in
+        (box, count) = (box.union(bin.box), count + bin.count)
+        return count > 0 ? Float(count) * box.area : .infinity
+      }
+    }
+    let (before, after) = (partial(bins), partial(bins.reversed()))
+    return (1..<bins.count).map { before[$0 - 1] + after[bins.count - 1 - $0] }
   }
 
   /// The nearest hit of a ray between `nearest` and `farthest` multiples of its direction.
@@ -79,7 +159,42 @@ package struct RayCaster: Sendable {
     from origin: SIMD3<Float>, along direction: SIMD3<Float>, nearest: Float = 1e-5,
     farthest: Float = .infinity
   ) -> Hit? {
-    traverse(origin, direction, nearest, farthest, stopsAtAny: false)
+    guard !nodes.isEmpty else { return nil }
+    let inverse = 1 / direction
+    var best = Hit(triangle: -1, distance: farthest, u: 0, v: 0)
+    // The nodes that remain, and where the ray enters them.
+    var rest = InlineArray<64, (node: Int32, enter: Float)>(repeating: (0, nearest))
+    var count = 1
+    while count > 0 {
+      count -= 1
+      let (node, enter) = rest[count]
+      let index = Int(node)
+      // Rounding must not separate triangles at the same distance.
+      if enter > best.distance * 1.000_001 { continue }
+      if nodes[index].count > 0 {
+        for position in nodes[index].range {
+          // Of equally distant triangles the first counts, whichever is visited first.
+          let isBefore = triangles[position].index < best.triangle
+          let limit = isBefore ? best.distance.nextUp : best.distance
+          if let hit = Self.intersect(triangles[position], origin, direction, nearest, limit) {
+            best = hit
+          }
+        }
+        continue
+      }
+      let (first, second) = (index + 1, Int(nodes[index + 1].skip))
+      let a = nodes[first].entry(origin, inverse, nearest)
+      let b = nodes[second].entry(origin, inverse, nearest)
+      // The nearer child is visited first.
+      if a > b {
+        if a < .infinity { (rest[count], count) = ((Int32(first), a), count + 1) }
+        if b < .infinity { (rest[count], count) = ((Int32(second), b), count + 1) }
+      } else {
+        if b < .infinity { (rest[count], count) = ((Int32(second), b), count + 1) }
+        if a < .infinity { (rest[count], count) = ((Int32(first), a), count + 1) }
+      }
+    }
+    return best.triangle < 0 ? nil : best
   }
 
   /// Whether there is any hit between `nearest` and `farthest` multiples of the direction.
@@ -87,38 +202,21 @@ package struct RayCaster: Sendable {
     from origin: SIMD3<Float>, along direction: SIMD3<Float>, nearest: Float = 1e-5,
     farthest: Float = .infinity
   ) -> Bool {
-    traverse(origin, direction, nearest, farthest, stopsAtAny: true) != nil
-  }
-
-  private func traverse(
-    _ origin: SIMD3<Float>, _ direction: SIMD3<Float>, _ nearest: Float, _ farthest: Float,
-    stopsAtAny: Bool
-  ) -> Hit? {
     let inverse = 1 / direction
-    var best: Hit?
-    var limit = farthest
     var index = 0
     while index < nodes.count {
-      let node = nodes[index]
-      let a = (node.low - origin) * inverse
-      let b = (node.high - origin) * inverse
-      let enter = pointwiseMin(a, b).max()
-      let leave = pointwiseMax(a, b).min()
-      // The comparisons are such that NaN (a ray inside a face of the box) enters.
-      if enter > leave || enter > limit || leave < nearest {
-        index = Int(node.skip)
+      let enter = nodes[index].entry(origin, inverse, nearest)
+      if enter > farthest || enter == .infinity {
+        index = Int(nodes[index].skip)
         continue
       }
-      for position in Int(node.first)..<Int(node.first + node.count) {
-        guard let hit = Self.intersect(triangles[position], origin, direction, nearest, limit)
-        else { continue }
-        best = hit
-        if stopsAtAny { return best }
-        limit = hit.distance
+      for position in nodes[index].range
+      where Self.intersect(triangles[position], origin, direction, nearest, farthest) != nil {
+        return true
       }
       index += 1
     }
-    return best
+    return false
   }
 
   /// Ray–triangle intersection (Möller and Trumbore, 1997).

@@ -46,6 +46,17 @@ package struct RenderedScene: Sendable {
     package init() {}
   }
 
+  /// A plain background without detail behind all surfaces.
+  package struct Backdrop: Sendable {
+    /// The light from below and from above, linear RGB.
+    package var low: SIMD3<Float> = [0.10, 0.11, 0.12]
+    package var high: SIMD3<Float> = [0.22, 0.24, 0.27]
+
+    package init() {}
+
+    package init(low: SIMD3<Float>, high: SIMD3<Float>) { (self.low, self.high) = (low, high) }
+  }
+
   /// The surface to be reconstructed, and the reference to score against.
   package let object: Mesh
   /// The camera of all photos.
@@ -62,6 +73,7 @@ package struct RenderedScene: Sendable {
   /// Occludes a part of the object in some photos.
   package var intruder: Intruder?
   package var lighting = Lighting()
+  package var backdrop = Backdrop()
 
   /// The object, then its surroundings.
   package let surfaces: [Surface]
@@ -168,9 +180,8 @@ package struct RenderedScene: Sendable {
 
   private func sight(along ray: (origin: SIMD3<Float>, direction: SIMD3<Float>)) -> Sight {
     guard let hit = caster.hit(from: ray.origin, along: ray.direction) else {
-      // A plain background without detail, slightly lighter toward the top.
       let height = 0.5 + 0.5 * ray.direction.normalized.y
-      return Sight(radiance: SIMD3(0.10, 0.11, 0.12) + SIMD3(0.12, 0.13, 0.15) * height)
+      return Sight(radiance: backdrop.low + (backdrop.high - backdrop.low) * height)
     }
     let part = parts[hit.triangle]
     let surface = surfaces[part.surface]

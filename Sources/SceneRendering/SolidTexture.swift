@@ -109,7 +109,7 @@ package struct SolidTexture: SurfaceTexture {
     let cell = p.rounded(.down)
     let f = p - cell
     let s = f * f * (3 - 2 * f)
-    let i = SIMD3<Int32>(cell)
+    let i = SIMD3(Int32(cell.x), Int32(cell.y), Int32(cell.z))
     let x = SIMD2(UInt32(bitPattern: i.x), UInt32(bitPattern: i.x &+ 1)) &* 0x9E37_79B1
     let y = SIMD2(UInt32(bitPattern: i.y), UInt32(bitPattern: i.y &+ 1)) &* 0x85EB_CA77
     let z = SIMD2(UInt32(bitPattern: i.z), UInt32(bitPattern: i.z &+ 1)) &* 0xC2B2_AE3D

@@ -10,6 +10,7 @@ import TestSupport
 //   render-fixtures <folder> texture [name …]  sets to evaluate the texture, with held-out photos
 //   render-fixtures <folder> ring [count]      a large set of photos, 160 by default
 //   render-fixtures <folder> captures [seed] [object,…|all] [capture,…|all] [surroundings,…|all]
+//   render-fixtures <folder> twins [seed] [name,…|all] [width]
 //   render-fixtures <folder> loudspeaker [seed] [still|hand]
 //   render-fixtures <folder> wallpaper [seed]
 //   render-fixtures <folder> video [seed] [frames]
@@ -18,6 +19,12 @@ import TestSupport
 // compare kinds of capture: the seed is 1 by default; the other names are the cases of
 // `CaptureObject`, `Capture` and `CaptureSurroundings`. Cameras and surface are in the frame of the
 // object, in which the cameras of all captures are comparable.
+//
+// `twins` writes sets `<name>-<seed>` of 80 to 200 photos, of the kinds in a publication: the names
+// are the cases of `TwinObject`. Each seed gives another object, surroundings and walk of the same
+// kind; it is 1 by default, and photos are 1000 pixels wide. Every fifth photo is held out: it is
+// in `holdout`, with its mask beside it, instead of in `images`; `gt/cameras.json` marks it. The
+// photos of `toy-car` are one continuous walk, those of the others several rings.
 //
 // `loudspeaker` writes sets `loudspeaker-<motion>-<seed>` in the same format: a black object with
 // hardly any texture on a wooden table, whose grain connects the photos although the object is
@@ -30,7 +37,8 @@ import TestSupport
 // without blur and rolling shutter.
 //
 // The sets for the dense stage have their surface and cameras in a z-up frame; the table, at z = 0,
-// is not part of the surface. Those of captures are z-up as well.
+// is not part of the surface. Those of captures and twins are z-up as
+// well.
 
 let folder = URL(
   fileURLWithPath: CommandLine.arguments.dropFirst().first ?? "Fixtures", isDirectory: true)
@@ -58,6 +66,11 @@ case "ring":
 case "captures":
   try CaptureSelection(Array(words.dropFirst())).forEach { scene, name in
     try write(scene, name)
+  }
+case "twins":
+  try TwinSelection(Array(words.dropFirst())).forEach(control) { twin, name in
+    try TwinSet(twin: twin).write(
+      to: folder.appendingPathComponent(name, isDirectory: true), control)
   }
 case "loudspeaker":
   let seed = try CaptureSelection.seed(words.dropFirst().first)

@@ -19,14 +19,41 @@ extension RenderedScene {
     _ index: Int, isMarked: (SIMD3<Float>) -> Bool = { _ in true }
   ) -> RasterImage {
     var mask = RasterImage(width: camera.width, height: camera.height, channels: 1)
-    for pixel in mask.pixels.indices {
-      let place = SIMD2(Double(pixel % camera.width), Double(pixel / camera.width)) + 0.5
-      let ray = ray(through: place, of: index)
-      guard let hit = caster.hit(from: ray.origin, along: ray.direction) else { continue }
-      let point = ray.origin + ray.direction * hit.distance
-      if parts[hit.triangle].surface == 0, isMarked(point) { mask.pixels[pixel] = 255 }
+    let frame = frame(ofObjectIn: index)
+    for row in frame.rows {
+      for column in frame.columns {
+        let ray = ray(through: SIMD2(Double(column), Double(row)) + 0.5, of: index)
+        guard let hit = caster.hit(from: ray.origin, along: ray.direction) else { continue }
+        let point = ray.origin + ray.direction * hit.distance
+        if parts[hit.triangle].surface == 0, isMarked(point) {
+          mask.pixels[row * camera.width + column] = 255
+        }
+      }
     }
     return mask
+  }
+
+  /// The pixels of photo `index` that may show the object.
+  private func frame(ofObjectIn index: Int) -> (rows: Range<Int>, columns: Range<Int>) {
+    let (rows, columns) = (0..<camera.height, 0..<camera.width)
+    guard let bounds = object.bounds else { return (0..<0, 0..<0) }
+    let ends = [bounds.min, bounds.max].map { SIMD3<Double>($0) }
+    let corners = (0..<8).map { corner in
+      let (x, y, z) = (ends[corner & 1].x, ends[corner >> 1 & 1].y, ends[corner >> 2].z)
+      return poses[index] * SIMD3(x, y, z)
+    }
+    // The projection of a box is inside of that of its corners if it is before the camera.
+    guard corners.allSatisfy({ $0.z > 1e-3 }), camera.distortion == .zero else {
+      return (rows, columns)
+    }
+    let pixels = corners.map { camera.project($0) }
+    func span(_ values: [Double], in range: Range<Int>) -> Range<Int> {
+      let limits = [(values.min() ?? 0) - 1, (values.max() ?? 0) + 2].map {
+        Int(min(max($0, 0), Double(range.count)))
+      }
+      return limits[0]..<limits[1]
+    }
+    return (span(pixels.map(\.y), in: rows), span(pixels.map(\.x), in: columns))
   }
 
   /// Whether a surface point is visible in photo `index`.
