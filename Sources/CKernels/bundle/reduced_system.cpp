@@ -9,9 +9,10 @@ namespace ck {
 namespace {
 
 /// Conjugate gradients stop when an iteration adds less than this share to the decrease of the
-/// quadratic form per iteration so far (Nash and Sofer, "Assessing a search direction within a
-/// truncated-Newton method", 1990), and at this number of iterations. Values of Ceres.
+/// quadratic form per iteration so far. Paper: Nash and Sofer 1990, "Assessing a search direction
+/// within a truncated-Newton method". The share is Ceres' default.
 constexpr double kForcingSequence = 0.1;
+/// Conjugate gradients stop at this number of iterations. Chosen: Ceres' default is 500.
 constexpr int kMaximumConjugateSteps = 100;
 
 /// Sorts `columns` and removes duplicates.
