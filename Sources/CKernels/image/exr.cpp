@@ -214,6 +214,7 @@ struct Pipeline {
   }
 
  private:
+  /// Chosen: more than any renderer writes.
   static constexpr int16_t kMaximumChannels = 256;
   /// The index of the first value of each channel.
   std::array<size_t, kMaximumChannels> places{};
@@ -356,8 +357,8 @@ std::optional<Eigen::Matrix3f> srgb_from_file(const File& file) {
   const Eigen::Matrix3d target = xyz_from_rgb(kRec709);
   const Eigen::Vector3d white = Eigen::Vector3d::Ones();
   const Eigen::Matrix3d matrix = target.inverse() * adaptation(own * white, target * white) * own;
-  // Half of an 8-bit step: primaries of sRGB that are rounded to three digits change nothing.
-  // Chosen.
+  // Chosen: half of an 8-bit step; primaries of sRGB that are rounded to three digits change
+  // nothing.
   constexpr double kNegligible = 2e-3;
   if (!matrix.allFinite() || matrix.isIdentity(kNegligible)) return std::nullopt;
   return matrix.cast<float>();
