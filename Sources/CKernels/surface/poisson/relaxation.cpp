@@ -6,7 +6,7 @@ namespace ck::poisson {
 
 namespace {
 
-/// Entries of the stiffness matrix of trilinear functions on cells of side 1: of a node with
+/// Limit: entries of the stiffness matrix of trilinear functions on cells of side 1: of a node with
 /// itself, and with those across an edge and a corner. With nodes across a face they are zero.
 constexpr float kDiagonal = 8.0f / 3, kEdge = -1.0f / 6, kCorner = -1.0f / 12;
 
