@@ -341,7 +341,7 @@ Eigen::Matrix3d adaptation(const Eigen::Vector3d& from, const Eigen::Vector3d& t
   return cones.inverse() * ratio.asDiagonal() * cones;
 }
 
-/// The primaries of sRGB and Rec. 709, which files without the attribute have.
+/// Limit: the primaries of sRGB and Rec. 709, which files without the attribute have.
 constexpr exr_attr_chromaticities_t kRec709{0.64F, 0.33F, 0.30F,   0.60F,
                                             0.15F, 0.06F, 0.3127F, 0.3290F};
 

@@ -118,6 +118,7 @@ void append_chunk(const char* name, const std::vector<uint8_t>& content,
 
 std::vector<uint8_t> encode_png(const uint8_t* pixels, int32_t width, int32_t height,
                                 int32_t channels) {
+  // Limit: codes of the format.
   constexpr uint8_t kBitDepth = 8, kGray = 0, kRGB = 2, kRGBA = 6;
   std::vector<uint8_t> header;
   append(static_cast<uint32_t>(width), &header);

@@ -13,7 +13,7 @@ struct Plane {
   Plane at(float dx, float dy) const { return {w + gx * dx + gy * dy, gx, gy}; }
 };
 
-/// Bit mask of all sources.
+/// Bit mask of all sources. Limit: the bits of a byte.
 constexpr uint8_t kAllSources = 0xff;
 
 /// Number of pixels optimized together: enough to hide memory latency, few enough for the

@@ -42,7 +42,7 @@ std::vector<size_t> inliers_of(const Eigen::Matrix3d& matrix, const Matches& mat
 /// Essential matrices for `ransac`.
 struct EssentialEstimator {
   using Model = Eigen::Matrix3d;
-  static constexpr size_t kSampleSize = 5;
+  static constexpr size_t kSampleSize = 5;  // Limit: a minimal sample.
   const Matches& matches;
 
   size_t size() const { return matches.size(); }
@@ -67,7 +67,7 @@ struct EssentialEstimator {
 /// Fundamental matrices for `ransac`.
 struct FundamentalEstimator {
   using Model = Eigen::Matrix3d;
-  static constexpr size_t kSampleSize = 7;
+  static constexpr size_t kSampleSize = 7;  // Limit: a minimal sample.
   const Matches& matches;
 
   size_t size() const { return matches.size(); }
@@ -90,7 +90,7 @@ struct FundamentalEstimator {
 /// Homographies for `ransac`.
 struct HomographyEstimator {
   using Model = Eigen::Matrix3d;
-  static constexpr size_t kSampleSize = 4;
+  static constexpr size_t kSampleSize = 4;  // Limit: a minimal sample.
   const Matches& matches;
 
   size_t size() const { return matches.size(); }

@@ -38,7 +38,7 @@ Eigen::Matrix<double, 3, 2> tangent(const Eigen::Vector3d& v) {
 /// The five parameters of a relative pose: a rotation vector applied from the left, and the
 /// direction of the translation.
 struct PoseParameters {
-  static constexpr int kCount = 5;
+  static constexpr int kCount = 5;  // Limit: the degrees of freedom.
   RelativePose pose;
 
   Linearized<kCount> linearized() const {
@@ -67,7 +67,7 @@ struct PoseParameters {
 /// The seven parameters of a fundamental matrix U diag(1, s, 0) Vᵀ: rotation vectors of U and V,
 /// and s.
 struct FundamentalParameters {
-  static constexpr int kCount = 7;
+  static constexpr int kCount = 7;  // Limit: the degrees of freedom.
   Eigen::Matrix3d u, v;
   double s;
 
