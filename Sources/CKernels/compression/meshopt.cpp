@@ -32,6 +32,7 @@ constexpr uint8_t triangles_version_1 = 0xe1;
 /// library, which affects only this encoder. If other code of the process changes it, encoding
 /// fails.
 void select_version() {
+  // Limit: the version that the glTF extension prescribes.
   static const bool is_selected = (meshopt_encodeIndexVersion(1), true);
   static_cast<void>(is_selected);
 }

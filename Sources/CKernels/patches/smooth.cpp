@@ -50,6 +50,7 @@ class Information {
         gray += gray_[i];
         square += square_[i];
       }
+      // Limit: the share of a pixel in the window.
       constexpr float kTexel = 1.0f / ((2 * kRadius + 1) * (2 * kRadius + 1));
       const float mean = gray * kTexel, variance = square * kTexel - mean * mean;
       // The unexplained variance is noise, too.
@@ -86,7 +87,7 @@ constexpr int kBlock = 32;
 
 /// A row of patches as a structure of arrays, with padding for missing neighbors on both sides.
 struct Row {
-  static constexpr int kPadding = 1 << (kPasses - 1);
+  static constexpr int kPadding = 1 << (kPasses - 1);  // Limit: the spacing of the last pass.
 
   explicit Row(int width)
       : w(width + kBlock + 2 * kPadding), gx(w.size()), gy(w.size()), information(w.size()) {}

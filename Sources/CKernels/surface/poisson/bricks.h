@@ -18,7 +18,7 @@ namespace ck::poisson {
 /// Cells of a brick per axis. Chosen: a brick's values take 2 KB.
 constexpr int kSide = 8;
 constexpr int kBrick = kSide * kSide * kSide;
-/// A brick's nodes per axis with those around it.
+/// Limit: a brick's nodes per axis with those around it.
 constexpr int kPadded = kSide + 2;
 
 using Coordinates = std::array<int, 3>;
