@@ -8,13 +8,13 @@
 namespace ck {
 namespace {
 
-/// Units of parallel work. Their size decides how sums are rounded; chosen so that a unit takes
-/// about a millisecond, far more than it takes to start a thread.
+/// Units of parallel work. Their size decides how sums are rounded. Chosen: a unit takes about a
+/// millisecond, far more than it takes to start a thread.
 constexpr size_t kPointsPerChunk = 1024, kLinksPerChunk = 2048;
 /// Observations of the poses of a unit of work. Chosen: about a millisecond; results do not depend
 /// on it, because the row of a pose is one sum.
 constexpr size_t kObservationsPerUnit = 1000;
-/// Bounds of the diagonal elements that damping is proportional to, as in Ceres.
+/// Bounds of the diagonal elements that damping is proportional to. Chosen: Ceres' defaults.
 constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
 
 /// Adds the damping to a diagonal. Parameters that nothing depends on get 1, so that they keep

@@ -9,10 +9,14 @@ namespace ck {
 namespace {
 
 /// Conjugate gradients stop when an iteration adds less than this share to the decrease of the
-/// quadratic form per iteration so far (Nash and Sofer, "Assessing a search direction within a
-/// truncated-Newton method", 1990), and at this number of iterations. Values of Ceres.
+/// quadratic form per iteration so far. Paper: Nash and Sofer 1990, "Assessing a search direction
+/// within a truncated-Newton method". The share is Ceres' default.
 constexpr double kForcingSequence = 0.1;
+/// Conjugate gradients stop at this number of iterations. Chosen: Ceres' default is 500.
 constexpr int kMaximumConjugateSteps = 100;
+
+/// Number of columns with duplicates that a list has room for in any case. Chosen.
+constexpr size_t kRoom = 256;
 
 /// Sorts `columns` and removes duplicates.
 void make_unique(std::vector<int32_t>& columns) {
@@ -26,14 +30,14 @@ void append(int32_t column, size_t& limit, std::vector<int32_t>& columns) {
   columns.push_back(column);
   if (columns.size() < limit) return;
   make_unique(columns);
-  limit = 2 * columns.size() + 256;
+  limit = 2 * columns.size() + kRoom;
 }
 
 /// The poses and cameras with which a pose shares a block.
 void find_neighbors(const BundleLayout& layout, size_t pose, std::vector<int32_t>& poses,
                     std::vector<int32_t>& cameras) {
   poses.push_back(int32_t(pose));
-  size_t pose_limit = 256, camera_limit = 256;
+  size_t pose_limit = kRoom, camera_limit = kRoom;
   const Lists& own = layout.observations_of_pose;
   for (size_t i = own.starts[pose]; i < own.starts[pose + 1]; ++i) {
     const auto& observation = layout.observations[size_t(own.values[i])];
@@ -53,7 +57,7 @@ void find_neighbors(const BundleLayout& layout, size_t pose, std::vector<int32_t
 /// The cameras with which a camera shares a block.
 void find_neighbors(const BundleLayout& layout, size_t camera, std::vector<int32_t>& cameras) {
   cameras.push_back(int32_t(camera));
-  size_t limit = 256;
+  size_t limit = kRoom;
   const Lists& links = layout.links_of_camera;
   const Lists& all = layout.cameras_of_point;
   for (size_t i = links.starts[camera]; i < links.starts[camera + 1]; ++i) {

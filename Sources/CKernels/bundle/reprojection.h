@@ -5,9 +5,10 @@
 
 namespace ck {
 
-/// Degrees of freedom of a pose: a rotation vector applied from the left, then the translation.
+/// Limit: degrees of freedom of a pose: a rotation vector applied from the left, then the
+/// translation.
 constexpr int kPoseSize = 6;
-/// Parameters of a camera: fx (fy in constant proportion), cx, cy, k1, k2, p1, p2.
+/// Limit: parameters of a camera: fx (fy in constant proportion), cx, cy, k1, k2, p1, p2.
 constexpr int kCameraSize = 7;
 
 /// The reprojection error of an observation in pixels, and its derivatives.

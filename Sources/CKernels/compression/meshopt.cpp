@@ -24,14 +24,15 @@ void require_stride(size_t stride) {
           "vertices need a multiple of four bytes, up to 256");
 }
 
-/// The first byte of compressed triangles in version 1 of the format, which the glTF extension
-/// prescribes.
+/// Limit: the first byte of compressed triangles in version 1 of the format, which the glTF
+/// extension prescribes.
 constexpr uint8_t triangles_version_1 = 0xe1;
 
 /// Selects version 1, once: the library's default is 0, and the version is a variable of the
 /// library, which affects only this encoder. If other code of the process changes it, encoding
 /// fails.
 void select_version() {
+  // Limit: the version that the glTF extension prescribes.
   static const bool is_selected = (meshopt_encodeIndexVersion(1), true);
   static_cast<void>(is_selected);
 }

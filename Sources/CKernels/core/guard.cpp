@@ -9,7 +9,7 @@
 
 namespace ck {
 namespace {
-/// In bytes. Chosen: the messages of libraries have a few lines.
+/// Length of a message in bytes. Chosen: the messages of libraries have a few lines.
 constexpr size_t kMaximumLength = 2000;
 
 /// Zero-terminated. It has no constructor that could allocate memory.

@@ -12,7 +12,7 @@ namespace ck {
 /// does not depend on the number of threads.
 template <typename Element, typename Less>
 void parallel_sort(std::vector<Element>& elements, const Less& less, const ck_control* control) {
-  // Fewer elements are sorted in a few milliseconds; chosen. A unit of work of each pass is one
+  // Chosen: fewer elements are sorted in a few milliseconds. A unit of work of each pass is one
   // block or one bucket; the samples are so many that buckets differ little in size.
   constexpr size_t kFew = 1 << 15, kBuckets = 64, kSamplesPerBucket = 32, kBlocks = 64;
   if (elements.size() < kFew) return std::sort(elements.begin(), elements.end(), less);

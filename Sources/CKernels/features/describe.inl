@@ -8,32 +8,37 @@
 namespace ck::sift {
 namespace {
 
-/// Cells per side of the window.
+/// Cells per side of the window. Paper: Lowe 2004, section 6.1.
 constexpr int kCells = 16;
-/// Directions per histogram of a descriptor.
+/// Directions per histogram of a descriptor. Paper: Lowe 2004, section 6.2.
 constexpr int kDirections = 8;
-/// Histograms per side of a descriptor.
+/// Histograms per side of a descriptor. Paper: Lowe 2004, section 6.2.
 constexpr int kBins = 4;
-/// Directions of the histogram from which the orientation is determined.
+/// Directions of the histogram from which the orientation is determined. Paper: Lowe 2004,
+/// section 5.
 constexpr int kPeakBins = 36;
-/// Smallest height of a further orientation's peak, relative to the highest (Lowe, IJCV 2004).
+/// Smallest height of a further orientation's peak, relative to the highest. Paper: Lowe 2004,
+/// section 5.
 constexpr float kPeakRatio = 0.8f;
-/// Upper bound of an element of a descriptor, relative to its norm (Lowe, IJCV 2004).
+/// Upper bound of an element of a descriptor, relative to its norm. Paper: Lowe 2004, section 6.1.
 constexpr float kMaximumElement = 0.2f;
 
-/// Side of a cell in units of the feature's σ: the window extends 4.5 σ from the feature, as in
-/// Lowe's orientation assignment.
+/// Standard deviation of the orientation's weights in units of the feature's σ. Paper: Lowe 2004,
+/// section 5.
+constexpr double kOrientationSigma = 1.5;
+/// Side of a cell in units of the feature's σ. Chosen: the window extends 4.5 σ from the feature,
+/// three standard deviations.
 constexpr float kOrientationCell = 9.0f / kCells;
-/// Side of a descriptor bin in units of σ, and cells per bin: the window extends half a bin beyond
-/// the bins.
+/// Side of a descriptor bin in units of σ. Chosen: that of Lowe's program.
 constexpr float kBinSize = 3;
+/// Cells per bin. Limit: the window extends half a bin beyond the bins.
 constexpr float kCellsOfBin = kCells / 5.0f;
 
 const F16 kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
 
 /// Weights that are the same for all features.
 struct Tables {
-  /// Weight of each cell for the orientation: a Gaussian of 1.5 σ.
+  /// Weight of each cell for the orientation: a Gaussian of `kOrientationSigma`.
   float orientation[kCells][kCells];
   /// Weight of a row, or column, of cells for each bin: linear interpolation, averaged over the
   /// cell, under a Gaussian of two bins.
@@ -43,7 +48,8 @@ struct Tables {
     for (int j = 0; j < kCells; ++j) {
       for (int i = 0; i < kCells; ++i) {
         const double u = (i - 7.5) * kOrientationCell, v = (j - 7.5) * kOrientationCell;
-        orientation[j][i] = static_cast<float>(std::exp(-(u * u + v * v) / (2 * 1.5 * 1.5)));
+        orientation[j][i] = static_cast<float>(
+            std::exp(-(u * u + v * v) / (2 * kOrientationSigma * kOrientationSigma)));
       }
     }
     for (int b = 0; b < kBins; ++b) {
@@ -52,7 +58,7 @@ struct Tables {
   }
 
   static float bin_weight(int cell, double center) {
-    constexpr int kParts = 16;
+    constexpr int kParts = 16;  // Chosen: parts of a cell over which the weight is averaged.
     double sum = 0;
     for (int k = 0; k < kParts; ++k) {
       const double u = (cell - 8 + (k + 0.5) / kParts) / kCellsOfBin;
@@ -249,7 +255,7 @@ CK_INLINE void pool_rows(const Gradients& g, RowBins& bins) {
   for (int b = 0; b < kBins; ++b) {
     for (int d = 0; d < kDirections; ++d) bins.sum[b][d] = 0;
   }
-  // Every bin covers seven rows of cells.
+  // Limit: every bin covers seven rows of cells.
   constexpr int kFirstRow[kBins] = {0, 3, 6, 9};
   const Tables& t = tables();
   F16 size[kCells], turned[kCells];

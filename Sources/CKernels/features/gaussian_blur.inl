@@ -71,12 +71,16 @@ struct PhotoRows {
 
 // ---- Gaussian blur --------------------------------------------------------------------------
 
-/// Rows that are blurred together.
+/// Rows that are blurred together. Chosen: their sums fit the registers.
 constexpr int kGroup = 4;
-/// Columns around a row that the blur along x reads.
+/// Columns around a row that the blur along x reads. Chosen: room for the largest radius and a
+/// vector.
 constexpr int kMargin = 64;
 
-/// A Gaussian filter, truncated at 3 σ.
+/// Number of σ at which a Gaussian is truncated. Chosen: 0.3 % of it are farther away.
+constexpr double kTruncation = 3;
+
+/// A truncated Gaussian filter.
 struct Gaussian {
   /// Number of taps on each side of the center.
   int radius = 0;
@@ -85,7 +89,7 @@ struct Gaussian {
 
   Gaussian() = default;
   explicit Gaussian(double sigma)
-      : radius(std::min(kMargin - 16, static_cast<int>(std::ceil(3 * sigma)))) {
+      : radius(std::min(kMargin - 16, static_cast<int>(std::ceil(kTruncation * sigma)))) {
     double sum = 0;
     for (int i = -radius; i <= radius; ++i) sum += std::exp(-i * i / (2 * sigma * sigma));
     for (int i = 0; i <= radius; ++i) {

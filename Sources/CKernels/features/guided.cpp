@@ -58,7 +58,7 @@ class FeatureGrid {
   }
 
  private:
-  /// Cells per side.
+  /// Cells per side. Chosen: a few features per cell.
   static constexpr int kCells = 64;
 
   static size_t clamped(double cell) {

@@ -9,7 +9,7 @@
 namespace ck {
 namespace {
 
-/// Largest number of descriptors per side.
+/// Largest number of descriptors per side. Chosen: far more than photos have.
 constexpr size_t kMaximumCount = 65536;
 
 /// A match and its ratio of squared distances, best to second best: the lower, the better.

@@ -7,6 +7,7 @@
 namespace ck {
 namespace {
 
+// Limit: a packed key has the index of a row, or that of a tile of eight columns.
 constexpr size_t kBlockRows = 1u << kIndexBits;
 constexpr size_t kBlockColumns = 1u << (kIndexBits + 3);
 

@@ -13,9 +13,10 @@ namespace ck {
 
 /// Bytes of a descriptor.
 constexpr size_t kDescriptorLength = CK_DESCRIPTOR_LENGTH;
-/// Upper bound of squared distances; also the distance to a missing neighbor.
+/// Upper bound of squared distances; also the distance to a missing neighbor. Limit: that of two
+/// vectors of length 512.
 constexpr uint32_t kFar = 1u << 20;
-/// Bits of a packed key for the index; the others hold the squared distance.
+/// Bits of a packed key for the index. Limit: the other 20 of 32 hold the squared distance.
 constexpr int kIndexBits = 12;
 
 /// The two nearest neighbors of a descriptor by squared distance; ties go to the lower index.

@@ -9,10 +9,10 @@
 namespace ck {
 namespace {
 
-constexpr size_t kLanes = 8;   // columns per tile
-constexpr size_t kGroup = 4;   // rows processed together
-constexpr size_t kChunk = 64;  // rows whose state fits into the first-level cache
-constexpr size_t kSteps = kDescriptorLength / 2;
+constexpr size_t kLanes = 8;   // Columns per tile. Limit: lanes of a register.
+constexpr size_t kGroup = 4;   // Rows processed together. Limit: 16 registers hold the sums.
+constexpr size_t kChunk = 64;  // Rows. Chosen: their state fits into the first-level cache.
+constexpr size_t kSteps = kDescriptorLength / 2;  // Limit: two words per step.
 
 /// Descriptors as 16-bit words, because sums of two products of bytes overflow 16 bits; two words
 /// of four rows, or of eight columns, are interleaved.

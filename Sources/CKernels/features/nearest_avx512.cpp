@@ -9,10 +9,10 @@
 namespace ck {
 namespace {
 
-constexpr size_t kLanes = 16;  // columns per tile
-constexpr size_t kGroup = 8;   // rows processed together
-constexpr size_t kChunk = 64;  // rows whose state fits into the first-level cache
-constexpr size_t kSteps = kDescriptorLength / 4;
+constexpr size_t kLanes = 16;  // Columns per tile. Limit: lanes of a register.
+constexpr size_t kGroup = 8;   // Rows processed together. Limit: 32 registers hold the sums.
+constexpr size_t kChunk = 64;  // Rows. Chosen: their state fits into the first-level cache.
+constexpr size_t kSteps = kDescriptorLength / 4;  // Limit: four bytes per step.
 
 /// Rows as signed bytes; four bytes of eight rows are interleaved. With a signed row a − 128 the
 /// dot product instruction yields a·b − 128 Σb; the column's term corrects for it.

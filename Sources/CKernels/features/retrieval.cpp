@@ -14,9 +14,9 @@
 namespace ck {
 namespace {
 
-/// Descriptors per unit of work.
+/// Descriptors per unit of work. Chosen: a block of the search.
 constexpr size_t kChunk = 4096;
-/// Vectors per unit of work that are compared with all others.
+/// Vectors per unit of work that are compared with all others. Chosen.
 constexpr size_t kRankedRows = 32;
 
 /// The index of the nearest word of each descriptor.

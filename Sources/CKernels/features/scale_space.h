@@ -49,7 +49,7 @@ class Block {
  public:
   Block() = default;
   explicit Block(size_t byte_count) {
-    constexpr size_t kLargePage = size_t{2} << 20;
+    constexpr size_t kLargePage = size_t{2} << 20;  // Limit: the huge pages of x86-64 and ARM64.
     const bool is_large = byte_count >= 2 * kLargePage;
     const size_t alignment = is_large ? kLargePage : 64;
     const size_t size = (byte_count + alignment - 1) / alignment * alignment;
@@ -127,8 +127,9 @@ struct Kernels {
                    uint8_t* descriptor);
 };
 
+/// Largest number of orientations of an extremum. Chosen: it hardly ever has more.
 constexpr int kMaximumOrientations = 4;
-/// Smallest width and height of an octave.
+/// Smallest width and height of an octave. Chosen: less has hardly any pixel inside its border.
 constexpr int kMinimumOctaveSide = 16;
 
 const Kernels& portable_kernels();

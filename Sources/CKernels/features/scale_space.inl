@@ -49,17 +49,22 @@ CK_INLINE bool is_edge(const Quadratic& q, double limit) {
 
 // ---- One octave -----------------------------------------------------------------------------
 
-/// Distance from the border in pixels within which extrema are ignored.
+/// Distance from the border in pixels within which extrema are ignored. Chosen.
 constexpr int kBorder = 5;
-/// Rows above and below an extremum that its refinement may read.
+/// Rows above and below an extremum that its refinement may read. Chosen: few extrema move more.
 constexpr int kReach = 3;
-/// Fraction of the contrast threshold that a sample must exceed: interpolation increases the value,
-/// but by a much smaller factor.
+/// Fraction of the contrast threshold that a sample must exceed. Chosen: interpolation increases
+/// the value, but by a much smaller factor.
 constexpr float kCandidateFactor = 0.6f;
 /// Largest number of refinement steps of an extremum, and the offset in samples from which a step
-/// moves to the neighbor.
+/// moves to the neighbor. Chosen: with Lowe's 0.5, steps may alternate between two samples.
 constexpr int kMaximumSteps = 5;
 constexpr double kStepOffset = 0.6;
+/// The blur σ in pixels that a photo is assumed to have; upsampling doubles it. Paper: Lowe 2004,
+/// section 3.3.
+constexpr double kPhotoBlur = 0.5;
+/// The smallest σ in pixels by which a photo is blurred. Chosen.
+constexpr double kMinimumBlur = 0.1;
 
 class OctaveSearch {
  public:
@@ -126,13 +131,12 @@ void OctaveSearch::make_levels() {
   const double sigma = search_.sigma, step = std::exp2(1.0 / search_.layers);
   if (input_.photo) {
     photo_ = std::make_unique<PhotoRows>(*input_.photo, input_.is_doubled);
-    // The photo is assumed to have a blur of σ = 0.5 pixels; upsampling doubles it.
-    const double blur = input_.is_doubled ? 1.0 : 0.5;
+    const double blur = input_.is_doubled ? 2 * kPhotoBlur : kPhotoBlur;
     levels_.emplace_back();
     levels_.back().index = -1;
     levels_.emplace_back();
     levels_.back().from_previous =
-        Gaussian(std::sqrt(std::max(0.1 * 0.1, sigma * sigma - blur * blur)));
+        Gaussian(std::sqrt(std::max(kMinimumBlur * kMinimumBlur, sigma * sigma - blur * blur)));
   } else {
     levels_.emplace_back();
     levels_.back().rows = std::move(*input_.rows);

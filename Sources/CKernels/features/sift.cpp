@@ -153,6 +153,10 @@ void remove_masked(ScaleSpace& space, const Photo& photo, const uint8_t* mask) {
   extrema.erase(std::remove_if(extrema.begin(), extrema.end(), is_masked), extrema.end());
 }
 
+/// Largest number of pixels of a photo. Limit: those of an octave, which has up to four times as
+/// many, are indexed by 32 bits.
+constexpr int64_t kMaximumPixels = 400'000'000;
+
 void validate(const Photo& photo, const ck_sift_options& options) {
   require(photo.width >= 0 && photo.height >= 0, "the size is negative");
   require(photo.channels == 1 || photo.channels == 3 || photo.channels == 4,
@@ -163,8 +167,8 @@ void validate(const Photo& photo, const ck_sift_options& options) {
               options.octave_layers <= 8 && options.grid_cells > 0 && options.sigma >= 0.6 &&
               options.sigma <= 4 && (options.first_octave == -1 || options.first_octave == 0),
           "an option is out of range");
-  // Pixels of an octave are indexed by 32 bits.
-  require(static_cast<int64_t>(photo.width) * photo.height < 400'000'000, "the photo is too large");
+  require(static_cast<int64_t>(photo.width) * photo.height < kMaximumPixels,
+          "the photo is too large");
 }
 
 }  // namespace

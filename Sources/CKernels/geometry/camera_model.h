@@ -12,7 +12,8 @@ namespace ck {
 using Vector2 = Eigen::Vector2d;
 using Vector3 = Eigen::Vector3d;
 
-/// Smallest depth, in world units, of a point in front of a camera.
+/// Smallest depth, in world units, of a point in front of a camera. Chosen: below that of any
+/// scene.
 constexpr double kMinimumDepth = 1e-9;
 
 /// `cameraFromWorld` with the rotation as a matrix.
@@ -92,20 +93,25 @@ inline Eigen::Matrix<double, 2, 3> project_jacobian(const ck_camera& c, const Ve
   return j;
 }
 
+/// Newton's method on the distortion: largest number of steps, smallest determinant, and the
+/// squared step at which it stops. Chosen: it converges to double precision in a few steps.
+constexpr int kUndistortionSteps = 20;
+constexpr double kMinimumUndistortionDeterminant = 1e-9, kUndistortionTolerance = 1e-24;
+
 /// The point at depth 1 on the viewing ray of a pixel; inverts the distortion by Newton's method.
 inline Vector2 unproject(const ck_camera& c, double x, double y) {
   const Vector2 target((x - c.cx) / c.fx, (y - c.cy) / c.fy);
   if (c.k1 == 0 && c.k2 == 0 && c.p1 == 0 && c.p2 == 0) return target;
   Vector2 p = target;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < kUndistortionSteps; ++i) {
     const Eigen::Matrix2d j = distort_jacobian(c, p);
     const double determinant = j.determinant();
-    if (!(std::abs(determinant) > 1e-9)) break;
+    if (!(std::abs(determinant) > kMinimumUndistortionDeterminant)) break;
     const Vector2 r = distort(c, p) - target;
     const Vector2 step =
         Vector2(j(1, 1) * r.x() - j(0, 1) * r.y(), j(0, 0) * r.y() - j(1, 0) * r.x()) / determinant;
     p -= step;
-    if (step.squaredNorm() < 1e-24) break;
+    if (step.squaredNorm() < kUndistortionTolerance) break;
   }
   return p;
 }

@@ -13,11 +13,12 @@
 namespace ck {
 namespace {
 
-/// Levenberg–Marquardt with Nielsen's update of the damping (1999): its initial value, its bounds,
-/// and the bounds of the diagonal elements that it is proportional to, as in Ceres.
+/// Levenberg–Marquardt: the initial damping and its bounds, and the bounds of the diagonal elements
+/// that it is proportional to. Chosen: as in Ceres, but the bounds of the damping are narrower. Its
+/// update is that of Nielsen ("Damping parameter in Marquardt's method", 1999).
 constexpr double kInitialDamping = 1e-4, kMinimumDamping = 1e-12, kMaximumDamping = 1e12;
 constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
-/// Lower bound of the factor of a direction, which is positive in front of the camera.
+/// Lower bound of the factor of a direction, which is positive in front of the camera. Chosen.
 constexpr double kMinimumFactor = 1e-5;
 
 /// The unknowns: camera centers, points and one factor per direction.

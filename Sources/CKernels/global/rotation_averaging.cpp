@@ -120,9 +120,9 @@ class RotationGraph {
 };
 
 /// Lower bound of the residual in the weights of L1 averaging, so that they are finite: in radians,
-/// and as a fraction of the median residual.
+/// and as a fraction of the median residual. Chosen.
 constexpr double kMinimumResidual = 1e-6, kMinimumShareOfMedian = 0.1;
-/// Scale of the robust loss, as a multiple of the median residual.
+/// Scale of the robust loss, as a multiple of the median residual. Chosen.
 constexpr double kScaleFactor = 3;
 
 /// L1 averaging by iteratively reweighted least squares, then the robust loss of Geman and McClure.

@@ -15,6 +15,7 @@ struct Header {
   uint32_t palette_size;
 };
 
+// Limit: sizes in bytes of the format.
 constexpr size_t kFileHeader = 14, kInfoHeader = 40, kMasks = 12;
 
 /// Throws unless the file has all that its header specifies.
@@ -31,7 +32,7 @@ T number(const uint8_t* bytes, size_t offset) {
 }
 
 Header read_header(const uint8_t* bytes, size_t count, const ck_decode_limits& limits) {
-  constexpr uint32_t kUncompressed = 0, kBitFields = 3;
+  constexpr uint32_t kUncompressed = 0, kBitFields = 3;  // Limit: codes of the format.
   require_complete(count >= kFileHeader + kInfoHeader);
   Header header{};
   header.pixel_offset = number<uint32_t>(bytes, 10);

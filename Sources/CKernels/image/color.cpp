@@ -34,12 +34,13 @@ Profile adobe_rgb() {
   return Profile(cmsCreateRGBProfile(&white, &primaries, curves));
 }
 
-/// Largest change of a channel, in 8-bit steps, at which two color spaces count as equal.
+/// Largest change of a channel, in 8-bit steps, at which two color spaces count as equal. Chosen:
+/// profiles of sRGB differ by rounding.
 constexpr int kTolerance = 2;
 
-/// Whether no color of a 9 × 9 × 9 lattice changes by more than the tolerance.
+/// Whether no color of a lattice changes by more than the tolerance.
 bool is_identity(cmsHTRANSFORM transform) {
-  constexpr int kSteps = 9;
+  constexpr int kSteps = 9;  // Per axis of the lattice. Chosen.
   for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
     const int levels[] = {i % kSteps, i / kSteps % kSteps, i / (kSteps * kSteps)};
     uint8_t before[3], after[3];

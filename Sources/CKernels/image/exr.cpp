@@ -214,6 +214,7 @@ struct Pipeline {
   }
 
  private:
+  /// Chosen: more than any renderer writes.
   static constexpr int16_t kMaximumChannels = 256;
   /// The index of the first value of each channel.
   std::array<size_t, kMaximumChannels> places{};
@@ -340,7 +341,7 @@ Eigen::Matrix3d adaptation(const Eigen::Vector3d& from, const Eigen::Vector3d& t
   return cones.inverse() * ratio.asDiagonal() * cones;
 }
 
-/// The primaries of sRGB and Rec. 709, which files without the attribute have.
+/// Limit: the primaries of sRGB and Rec. 709, which files without the attribute have.
 constexpr exr_attr_chromaticities_t kRec709{0.64F, 0.33F, 0.30F,   0.60F,
                                             0.15F, 0.06F, 0.3127F, 0.3290F};
 
@@ -356,8 +357,8 @@ std::optional<Eigen::Matrix3f> srgb_from_file(const File& file) {
   const Eigen::Matrix3d target = xyz_from_rgb(kRec709);
   const Eigen::Vector3d white = Eigen::Vector3d::Ones();
   const Eigen::Matrix3d matrix = target.inverse() * adaptation(own * white, target * white) * own;
-  // Half of an 8-bit step: primaries of sRGB that are rounded to three digits change nothing.
-  // Chosen.
+  // Chosen: half of an 8-bit step; primaries of sRGB that are rounded to three digits change
+  // nothing.
   constexpr double kNegligible = 2e-3;
   if (!matrix.allFinite() || matrix.isIdentity(kNegligible)) return std::nullopt;
   return matrix.cast<float>();

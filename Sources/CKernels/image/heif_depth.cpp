@@ -21,7 +21,7 @@ Handle depth_image(const Primary& primary) {
   return Handle(depth);
 }
 
-/// The largest XMP packet that is read; those of phones have a few kilobytes.
+/// The largest XMP packet in bytes that is read. Chosen: those of phones have a few kilobytes.
 constexpr size_t kMaximumPacket = 1 << 20;
 
 /// The XMP packet about an image; empty without one.

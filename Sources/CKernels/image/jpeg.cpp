@@ -14,7 +14,8 @@
 namespace ck {
 namespace {
 
-/// Files with more scans than any camera writes would only occupy the decoder.
+/// Largest number of scans. Chosen: more than any camera writes; they would only occupy the
+/// decoder.
 constexpr int kMaximumScans = 100;
 
 /// The error handler of a decoder, and what it has reported.

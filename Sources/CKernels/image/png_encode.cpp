@@ -13,9 +13,10 @@
 namespace ck {
 namespace {
 
-/// Compression level of libdeflate: higher levels take much more time for little gain in size.
+/// Compression level of libdeflate. Chosen: higher levels take much more time for little gain in
+/// size.
 constexpr int kLevel = 5;
-/// Number of filter types.
+/// Number of filter types. Limit: PNG has no others.
 constexpr size_t kFilters = 5;
 
 /// The predictor of filter type 4 (Paeth).
@@ -117,6 +118,7 @@ void append_chunk(const char* name, const std::vector<uint8_t>& content,
 
 std::vector<uint8_t> encode_png(const uint8_t* pixels, int32_t width, int32_t height,
                                 int32_t channels) {
+  // Limit: codes of the format.
   constexpr uint8_t kBitDepth = 8, kGray = 0, kRGB = 2, kRGBA = 6;
   std::vector<uint8_t> header;
   append(static_cast<uint32_t>(width), &header);

@@ -139,6 +139,7 @@ void describe(const libraw_data_t& data, ck_raw_info& info) {
 
 /// The EXIF orientation for LibRaw's flip: 1 swaps left and right, 2 top and bottom, 4 both axes.
 int32_t orientation(int flip) {
+  // Limit: codes of LibRaw and EXIF.
   constexpr int32_t kOrientations[] = {1, 2, 4, 3, 5, 8, 6, 7};
   return kOrientations[flip & 7];
 }

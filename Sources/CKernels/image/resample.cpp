@@ -115,7 +115,7 @@ ck_status ck_image_undistort(const ck_pixels* source, const ck_camera* source_ca
                 "an image does not have the size of its camera");
     const cv::Mat from = wrap(*source);
     cv::Mat whole = wrap(*destination);
-    // In bands, so that the maps stay small.
+    // Rows of a band. Chosen: the maps stay small.
     constexpr int kBand = 256;
     for (int first = 0; first < to.height; first += kBand) {
       const int last = std::min(first + kBand, to.height);

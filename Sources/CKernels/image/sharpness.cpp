@@ -11,15 +11,16 @@
 
 namespace {
 
-/// Side of the blocks in pixels.
+/// Side of the blocks in pixels. Chosen.
 constexpr int kBlock = 32;
-/// Standard deviation in pixels of the blur that the image is compared with.
+/// Standard deviation in pixels of the blur that the image is compared with. Chosen.
 constexpr double kBlur = 1.5;
-/// One of this number of blocks is measured, those with the strongest gradients: sky and walls
-/// contain no information about focus.
+/// One of this number of blocks is measured, those with the strongest gradients. Chosen: sky and
+/// walls contain no information about focus.
 constexpr size_t kBlocksPerMeasured = 4;
 /// Smallest gradient energy of a block with texture after the blur: the sum over its pixels of the
-/// squared differences of the pixels on both sides, in gray levels squared.
+/// squared differences of the pixels on both sides, in gray levels squared. Chosen: a gray level
+/// per pixel.
 constexpr double kMinimumTexture = kBlock * kBlock;
 
 /// Structure tensor: sums over a block of the products of the gradient's components.

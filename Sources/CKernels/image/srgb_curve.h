@@ -26,7 +26,8 @@ class SRGBCurve {
   }
 
  private:
-  /// Follows from the slope of the curve: where it is steepest, near black, a code has 20 entries.
+  /// Entries of the table. Limit: the slope of the curve; where it is steepest, near black, a code
+  /// has 20 entries.
   static constexpr int kSteps = 65535;
   std::array<uint8_t, kSteps + 1> codes_;
 };

@@ -105,7 +105,7 @@ class File {
   int orientation() const { return std::clamp<int>(number<uint16_t>(TIFFTAG_ORIENTATION), 1, 8); }
 
  private:
-  /// Most of a pixel in one buffer: four samples of 16 bits.
+  /// Most bytes of a pixel in one buffer. Limit: four samples of 16 bits.
   static constexpr int64_t kBytesOfPixel = 8;
 
   Source source_;

@@ -7,7 +7,7 @@
 extern "C" {
 #endif
 
-/// Samples per side of a template, including a border of one sample for derivatives.
+/// Samples per side of a template, including a border of one sample for derivatives. Chosen.
 #define CK_TEMPLATE_SIDE 13
 /// Number of samples of a template.
 #define CK_TEMPLATE_SAMPLES (CK_TEMPLATE_SIDE * CK_TEMPLATE_SIDE)

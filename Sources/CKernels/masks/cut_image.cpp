@@ -11,8 +11,13 @@
 
 namespace {
 
-/// Weights are integers in units of 1 / 4096: the flow is then exact, in any order.
+/// Weights are integers in units of the inverse: the flow is then exact, in any order. Chosen: fine
+/// enough for log-odds.
 constexpr double kUnit = 4096;
+
+/// Number of pixels below which the numbers of nodes and edges are in range. Limit: they are 32-bit
+/// integers, and a pixel has up to eight edges.
+constexpr int64_t kMaximumPixels = int64_t{1} << 26;
 
 /// Offsets of half of the eight neighbors, so that each edge is visited once.
 constexpr std::array<std::array<int, 2>, 4> kNeighbors = {{{1, 0}, {0, 1}, {1, 1}, {-1, 1}}};
@@ -134,8 +139,7 @@ ck_status ck_cut_image(const ck_pixels* image, const float* log_odds, const ck_c
     ck::require(image->channels == 3 && mask->channels == 1 && image->width == mask->width &&
                     image->height == mask->height && image->width > 0 && image->height > 0,
                 "an RGB image and a gray mask of the same size are needed");
-    // 64 megapixels keep the numbers of nodes and edges in range.
-    ck::require(static_cast<int64_t>(image->width) * image->height < (int64_t{1} << 26),
+    ck::require(static_cast<int64_t>(image->width) * image->height < kMaximumPixels,
                 "the image is too large");
     ck::require(options->smoothness >= 0 && options->smoothness < 1000 && options->certainty > 0 &&
                     options->certainty < 1000,

@@ -47,8 +47,11 @@ class LabelBuffer {
   std::vector<float> depths_;
 };
 
-/// Smallest radius of a disc, in pixels: it covers at least one pixel center.
+/// Smallest radius of a disc, in pixels. Limit: half the diagonal of a pixel, so that it covers at
+/// least one pixel center.
 constexpr double kMinimumRadius = 0.7072;
+/// Margin around the frame, in frames: distortion is not monotonic far outside of it. Chosen.
+constexpr double kMargin = 0.5;
 
 }  // namespace
 
@@ -64,8 +67,7 @@ ck_status ck_draw_discs(const ck_discs* discs, const ck_camera* camera, const ck
     LabelBuffer buffer(*labels);
     const ck::Pose cameraFromWorld = ck::pose_from(*pose);
     const double focal = std::max(camera->fx, camera->fy);
-    // Half the frame as a margin: distortion is not monotonic far outside of it.
-    const double margin_x = 0.5 * camera->width, margin_y = 0.5 * camera->height;
+    const double margin_x = kMargin * camera->width, margin_y = kMargin * camera->height;
     for (size_t i = 0; i < points.count; ++i) {
       if (i % 65536 == 0) ck::step(control, static_cast<double>(i) / points.count);
       if (!points.is_finite(i)) continue;

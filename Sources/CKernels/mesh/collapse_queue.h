@@ -53,8 +53,10 @@ class CollapseQueue {
 
  private:
   static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  /// Bits of the mantissa that are ignored. Chosen: the other seven distinguish 1/128.
   static constexpr uint32_t kDroppedBits = 16;
   static constexpr uint32_t kStacks = 1u << (31 - kDroppedBits);
+  /// Collapses of a block. Chosen: it takes three cache lines.
   static constexpr uint32_t kBlock = 15;
 
   struct Block {

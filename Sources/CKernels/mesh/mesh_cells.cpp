@@ -10,8 +10,8 @@ namespace ck::mesh {
 namespace {
 
 /// Of n³ cells, a closed surface crosses about this many times n²: a square across the grid crosses
-/// n², a sphere that fills it 1.5 π n² (an area of π n² at a mean of 1.5 cells per unit of area). A
-/// value between them.
+/// n², a sphere that fills it 1.5 π n² (an area of π n² at a mean of 1.5 cells per unit of area).
+/// Chosen: a value between them.
 constexpr double kCrossedCells = 3;
 /// Number of vertices that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kBlock = 16384;

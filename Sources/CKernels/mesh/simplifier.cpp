@@ -28,15 +28,15 @@ constexpr size_t kBlock = 8192;
 constexpr size_t kFacesPerCell = 8192;
 /// A mesh that would have fewer cells is simplified as a whole. Chosen.
 constexpr size_t kFewestCells = 4;
-/// Cells are left when this many times the triangles of the result are left: then edges between
-/// cells compete with the others on equal terms. Chosen.
+/// Cells are left when this many times the triangles of the result are left. Chosen: then edges
+/// between cells compete with the others on equal terms.
 constexpr double kGoal = 1.25;
 /// The first limit of the costs in cells is the median of about this many edges. Chosen: its rank
 /// is then within 1 % of the middle.
 constexpr size_t kSampledEdges = 10'000;
-/// With limits that grow as this power of the ratio of triangles to the goal, a round does not
-/// overshoot: half as many triangles have four times the squared distance on twice the area, so
-/// costs grow as the third power.
+/// Limits grow as this power of the ratio of triangles to the goal. Chosen: a round does not
+/// overshoot, since half as many triangles have four times the squared distance on twice the area,
+/// so that costs grow as the third power.
 constexpr double kGrowth = 2;
 /// A round that removes a smaller share of the triangles is the last in cells. Chosen.
 constexpr double kLeastProgress = 0.02;

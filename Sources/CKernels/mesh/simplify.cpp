@@ -9,10 +9,10 @@ namespace ck::mesh {
 namespace {
 
 /// Cosine of the largest angle by which a collapse may rotate a triangle's normal, in each of the
-/// passes; the last one permits collapses that the others rejected. Empirical.
+/// passes; the last one permits collapses that the others rejected. Chosen: by trial.
 constexpr double kTurnCosines[] = {0.2, 0.2, 0.0};
-/// The number of components is limited to one per this number of triangles of the result.
-/// Empirical.
+/// The number of components is limited to one per this number of triangles of the result. Chosen:
+/// by trial.
 constexpr size_t kTrianglesPerPiece = 16;
 
 }  // namespace

@@ -10,21 +10,21 @@
 namespace ck::mesh {
 namespace {
 
-/// Rounds of projecting the samples, and sweeps of moving the vertices in each.
+/// Rounds of projecting the samples, and sweeps of moving the vertices in each. Chosen.
 constexpr size_t kRounds = 2, kSweeps = 2;
 /// Number of samples that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kBlock = 8192;
 /// The same for vertices, which have some tens of samples each. Chosen.
 constexpr size_t kVertices = 512;
-/// Colors are bits of 64; more than about ten occur only around vertices of extreme degree.
+/// Limit: colors are bits of 64. More than about ten occur only around vertices of extreme degree.
 constexpr uint8_t kLastColor = 63, kUncolored = 255;
 /// Regularization weight, as a fraction of the weight of the planes, for directions that the
-/// samples do not determine, for example within a plane.
+/// samples do not determine, for example within a plane. Chosen.
 constexpr double kPull = 2e-3;
-/// Fraction of the displacement to apply: a mesh that is right on average bulges at its vertices,
-/// which form its outline.
+/// Fraction of the displacement to apply. Chosen: a mesh that is right on average bulges at its
+/// vertices, which form its outline.
 constexpr double kPart = 0.8;
-/// No triangle's normal may rotate by more than 60° in total.
+/// Cosine of the largest rotation of a triangle's normal in total: 60°. Chosen.
 constexpr double kMinimumCosine = 0.5;
 
 /// Barycentric weights of the point of a triangle nearest to `p` (Ericson, "Real-Time Collision

@@ -68,9 +68,13 @@ Comparison Pyramids::compare(int level, const InverseDepthRange& range, float ma
   return c;
 }
 
+/// Smallest side in pixels of a view. Chosen: less hardly has a patch inside the margins.
+constexpr int kMinimumViewSide = 16;
+
 void check_views(const ck_patch_view& reference, size_t source_count) {
   require(source_count >= 1 && source_count <= kMaximumSources, "1 to 8 sources are needed");
-  require(std::min(reference.camera.width, reference.camera.height) >= 16, "the view is too small");
+  require(std::min(reference.camera.width, reference.camera.height) >= kMinimumViewSide,
+          "the view is too small");
 }
 
 }  // namespace ck::patches

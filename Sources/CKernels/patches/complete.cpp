@@ -25,7 +25,7 @@ class PatchTransfer {
       q[i] = forward_.base[i] + x * forward_.column0[i] + y * forward_.column1[i] +
              p.inverse_depth * forward_.epipole[i];
     }
-    if (!(q[2] > 1e-6f)) return false;
+    if (!(q[2] > kMinimumProjection)) return false;
     const float u = q[0] / q[2], v = q[1] / q[2];
     if (!(u >= kMargin && v >= kMargin && u < forward_.width - kMargin &&
           v < forward_.height - kMargin)) {
@@ -41,7 +41,7 @@ class PatchTransfer {
              p.inverse_depth * d[2];
     };
     const float slope = 1 - along(backward_.epipole);
-    if (!(slope > 1e-3f)) return false;
+    if (!(slope > kMinimumRaySlope)) return false;
     plane.gx = along(backward_.column0) / slope;
     plane.gy = along(backward_.column1) / slope;
     plane.w = p.inverse_depth / q[2];
@@ -184,6 +184,7 @@ class Completion {
   /// Marks the accepted cells with a depth discontinuity to an accepted cell two pixels away
   /// diagonally.
   void mark_edges() {
+    // Chosen: no texel of a patch is farther away.
     constexpr int kNear[4][2] = {{-2, -2}, {2, -2}, {-2, 2}, {2, 2}};
     for (int y = kMargin; y < grid_.height - kMargin; ++y) {
       for (const auto& [dx, dy] : kNear) {
@@ -217,7 +218,7 @@ class Completion {
     }
   }
 
-  /// Disparity between patches of two different surfaces, in pixels of a source.
+  /// Disparity between patches of two different surfaces, in pixels of a source. Chosen: by trial.
   static constexpr float kDiscontinuity = 1;
 
   const Comparison& comparison_;

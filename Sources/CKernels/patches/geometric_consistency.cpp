@@ -7,7 +7,7 @@
 namespace ck::patches {
 namespace {
 
-/// Rows are evaluated in vectors of this many patches.
+/// Rows are evaluated in vectors of this many patches. Limit: the lanes of `F16`.
 constexpr size_t kLanes = 16;
 
 size_t padded(int width) { return (static_cast<size_t>(width) + kLanes - 1) / kLanes * kLanes; }

@@ -3,9 +3,14 @@
 // sets the target.
 
 #include "core/vectors.inl"
+#include "patches/constants.h"
 
 namespace ck::patches {
 namespace {
+
+/// Disparity from which a patch in front of another violates free space, in reprojection
+/// thresholds: with little parallax a depth difference is not significant. Chosen.
+constexpr float kViolationDistance = 2;
 
 CK_INLINE F16 clamped(const F16& v, float low, float high) {
   return __builtin_elementwise_min(__builtin_elementwise_max(v, F16(low)), F16(high));
@@ -55,7 +60,7 @@ CK_INLINE Projections locate(const RelativeProjection& t, const PatchRow& row, i
 /// rows, which the hardware prefetcher does not predict.
 CK_INLINE void prefetch(const RelativeProjection& t, const PatchRow& row, int start) {
   const I16 cell = locate(t, row, start).cell;
-  constexpr int kPatchesOfLine = 64 / sizeof(ck_patch);
+  constexpr int kPatchesOfLine = 64 / sizeof(ck_patch);  // Limit: cache lines have 64 bytes.
   for (int i = 0; i < 16; i += kPatchesOfLine) __builtin_prefetch(t.patches + cell[i]);
 }
 
@@ -66,7 +71,8 @@ void check_vector(const RelativeProjection& t, const ConsistencyThresholds& a, c
   const auto y = static_cast<float>(row.y);
   const auto [x, qz, inverse_z, u, v, iu, iv, cell] = locate(t, row, start);
   const auto width = static_cast<float>(t.width), height = static_cast<float>(t.height);
-  I16 known = (w > 0) & (qz > 1e-6f) & (u >= 0) & (v >= 0) & (u < width) & (v < height);
+  I16 known =
+      (w > 0) & (qz > kMinimumProjection) & (u >= 0) & (v >= 0) & (u < width) & (v < height);
   // The neighbor's plane p: its inverse depth and gradient, evaluated at the projected pixel.
   F16 pw, pu, pv, cost;
   gather(pw, &t.patches->inverse_depth, cell);
@@ -92,13 +98,11 @@ void check_vector(const RelativeProjection& t, const ConsistencyThresholds& a, c
   const F16 difference = __builtin_elementwise_abs(plane_w - w);
   const F16 distance = motion * difference / scale;
   const F16 ratio = pw * qz;  // times w: this depth over the neighbor's
-  const I16 is_consistent = known & (slope > 1e-3f) & (plane_w > 0) & (difference < a.depth * w) &
-                            (distance < a.reprojection) &
+  const I16 is_consistent = known & (slope > kMinimumRaySlope) & (plane_w > 0) &
+                            (difference < a.depth * w) & (distance < a.reprojection) &
                             are_parallel(a, x, y, w, gx, gy, plane_w, plane_x, plane_y);
-  // With little parallax a depth difference is not significant; hence the condition on the
-  // disparity.
   const I16 violates_free_space =
-      known & (distance > 2 * a.reprojection) & (ratio < w * (1 - a.free_space));
+      known & (distance > kViolationDistance * a.reprojection) & (ratio < w * (1 - a.free_space));
   const I16 kind =
       (is_consistent & int32_t{kConsistent}) | (violates_free_space & int32_t{kFreeSpaceViolation});
   store(&results.kind[start], __builtin_convertvector(kind, B16));
@@ -112,7 +116,7 @@ void check_vector(const RelativeProjection& t, const ConsistencyThresholds& a, c
 /// Tests a row of patches, with the patches of a later vector prefetched.
 void check_row(const RelativeProjection& projection, const ConsistencyThresholds& thresholds,
                const PatchRow& row, ConsistencyRow& results) {
-  constexpr int kAhead = 64;  // cells
+  constexpr int kAhead = 64;  // In cells. Chosen.
   for (int start = 0; start < row.width; start += 16) {
     if (start + kAhead < row.width) prefetch(projection, row, start + kAhead);
     const F16 w = load(&row.w[start]);

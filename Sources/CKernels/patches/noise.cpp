@@ -6,15 +6,16 @@
 #include "ck_patches.h"
 
 float ck_patches_noise(const uint8_t* luma, int32_t width, int32_t height) {
-  // Pixels outside kBlack…kWhite are under- or overexposed and show no noise.
+  // Pixels outside kBlack…kWhite are under- or overexposed and show no noise. Chosen.
   constexpr int kBins = 256, kBlack = 4, kWhite = 251;
-  // Bounds of the result in gray levels: the standard deviation of rounding (1 / √12), and 8.
+  // Bounds of the result in gray levels. Limit: the standard deviation of rounding, 1 / √12. The
+  // upper one was chosen.
   constexpr float kRounding = 0.29f, kLargest = 8;
   // Few photos have regions without any texture: this factor corrects for the texture in the
-  // quantile.
+  // quantile. Chosen: by trial.
   constexpr float kShare = 0.6f;
-  // 10 % of a normal distribution lie within ±0.1257 standard deviations; the gain of Immerkær's
-  // mask for white noise is 6.
+  // The quantile was chosen: few pixels show no texture. Limit: 10 % of a normal distribution lie
+  // within ±0.1257 standard deviations; the gain of Immerkær's mask for white noise is 6.
   constexpr float kQuantile = 0.1f, kDeviation = 6 * 0.1257f;
   std::array<size_t, kBins> counts{};
   size_t total = 0;

@@ -7,7 +7,7 @@
 namespace ck::patches {
 
 float PatchOptimizer::motion(const Plane& from, const Plane& to) const {
-  constexpr float kReach = 2;  // offset of the patch's outermost texels, in pixels
+  constexpr float kReach = 2;  // Limit: offset of the patch's outermost texels, in pixels.
   const float slope = std::fabs(to.gx - from.gx) + std::fabs(to.gy - from.gy);
   return (std::fabs(to.w - from.w) + kReach * slope) * comparison_.motion;
 }

@@ -10,8 +10,10 @@
 namespace ck::patches {
 namespace {
 
-/// The number of pyramid levels, such that the shorter side of the coarsest one has at least about
-/// 32 pixels.
+/// Approximate side in pixels that the coarsest level has at least. Chosen.
+constexpr int kMinimumLevelSide = 32;
+
+/// The number of pyramid levels, such that the coarsest one is not too small.
 int level_count(const ck_patch_view& reference, const ck_patch_view* sources, size_t count,
                 int requested) {
   int side = std::min(reference.camera.width, reference.camera.height);
@@ -19,7 +21,7 @@ int level_count(const ck_patch_view& reference, const ck_patch_view* sources, si
     side = std::min({side, sources[i].camera.width, sources[i].camera.height});
   }
   int levels = 1;
-  while (levels < requested && (side >> levels) >= 32) ++levels;
+  while (levels < requested && (side >> levels) >= kMinimumLevelSide) ++levels;
   return levels;
 }
 

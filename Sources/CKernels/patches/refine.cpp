@@ -40,6 +40,7 @@ class Parents {
   /// around and none of them has a low cost: nothing that would pass the filter can grow from
   /// these.
   uint8_t sources_at(int x, int y) const {
+    // Chosen: by trial.
     constexpr int kEnough = 3;
     bool is_promising = false;
     unsigned consistent = 0;

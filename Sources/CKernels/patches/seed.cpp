@@ -66,10 +66,14 @@ float cross(const Vertex& a, const Vertex& b, float x, float y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
+/// Twice the area in pixels of the smallest triangle that is filled. Chosen: smaller ones hardly
+/// cover a pixel center.
+constexpr float kMinimumArea = 1e-3f;
+
 /// Writes the plane of a triangle to the pixels it covers.
 void fill(Grid& grid, const Comparison& comparison, const Face& f) {
   const float area = cross(f[0], f[1], f[2].x, f[2].y);
-  if (std::fabs(area) < 1e-3f) return;
+  if (std::fabs(area) < kMinimumArea) return;
   Plane slope;
   slope.gx = ((f[1].w - f[0].w) * (f[2].y - f[0].y) - (f[2].w - f[0].w) * (f[1].y - f[0].y)) / area;
   slope.gy = ((f[2].w - f[0].w) * (f[1].x - f[0].x) - (f[1].w - f[0].w) * (f[2].x - f[0].x)) / area;

@@ -7,19 +7,25 @@ namespace ck::patches {
 namespace {
 
 /// Information (inverse disparity variance, in pixels⁻² up to a factor) above which patches are not
-/// smoothed.
+/// smoothed. Chosen: by trial.
 constexpr float kSufficient = 1.5f;
-/// Weight of a patch's current estimate relative to those of its neighbors.
+/// Weight of a patch's current estimate relative to those of its neighbors. Chosen: by trial.
 constexpr float kSelfWeight = 0.1f;
 /// Disparity difference in standard deviations above which a patch belongs to another surface.
+/// Chosen: by trial.
 constexpr float kOutlierDeviations = 5;
-/// Number of averaging passes; the spacing of the averaged patches doubles with each.
+/// Number of averaging passes; the spacing of the averaged patches doubles with each. Chosen: by
+/// trial.
 constexpr int kPasses = 4;
 
-/// Lower bound of the information of a patch.
+/// Lower bound of the information of a patch. Chosen: by trial.
 constexpr float kMinimumInformation = 0.05f;
-/// Radius in pixels of the window in which texture is measured.
+/// Radius in pixels of the window in which texture is measured. Limit: the largest offset of a
+/// patch's texels.
 constexpr int kRadius = 2;
+
+/// Variance of the noise in gray levels squared, at least: of rounding and compression. Chosen.
+constexpr float kMinimumNoise = 1;
 
 /// The Fisher information of the texture about disparity: the inverse of its variance in pixels
 /// squared, up to a factor. The energy of the image gradient around the patch divided by that of
@@ -44,11 +50,11 @@ class Information {
         gray += gray_[i];
         square += square_[i];
       }
+      // Limit: the share of a pixel in the window.
       constexpr float kTexel = 1.0f / ((2 * kRadius + 1) * (2 * kRadius + 1));
       const float mean = gray * kTexel, variance = square * kTexel - mean * mean;
-      // Noise variance in gray levels squared: at least one, because of rounding and compression,
-      // plus the unexplained variance.
-      const float noise = 1 + 2 * std::min(1.0f, costs[x]) * variance;
+      // The unexplained variance is noise, too.
+      const float noise = kMinimumNoise + 2 * std::min(1.0f, costs[x]) * variance;
       const float information = kMinimumInformation + 0.25f * kTexel * energy / noise;
       result[x] = planes[x].w > 0 && costs[x] < kNoPatch ? information : 0;
     }
@@ -76,12 +82,12 @@ class Information {
   std::vector<int32_t> energy_, gray_, square_;
 };
 
-/// Number of patches that are smoothed together.
+/// Number of patches that are smoothed together. Chosen: a few vectors.
 constexpr int kBlock = 32;
 
 /// A row of patches as a structure of arrays, with padding for missing neighbors on both sides.
 struct Row {
-  static constexpr int kPadding = 1 << (kPasses - 1);
+  static constexpr int kPadding = 1 << (kPasses - 1);  // Limit: the spacing of the last pass.
 
   explicit Row(int width)
       : w(width + kBlock + 2 * kPadding), gx(w.size()), gy(w.size()), information(w.size()) {}

@@ -9,19 +9,22 @@
 namespace ck {
 namespace {
 
-/// Samples per side of the comparison window: the template without its border.
+/// Samples per side of the comparison window. Limit: the template without its border.
 constexpr int kSide = CK_TEMPLATE_SIDE - 2;
 /// Number of samples of the comparison window.
 constexpr int kCount = kSide * kSide;
-/// Largest number of iterations of a search.
+/// Standard deviation in samples of the weights of the window. Chosen.
+constexpr float kSigma = 0.5f * (kSide / 2 + 1);
+/// Largest number of iterations of a search. Chosen.
 constexpr int kIterations = 15;
-/// Step length in pixels below which a search has converged.
+/// Step length in pixels below which a search has converged. Chosen: less than its error.
 constexpr double kConvergedStep = 0.003;
-/// Stored template samples per gray level.
+/// Stored template samples per gray level. Limit: 16 bits hold four times the range of the luma,
+/// which cubic interpolation exceeds at edges.
 constexpr float kSampleScale = 64;
-/// Smallest standard deviation of the luma, in gray levels, of a template with texture.
+/// Smallest standard deviation of the luma, in gray levels, of a template with texture. Chosen.
 constexpr float kMinimumDeviation = 2.5f;
-/// Smallest ratio of the eigenvalues of its structure tensor.
+/// Smallest ratio of the eigenvalues of its structure tensor. Chosen.
 constexpr float kMinimumIsotropy = 0.03f;
 
 using Window = std::array<float, kCount>;
@@ -29,12 +32,11 @@ using Window = std::array<float, kCount>;
 /// Gaussian weights of the window, with a sum of one.
 Window window_weights() {
   Window weights;
-  const float sigma = 0.5f * (kSide / 2 + 1);
   float sum = 0;
   for (int k = 0; k < kCount; ++k) {
     const float x = static_cast<float>(k % kSide - kSide / 2);
     const float y = static_cast<float>(k / kSide - kSide / 2);
-    sum += weights[k] = std::exp(-(x * x + y * y) / (2 * sigma * sigma));
+    sum += weights[k] = std::exp(-(x * x + y * y) / (2 * kSigma * kSigma));
   }
   for (float& weight : weights) weight /= sum;
   return weights;

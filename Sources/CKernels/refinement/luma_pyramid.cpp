@@ -11,9 +11,10 @@
 namespace ck {
 namespace {
 
-/// Largest number of levels.
+/// Largest number of levels. Chosen: templates are hardly eight times as coarse as the photo.
 constexpr int kLevels = 4;
-/// Smallest side in pixels of a level that is halved once more.
+/// Smallest side in pixels of a level that is halved once more. Chosen: half of it holds a
+/// template.
 constexpr int kMinimumSide = 32;
 
 using Float4 = float __attribute__((vector_size(16)));

@@ -10,6 +10,11 @@ namespace {
 
 using Matrix3 = Eigen::Matrix3d;
 
+/// Largest number of steps to a root. Limit: about as many bisections exhaust double precision.
+constexpr int kRootSteps = 100;
+/// Largest number of Gauss–Newton steps on a solution. Chosen: they converge quadratically.
+constexpr int kPolishSteps = 5;
+
 /// A real root of c3 x³ + c2 x² + c1 x + c0 by Newton's method within a bracket.
 double real_cubic_root(double c3, double c2, double c1, double c0) {
   const double a = c2 / c3, b = c1 / c3, c = c0 / c3;
@@ -20,7 +25,7 @@ double real_cubic_root(double c3, double c2, double c1, double c0) {
   double low = value > 0 ? -bound : inflection;
   double high = value > 0 ? inflection : bound;
   double x = 0.5 * (low + high);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < kRootSteps; ++i) {
     const double f = ((x + a) * x + b) * x + c;
     if (f == 0) break;
     (f > 0 ? high : low) = x;
@@ -58,7 +63,7 @@ struct Constraints {
 /// Gauss–Newton on the three distance equations.
 void polish(const Constraints& constraints, Vector3& depths) {
   Vector3 r = constraints.residual(depths);
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < kPolishSteps; ++i) {
     Matrix3 j;
     for (int k = 0; k < 3; ++k) j.row(k) = 2 * (constraints.matrices[k] * depths).transpose();
     if (!(std::abs(j.determinant()) > 0)) return;

@@ -13,10 +13,10 @@
 
 namespace {
 
-/// Queries per unit of work.
+/// Queries per unit of work. Chosen.
 constexpr size_t kChunk = 4096;
-/// Points of a tree, and the number of trees from which on they get more: so that trees are built
-/// by many threads, and a search hardly has to look at more than one. Chosen.
+/// Points of a tree, and the number of trees from which on they get more. Chosen: many threads
+/// build trees, and a search hardly has to look at more than one.
 constexpr size_t kTreePoints = 1 << 15, kMostTrees = 32;
 
 struct Point {

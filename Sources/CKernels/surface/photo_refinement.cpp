@@ -48,9 +48,9 @@ void RefinedMesh::find_normals() {
 
 namespace {
 
-/// The number of views to compare concurrently: one per thread, fewer for large views, because the
-/// comparison takes a few hundred bytes per pixel.
+/// The number of views to compare concurrently: one per thread, fewer for large views.
 size_t views_at_once(const std::vector<RefinementView>& views, const ck_control* control) {
+  // Pixels that are compared concurrently. Chosen: each takes a few hundred bytes.
   constexpr size_t kMaximumPixels = 24'000'000;
   size_t largest = 1;
   for (const RefinementView& view : views) largest = std::max(largest, view.luminance.size());

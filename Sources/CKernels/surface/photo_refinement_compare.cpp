@@ -7,20 +7,21 @@
 namespace ck::surface {
 namespace {
 
-/// Surface seen at a smaller cosine is not compared.
+/// Surface seen at a smaller cosine is not compared. Chosen.
 constexpr float kMinimumCosine = 0.25f;
-/// Correlation from which a window has full weight.
+/// Correlation from which a window has full weight. Chosen.
 constexpr float kGoodCorrelation = 0.9f;
-/// Smallest fraction of a window that must be visible in both photos. Empirical.
+/// Smallest fraction of a window that must be visible in both photos. Chosen: by trial.
 constexpr float kMinimumCoverage = 0.5f;
-/// Threshold of the Huber weights, in standard deviations of the window.
+/// Threshold of the Huber weights, in standard deviations of the window. Chosen.
 constexpr float kLargeDifference = 1;
-/// Image border in pixels that interpolation needs around a position.
+/// Image border in pixels around a position. Chosen: interpolation reads two pixels on each side.
 constexpr float kMargin = 3;
-/// Approximate number of vertices that are sampled to select partners.
+/// Approximate number of vertices that are sampled to select partners. Chosen.
 constexpr size_t kSamples = 20000;
 /// Triangulation angle in degrees from which the depth is well determined, and the standard
 /// deviation in degrees of the decrease of the weight beyond it, where views become too dissimilar.
+/// Chosen.
 constexpr float kGoodAngle = 15, kAngleSpread = 20;
 
 /// Weight of a pair of views by the cosine of their triangulation angle.

@@ -9,23 +9,25 @@ namespace ck::surface {
 namespace {
 
 /// Fractions of the median evidence: a vertex with less than the first is not moved; from the
-/// second on its bending term has full weight.
+/// second on its bending term has full weight. Chosen.
 constexpr double kMinimumShare = 0.01, kGoodShare = 0.1;
 /// Mean bending around a vertex, relative to the mean edge length, at which the smoothness weight
-/// is halved: reduces smoothing at creases, but not at a single outlier.
+/// is halved: reduces smoothing at creases, but not at a single outlier. Chosen.
 constexpr double kCrease = 0.02;
-/// Largest displacement of a vertex per round, in pixel footprints.
+/// Largest displacement of a vertex per round, in pixel footprints. Chosen: the linearization holds
+/// within a pixel.
 constexpr float kMaximumStep = 0.5f;
-/// Cosine of the largest rotation of a triangle's normal per round.
+/// Cosine of the largest rotation of a triangle's normal per round: 60°. Chosen.
 constexpr float kMinimumCosine = 0.5f;
-/// Conjugate gradient iterations.
+/// Largest number of iterations of conjugate gradients. Chosen.
 constexpr int kIterations = 40;
 /// Relative reduction of the squared preconditioned residual at which conjugate gradients stop.
+/// Chosen.
 constexpr double kReduction = 1e-6;
-/// Diagonal element of the squared bending operator in the preconditioner: that of a regular mesh
-/// is 1 + 1/6.
+/// Diagonal element of the squared bending operator in the preconditioner. Limit: that of a regular
+/// mesh is 1 + 1/6.
 constexpr float kBendingDiagonal = 1.2f;
-/// Units of parallel work.
+/// Units of parallel work. Chosen.
 constexpr size_t kBlocks = 64;
 
 /// Solves for the displacements along the normals that minimize the photometric differences plus
@@ -223,7 +225,7 @@ class Move {
   }
 
  private:
-  /// Passes in which the displacements of rotated triangles are averaged.
+  /// Passes in which the displacements of rotated triangles are averaged. Chosen.
   static constexpr int kPasses = 8;
 
   /// Calls `body(triangle)` for the triangles that rotate too far.

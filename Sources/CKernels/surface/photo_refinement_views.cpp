@@ -8,10 +8,10 @@ namespace {
 
 /// The depth where there is no surface.
 constexpr float kFar = std::numeric_limits<float>::infinity();
-/// Depth tolerance of the occlusion test, in pixel footprints.
+/// Depth tolerance of the occlusion test, in pixel footprints. Chosen.
 constexpr float kTolerance = 5;
 /// Tolerance of the barycentric weights of a pixel center in a triangle, so that no pixel falls
-/// between two triangles.
+/// between two triangles. Chosen: above the rounding of single precision.
 constexpr float kInsideTolerance = 1e-5f;
 
 /// Calls `visit(x, y, depth)` for all pixels whose center lies in the triangle `p` (x, y, 1 /

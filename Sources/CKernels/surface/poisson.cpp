@@ -21,7 +21,7 @@ using namespace ck::poisson;
 
 ck_surface reconstruct(Samples samples, int depth, size_t maximum_bytes,
                        const ck_control* control) {
-  // The shares of the time, measured on boot and orbit.
+  // Measured: the shares of the time on boot and orbit.
   const ck::ProgressPart density(control, 0, 0.07), octree(control, 0.07, 0.2),
       solving(control, 0.2, 0.73), averaging(control, 0.73, 0.75), contouring(control, 0.75, 1);
   estimate_density(samples, depth, density.control());

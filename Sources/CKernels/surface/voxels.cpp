@@ -18,10 +18,13 @@ constexpr size_t kBlock = 1 << 14;
 /// Grid cell: level, x, y, z.
 using Cell = std::array<int32_t, 4>;
 
-/// The cell coordinate of a value, clamped to ±1e9.
+/// Largest magnitude of a cell coordinate. Limit: neighbors must be within 32 bits.
+constexpr double kMaximumCoordinate = 1e9;
+
+/// The cell coordinate of a value, clamped.
 int32_t coordinate(float value, double size) {
-  const double limit = 1e9;
-  return static_cast<int32_t>(std::min(limit, std::max(-limit, std::floor(value / size))));
+  return static_cast<int32_t>(
+      std::min(kMaximumCoordinate, std::max(-kMaximumCoordinate, std::floor(value / size))));
 }
 
 std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const int8_t* levels,

@@ -10,7 +10,8 @@ namespace ck::texture {
 namespace {
 
 /// Tolerance of the barycentric weights of a texel center in a triangle, so that none is missed
-/// between two triangles; weight from which a center counts as covered twice.
+/// between two triangles, and weight from which a center counts as covered twice. Chosen: above the
+/// rounding of single precision, and well above the tolerance.
 constexpr float kInsideTolerance = 1e-4f, kOverlapWeight = 1e-2f;
 /// Number of rows that a thread works on at a time. Chosen: about a millisecond.
 constexpr size_t kRows = 64;

@@ -90,7 +90,7 @@ namespace ck::texture {
 /// Calls `body(face)` for all triangles of the atlas, in parallel.
 template <typename Body>
 void for_each_face(const ck_atlas& atlas, const ck_control* control, Body&& body) {
-  constexpr size_t kChunk = 512;
+  constexpr size_t kChunk = 512;  // Triangles that a thread works on at a time. Chosen.
   parallel_for_blocks(control, atlas.corners.size() / 6, kChunk, body);
 }
 

@@ -7,8 +7,11 @@
 namespace ck::texture {
 namespace {
 
-/// Smallest number of blocks across a chart mask: fewer exclude few positions, more cost time.
+/// Smallest number of blocks across a chart mask. Chosen: fewer exclude few positions, more cost
+/// time.
 constexpr int kBlocksAcross = 6;
+/// Limit: the golden section, whose multiples are far apart.
+constexpr float kGoldenSection = 0.618f;
 
 /// The longest run of set bits of a row.
 ChartMask::Run longest_run(const uint64_t* row, int words, int y) {
@@ -45,7 +48,7 @@ uint64_t window(const uint64_t* row, int words, int start) {
 /// A permutation of 0..<count in which successive elements are far apart.
 std::vector<int> scattered(int count) {
   std::vector<int> order(static_cast<size_t>(count));
-  int step = std::max(1, static_cast<int>(0.618f * static_cast<float>(count)));
+  int step = std::max(1, static_cast<int>(kGoldenSection * static_cast<float>(count)));
   while (std::gcd(step, count) > 1) ++step;
   for (int k = 0, i = count / 2; k < count; ++k, i = (i + step) % count) {
     order[static_cast<size_t>(k)] = i;

@@ -15,6 +15,7 @@ struct ChartMask {
     int length() const { return to - from + 1; }
   };
 
+  /// Number of resolution levels. Chosen.
   static constexpr int kLevels = 3;
   /// Side in texels of the blocks of a level.
   static constexpr int block_side(int level) { return 4 << level; }
@@ -77,8 +78,9 @@ class AtlasOccupancy {
   /// The longest run of free texels of each row.
   std::vector<int> clear_runs_;
   std::vector<Summary> summaries_;
-  /// By height and width: the row of blocks in which the last tiny mask of that size was placed.
+  /// Largest side in texels of a tiny mask. Chosen.
   static constexpr int kTiny = 16;
+  /// By height and width: the row of blocks in which the last tiny mask of that size was placed.
   std::vector<int> tried_;
 };
 

@@ -8,13 +8,14 @@ namespace ck::texture {
 namespace {
 
 /// Smallest component of a baked normal along the normal of the textured surface; texels with
-/// steeper ones stay flat. Empirical.
+/// steeper ones stay flat. Chosen: by trial.
 constexpr float kSteepestNormal = 0.05f;
-/// Cosine between the normals of the two surfaces above which they face the same way. Empirical.
+/// Cosine between the normals of the two surfaces above which they face the same way. Chosen: by
+/// trial.
 constexpr float kFacingCosine = 0.1f;
 
 /// Fraction of the search distance by which the rays outwards and inwards overlap, so that a
-/// surface at distance 0 is not missed by both.
+/// surface at distance 0 is not missed by both. Chosen: above the rounding of single precision.
 constexpr float kRayOverlap = 1e-3f;
 
 /// Encodes a unit vector as three bytes; the flat normal (0, 0, 1) is 128, 128, 255.

@@ -10,7 +10,7 @@ namespace ck::texture {
 /// 64 texels can be read from any position.
 class Bitmap {
  public:
-  static constexpr int kWord = 64;
+  static constexpr int kWord = 64;  // Limit: the bits of `uint64_t`.
 
   Bitmap() = default;
   Bitmap(int width, int height)

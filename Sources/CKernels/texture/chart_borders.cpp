@@ -7,12 +7,12 @@ namespace ck::texture {
 namespace {
 
 /// Cost of area lost to foreshortening, relative to boundary length in units of a typical chart's
-/// width.
+/// width. Chosen.
 constexpr float kStretchCost = 6;
-/// Largest number of rounds over the boundaries.
+/// Largest number of rounds over the boundaries. Chosen.
 constexpr int kPasses = 4;
 
-/// Lower bound of the cosine by which foreshortening is weighted. Empirical.
+/// Lower bound of the cosine by which foreshortening is weighted. Chosen: by trial.
 constexpr float kMinimumForeshortening = 0.05f;
 
 /// A cluster's area, weighted by its foreshortening along an axis.

@@ -15,9 +15,9 @@ namespace ck::texture {
 namespace {
 
 /// Cost of a cluster per area that does not depend on its flatness, so that small clusters merge
-/// first.
+/// first. Chosen.
 constexpr float kPlainCost = 0.02f;
-/// 4π: the ratio of the squared perimeter of a disk to its area.
+/// Limit: 4π, the ratio of the squared perimeter of a disk to its area.
 constexpr float kDiskIrregularity = 12.566f;
 
 /// Hash of two numbers: the tie-breaking order of pairs with equal cost.
@@ -247,8 +247,10 @@ class Clustering {
   }
 
   /// Smallest cosine between the axis of a chart and the normals of the triangles merged into it.
+  /// Chosen.
   static constexpr float kAbsorbedCosine = 0.4f;
   /// If there are fewer pairs than one per this number of unpaired clusters, more pairs are formed.
+  /// Chosen.
   static constexpr size_t kClustersPerPair = 16;
 
   const ChartMesh& mesh_;

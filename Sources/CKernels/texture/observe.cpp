@@ -14,14 +14,15 @@ namespace {
 /// The depth where there is no surface.
 constexpr float kFar = std::numeric_limits<float>::max();
 
-// Lengths in diagonals of the surface's bounding box; all empirical.
+// Lengths are in diagonals of the surface's bounding box.
 /// Offset in front of the triangle at which a ray to the camera starts; at most halfway to the
-/// camera.
+/// camera. Chosen: by trial.
 constexpr float kRayOffset = 2e-4f;
 /// Largest depth difference at which a surface counts as that of the triangle, not as an occluder
-/// or background.
+/// or background. Chosen: by trial.
 constexpr float kDepthTolerance = 0.004f;
-/// Position between a triangle's centroid (0) and its corners (1) at which rays start.
+/// Position between a triangle's centroid (0) and its corners (1) at which rays start. Chosen: by
+/// trial.
 constexpr float kCornerShare = 0.95f;
 
 /// The projection of a vertex.
@@ -63,7 +64,7 @@ void rasterize(const std::array<Vec2, 3>& p, int width, int height, Visit&& visi
 
 /// A depth buffer at reduced resolution with the smallest and the largest depth around each pixel.
 struct DepthRange {
-  static constexpr int kShrink = 2;
+  static constexpr int kShrink = 2;  // Side in pixels of a pixel of the buffer. Chosen.
   int width, height;
   std::vector<float> nearest;
   /// `kFar` if any pixel around shows no surface.
@@ -285,7 +286,7 @@ ck_status ck_observe_faces(const ck_ray_scene* scene, const ck_view* view, const
                 "a view has no pixels or no focal length");
     ck::step(control, 0);
     const ck::texture::Observer observer(*scene, *view, rgb, mask, *options);
-    constexpr size_t kChunk = 4096;
+    constexpr size_t kChunk = 4096;  // Triangles that a thread works on at a time. Chosen.
     ck::parallel_for_blocks(control, scene->triangles.size(), kChunk,
                             [&](size_t t) { observations[t] = observer.observe(t); });
   });

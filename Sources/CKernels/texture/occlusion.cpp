@@ -10,15 +10,16 @@ namespace ck::texture {
 namespace {
 
 /// Texels of a square with this many texels per side share a set of rays: each casts a different
-/// part of it.
+/// part of it. Chosen.
 constexpr size_t kSquare = 4;
 constexpr size_t kParts = kSquare * kSquare;
 /// Distance above the surface at which rays start, in diagonals of its bounding box, so that they
-/// do not hit the surface itself.
+/// do not hit the surface itself. Chosen.
 constexpr float kLift = 5e-4f;
-/// Distance in texel spacings up to which texels share their rays.
+/// Distance in texel spacings up to which texels share their rays. Chosen: beyond the diagonal of
+/// the texels that are averaged.
 constexpr float kSharingDistance = 4;
-/// π (3 − √5) radians, between two points of a Fibonacci spiral.
+/// Limit: π (3 − √5) radians, between two points of a Fibonacci spiral.
 constexpr double kGoldenAngle = 2.399963229728653;
 
 /// Cosine-weighted directions of the upper hemisphere: a Fibonacci spiral on the disk, projected
@@ -106,9 +107,10 @@ class AmbientOcclusionBaker {
     return static_cast<float>(open) / static_cast<float>(count);
   }
 
-  /// The mean over 5 × 5 texels, with half weight on the outer rows and columns so that each part
-  /// of the rays has the same weight; only over texels that are also close in space.
+  /// The mean over 5 × 5 texels; only over texels that are also close in space.
   float mean_around(int x, int y) const {
+    // Limit: with half weight on the outer rows and columns each part of the rays has the same
+    // weight.
     constexpr std::array<float, 5> kWeights = {0.5f, 1, 1, 1, 0.5f};
     const size_t center = atlas_.index(x, y);
     const float near = kSharingDistance * spacings_[static_cast<size_t>(atlas_.faces[center])];

@@ -8,16 +8,17 @@
 namespace ck::texture {
 namespace {
 
-/// Largest number of rounds of splitting overlapping charts.
+/// Largest number of rounds of splitting overlapping charts. Chosen.
 constexpr int kMaximumRounds = 6;
 /// Cosine between a triangle's normal and the axis of its chart below which the triangle counts as
-/// back-facing or almost parallel to the axis. Empirical.
+/// back-facing or almost parallel to the axis. Chosen: by trial.
 constexpr float kObliqueCosine = 0.1f;
 
 /// Cells of the grid per side of a square with the mean area of a triangle, and largest number per
-/// side of the chart.
+/// side of the chart. Chosen.
 constexpr float kCellsPerTriangleSide = 4, kMaximumCells = 2048;
 /// Barycentric weight of all corners from which a cell's center lies well inside a triangle.
+/// Chosen: above the rounding of single precision.
 constexpr float kInsideWeight = 1e-3f;
 
 /// The triangles of each chart, in ascending order.

@@ -7,11 +7,12 @@
 namespace ck::texture {
 namespace {
 
-/// Steps of the fixed-point colors per gray level.
+/// Steps of the fixed-point colors per gray level. Limit: 16 bits hold twice the range of a color,
+/// with its sign.
 constexpr float kSteps = 64;
-/// Largest magnitude of a fixed-point color.
+/// Largest magnitude of a fixed-point color. Limit: it has 16 bits.
 constexpr int kMaximumColor = 32000;
-/// Samples per side with which a texel averages pixels at most.
+/// Samples per side with which a texel averages pixels at most. Chosen.
 constexpr int kMaximumSamples = 4;
 
 /// A color channel in fixed point.
@@ -99,7 +100,7 @@ ck_status ck_atlas_paint(ck_atlas* atlas, const ck_view* view, const uint8_t* rg
     const ck_view no_view{};
     const ck_view& source = view ? *view : no_view;
     const ck::Projection projection(source);
-    constexpr size_t kChunk = 512;
+    constexpr size_t kChunk = 512;  // Triangles that a thread works on at a time. Chosen.
     ck::parallel_for_blocks(control, paint_count, kChunk, [&](size_t k) {
       const ck_paint& paint = paints[k];
       ck::require(paint.face < atlas->scene.triangles.size(),

@@ -12,9 +12,9 @@
 namespace ck {
 namespace {
 
-/// Levenberg–Marquardt steps within RANSAC and at its end.
+/// Levenberg–Marquardt steps within RANSAC and at its end. Chosen.
 constexpr int kLocalSteps = 8, kFinalSteps = 30;
-/// Largest number of samples for the homography, of which only the number of inliers is used.
+/// Largest number of samples for the homography. Chosen: only its number of inliers is used.
 constexpr int kMaximumHomographyIterations = 200;
 
 /// Copies the points of a sample.
@@ -42,7 +42,7 @@ std::vector<size_t> inliers_of(const Eigen::Matrix3d& matrix, const Matches& mat
 /// Essential matrices for `ransac`.
 struct EssentialEstimator {
   using Model = Eigen::Matrix3d;
-  static constexpr size_t kSampleSize = 5;
+  static constexpr size_t kSampleSize = 5;  // Limit: a minimal sample.
   const Matches& matches;
 
   size_t size() const { return matches.size(); }
@@ -67,7 +67,7 @@ struct EssentialEstimator {
 /// Fundamental matrices for `ransac`.
 struct FundamentalEstimator {
   using Model = Eigen::Matrix3d;
-  static constexpr size_t kSampleSize = 7;
+  static constexpr size_t kSampleSize = 7;  // Limit: a minimal sample.
   const Matches& matches;
 
   size_t size() const { return matches.size(); }
@@ -90,7 +90,7 @@ struct FundamentalEstimator {
 /// Homographies for `ransac`.
 struct HomographyEstimator {
   using Model = Eigen::Matrix3d;
-  static constexpr size_t kSampleSize = 4;
+  static constexpr size_t kSampleSize = 4;  // Limit: a minimal sample.
   const Matches& matches;
 
   size_t size() const { return matches.size(); }
@@ -150,7 +150,7 @@ struct Estimate {
 };
 
 /// Triangulation angle in radians below which noise decides whether a point is in front of the
-/// cameras.
+/// cameras. Chosen: a pixel at a focal length of 1000 pixels.
 constexpr double kSmallAngle = 1e-3;
 
 /// Keeps the inliers in front of both cameras and collects their triangulation angles.

@@ -13,7 +13,7 @@ using Linear = Eigen::Matrix<double, 1, 4>;
 using Quadratic = Eigen::Matrix<double, 1, 10>;
 using Cubic = Eigen::Matrix<double, 1, 20>;
 
-// The positions of products of monomials: of degrees 1 and 1, and of degrees 1 and 2.
+// Limit: the positions of products of monomials: of degrees 1 and 1, and of degrees 1 and 2.
 constexpr int kSquare[4][4] = {{0, 1, 2, 3}, {1, 4, 5, 6}, {2, 5, 7, 8}, {3, 6, 8, 9}};
 constexpr int kCube[4][10] = {{0, 2, 4, 5, 3, 8, 9, 10, 11, 12},
                               {2, 3, 8, 9, 1, 6, 7, 13, 14, 15},

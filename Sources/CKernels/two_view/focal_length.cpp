@@ -8,7 +8,7 @@
 namespace ck {
 namespace {
 
-/// Levenberg–Marquardt steps per factor.
+/// Levenberg–Marquardt steps per factor. Chosen.
 constexpr int kSteps = 15;
 
 /// The points for `factor` times the focal length.

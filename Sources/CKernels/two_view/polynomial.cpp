@@ -7,6 +7,11 @@ namespace {
 
 using Coefficients = std::array<double, kMaximumDegree + 1>;
 
+/// Largest number of steps to a root, and the change at which they stop. Limit: double precision,
+/// which bisection alone reaches after about 50 steps.
+constexpr int kRootSteps = 80;
+constexpr double kRootTolerance = 1e-15;
+
 double value(const Coefficients& c, int degree, double x) {
   double sum = c[degree];
   for (int i = degree - 1; i >= 0; --i) sum = sum * x + c[i];
@@ -23,13 +28,13 @@ double slope(const Coefficients& c, int degree, double x) {
 /// safeguard.
 double bracketed_root(const Coefficients& c, int degree, double low, double high, double at_low) {
   double x = 0.5 * (low + high);
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < kRootSteps; ++i) {
     const double y = value(c, degree, x);
     if (y == 0) return x;
     ((y < 0) == (at_low < 0) ? low : high) = x;
     double next = x - y / slope(c, degree, x);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - x) < 1e-15) return next;
+    if (std::abs(next - x) < kRootTolerance) return next;
     x = next;
   }
   return x;

@@ -4,7 +4,7 @@
 
 namespace ck {
 
-/// Highest degree that `real_roots` handles.
+/// Highest degree that `real_roots` handles. Limit: that of the five-point problem.
 constexpr int kMaximumDegree = 10;
 
 /// The real roots of a polynomial.

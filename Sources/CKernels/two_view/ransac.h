@@ -39,7 +39,7 @@ template <class Estimator>
 std::pair<double, size_t> msac_score(const Estimator& estimator,
                                      const typename Estimator::Model& model, double limit,
                                      double bound) {
-  constexpr size_t kChunk = 128;
+  constexpr size_t kChunk = 128;  // Chosen: it fits the first-level cache.
   double errors[kChunk];
   const double squared_limit = limit * limit;
   double score = 0;
@@ -73,15 +73,17 @@ RansacResult<typename Estimator::Model> ransac(const Estimator& estimator,
                                                const ck_control* control) {
   using Model = typename Estimator::Model;
   constexpr size_t kSize = Estimator::kSampleSize;
-  // Smallest length of the prefix: enough for different samples.
+  // Smallest length of the prefix. Chosen: enough for different samples.
   constexpr size_t kMinimumPool = 4 * kSize;
-  constexpr int kReportInterval = 64;
+  // The prefix grows in one of this number of parts of the iterations. Chosen.
+  constexpr int kParts = 4;
+  constexpr int kReportInterval = 64;  // Chosen: far less than a second.
   RansacResult<Model> best;
   const size_t count = estimator.size();
   if (count < kSize) return best;
   Random random(options.seed);
   std::vector<Model> models;
-  const int growing = std::max(1, options.maximum_iterations / 4);
+  const int growing = std::max(1, options.maximum_iterations / kParts);
   double needed = options.maximum_iterations;
   for (int i = 0; i < options.maximum_iterations; ++i) {
     if (i >= options.minimum_iterations && i >= needed) break;

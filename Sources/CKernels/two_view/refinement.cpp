@@ -7,9 +7,11 @@
 namespace ck {
 namespace {
 
-/// Levenberg–Marquardt: initial damping, its bounds, and the relative decrease of the cost below
-/// which it stops.
-constexpr double kInitialDamping = 1e-3, kMinimumDamping = 1e-9, kMaximumDamping = 1e6;
+/// Levenberg–Marquardt: the initial damping and the factors by which it changes after a step.
+/// Paper: Hartley and Zisserman 2004, appendix 6.2.
+constexpr double kInitialDamping = 1e-3, kDampingIncrease = 10, kDampingDecrease = 0.1;
+/// Bounds of the damping, and the relative decrease of the cost at which it stops. Chosen.
+constexpr double kMinimumDamping = 1e-9, kMaximumDamping = 1e6;
 constexpr double kTolerance = 1e-9;
 
 /// A matrix with its derivatives with respect to the local parameters.
@@ -36,7 +38,7 @@ Eigen::Matrix<double, 3, 2> tangent(const Eigen::Vector3d& v) {
 /// The five parameters of a relative pose: a rotation vector applied from the left, and the
 /// direction of the translation.
 struct PoseParameters {
-  static constexpr int kCount = 5;
+  static constexpr int kCount = 5;  // Limit: the degrees of freedom.
   RelativePose pose;
 
   Linearized<kCount> linearized() const {
@@ -65,7 +67,7 @@ struct PoseParameters {
 /// The seven parameters of a fundamental matrix U diag(1, s, 0) Vᵀ: rotation vectors of U and V,
 /// and s.
 struct FundamentalParameters {
-  static constexpr int kCount = 7;
+  static constexpr int kCount = 7;  // Limit: the degrees of freedom.
   Eigen::Matrix3d u, v;
   double s;
 
@@ -150,7 +152,7 @@ double refine(Parameters& parameters, const Matches& matches, double limit, int 
     const Linearized<N> moved_model = moved.linearized();
     const double moved_cost = truncated_cost(moved_model.matrix, matches, limit);
     if (!(moved_cost < cost)) {
-      damping *= 10;
+      damping *= kDampingIncrease;
       if (damping > kMaximumDamping) break;
       continue;
     }
@@ -158,7 +160,7 @@ double refine(Parameters& parameters, const Matches& matches, double limit, int 
     parameters = moved;
     model = moved_model;
     cost = moved_cost;
-    damping = std::max(kMinimumDamping, damping * 0.1);
+    damping = std::max(kMinimumDamping, damping * kDampingDecrease);
     if (converged) break;
     accumulate(model, matches, limit, normal, gradient);
   }

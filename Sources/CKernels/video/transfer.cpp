@@ -15,21 +15,23 @@ constexpr int kLevels = 4096;
 using Rows = std::array<std::array<float, 3>, 3>;
 
 constexpr Rows kSame = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-/// ITU-R BT.2087, inverse of its equation for BT.709 to BT.2020.
+/// Limit: the inverse of the equation of ITU-R BT.2087 for BT.709 to BT.2020.
 constexpr Rows kFromBT2020 = {
     {{1.6605f, -0.5876f, -0.0728f}, {-0.1246f, 1.1329f, -0.0083f}, {-0.0182f, -0.1006f, 1.1187f}}};
-/// From the chromaticities of Display P3 (SMPTE EG 432-1) and of BT.709, both with the white D65.
+/// Limit: the chromaticities of Display P3 (SMPTE EG 432-1) and of BT.709, both with the white D65.
 constexpr Rows kFromP3 = {
     {{1.2249f, -0.2247f, 0}, {-0.0421f, 1.0421f, 0}, {-0.0196f, -0.0786f, 1.0983f}}};
 
-/// The inverse of hybrid log-gamma (ITU-R BT.2100, table 5): light of the scene, 0…1.
+/// The inverse of hybrid log-gamma: light of the scene, 0…1.
 double hlg(double value) {
+  // Limit: ITU-R BT.2100, table 5.
   constexpr double a = 0.17883277, b = 1 - 4 * a, c = 0.55991073;
   return value <= 0.5 ? value * value / 3 : (std::exp((value - c) / a) + b) / 12;
 }
 
-/// The perceptual quantizer (ITU-R BT.2100, table 4): light of the display in cd/m².
+/// The perceptual quantizer: light of the display in cd/m².
 double pq(double value) {
+  // Limit: ITU-R BT.2100, table 4.
   constexpr double m1 = 2610.0 / 16384, m2 = 2523.0 / 32;
   constexpr double c1 = 3424.0 / 4096, c2 = 2413.0 / 128, c3 = 2392.0 / 128;
   const double root = std::pow(value, 1 / m2);
@@ -41,8 +43,8 @@ double srgb(double value) {
   return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
-/// Peak of the display that HLG is rendered for, and the exponent of its system gamma (BT.2100);
-/// reference white (ITU-R BT.2408), all in cd/m².
+/// Peak in cd/m² of the display that HLG is rendered for, the exponent of its system gamma, and
+/// reference white in cd/m². Limit: ITU-R BT.2100 and, for white, BT.2408.
 constexpr double kPeak = 1000, kSystemGamma = 1.2, kWhite = 203;
 
 uint8_t rounded(float value, float largest) {

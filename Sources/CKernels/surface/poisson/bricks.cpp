@@ -66,7 +66,7 @@ std::vector<uint64_t> BrickCodes::take() {
 
 BrickSet::BrickSet(std::vector<uint64_t> codes, const ck_control* control)
     : codes_(std::move(codes)) {
-  // About a millisecond. Chosen.
+  // Bricks that a thread works on at a time. Chosen: about a millisecond.
   constexpr size_t kBlock = 256;
   make_unique(codes_);
   neighbors_.resize(codes_.size());

@@ -18,7 +18,7 @@ namespace ck::poisson {
 /// Cells of a brick per axis. Chosen: a brick's values take 2 KB.
 constexpr int kSide = 8;
 constexpr int kBrick = kSide * kSide * kSide;
-/// A brick's nodes with those around it.
+/// Limit: a brick's nodes per axis with those around it.
 constexpr int kPadded = kSide + 2;
 
 using Coordinates = std::array<int, 3>;
@@ -87,7 +87,7 @@ class BrickSet {
 /// concurrently.
 template <typename Body>
 void for_colors(const BrickSet& bricks, int period, const ck_control* control, Body&& body) {
-  // Starting threads takes longer than a few bricks. Chosen.
+  // Chosen: starting threads takes longer than a few bricks.
   constexpr size_t kFewBricks = 32;
   const auto colors = bricks.colors(period);
   size_t done = 0;

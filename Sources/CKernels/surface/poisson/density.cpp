@@ -9,15 +9,15 @@ namespace ck::poisson {
 
 namespace {
 
-/// Number of samples, weighted by the kernel, from which on their density is known well enough:
-/// that of about seven. Chosen.
+/// Number of samples, weighted by the kernel, from which on their density is known well enough.
+/// Chosen: that of about seven.
 constexpr double kSufficientCount = 4;
-/// The count at a point of a plane with one sample per cell: the mean over the distances of the
-/// plane from the nodes, for planes along an axis (computed: 0.599).
+/// The count at a point of a plane with one sample per cell. Limit: the mean over the distances of
+/// the plane from the nodes, for planes along an axis, is 0.599.
 constexpr double kPlaneCount = 0.6;
-/// Cells with this many samples resolve them (the default of Kazhdan and Hoppe's program).
+/// Cells with this many samples resolve them. Chosen: the default of Kazhdan and Hoppe's program.
 constexpr double kSamplesPerCell = 1.5;
-/// The coarsest level by which density is estimated: 8 cells per axis. Chosen.
+/// The coarsest level by which density is estimated. Chosen: 8 cells per axis.
 constexpr int kCoarsestDensity = 3;
 
 /// The bricks of the nodes that the samples' weights reach.

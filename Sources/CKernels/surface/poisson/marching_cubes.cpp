@@ -9,7 +9,7 @@ namespace {
 
 using Edge = MarchingCubes::Edge;
 
-/// The corners of each face, counter-clockwise seen from outside the cube.
+/// Limit: the corners of each face, counter-clockwise seen from outside the cube.
 constexpr uint8_t kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
                                   {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
 

@@ -10,11 +10,10 @@ namespace {
 ///
 /// At the finest level, these are the two parents per axis that are nearest to the sample's cell.
 /// Coarser levels reach one or two parents farther: where there are no samples, triangles grow with
-/// the distance from them, not at once. Chosen on dtu_scan24, whose guessed back had spikes where
-/// fine triangles met coarse ones.
+/// the distance from them, not at once.
 class Neighborhood {
  public:
-  explicit Neighborhood(int levels_below) : reach_(std::min(levels_below, 2)) {}
+  explicit Neighborhood(int levels_below) : reach_(std::min(levels_below, kMaximumReach)) {}
 
   int count() const { return reach_ == 0 ? 4 : 4 * reach_ + 2; }
   Coordinates first(const Coordinates& cell) const {
@@ -26,6 +25,10 @@ class Neighborhood {
   }
 
  private:
+  /// Measured: without the reach of coarser levels, the guessed back of dtu_scan24 has spikes where
+  /// fine triangles meet coarse ones (BENCHMARKS.md, "Poisson surface").
+  static constexpr int kMaximumReach = 2;
+
   /// Number of parents on each side of a cell's parent.
   int reach_;
 };
@@ -140,7 +143,7 @@ void gather_samples(Level& level, const Samples& samples, const ck_control* cont
 }
 
 void find_parents(Level& level, const Level& above, const ck_control* control) {
-  // Bricks take much less than a microsecond each. Chosen.
+  // Bricks that a thread works on at a time. Chosen: each takes much less than a microsecond.
   constexpr size_t kBlock = 1024;
   level.parents.resize(level.bricks.count());
   parallel_for_blocks(control, level.bricks.count(), kBlock, [&](size_t b) {

@@ -48,13 +48,13 @@ struct Level {
 };
 
 /// Levels down to this depth have all cells; the others, those around samples that are dense enough
-/// for them. It is the default of Kazhdan and Hoppe's program.
+/// for them. Chosen: the default of Kazhdan and Hoppe's program.
 constexpr int kFullDepth = 5;
-/// The first level's 125 nodes are solved well by the sweeps that it gets. Chosen.
+/// The first level. Chosen: its 125 nodes are solved well by the sweeps that it gets.
 constexpr int kFirstDepth = 2;
 
-/// Bytes of the solver and of its result for each brick of the octree, at most (measured on spheres
-/// of 6 million points: 10.3 KB at depth 11, 14.6 KB with a few cells of depth 12).
+/// Bytes of the solver and of its result for each brick of the octree, at most. Measured: 10.3 KB
+/// at depth 11 and 14.6 KB with a few cells of depth 12 on spheres of 6 million points.
 constexpr size_t kBytesPerBrick = 16 << 10;
 
 /// The levels from `kFirstDepth` to at most `depth`, without values: those for which

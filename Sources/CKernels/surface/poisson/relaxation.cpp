@@ -6,7 +6,7 @@ namespace ck::poisson {
 
 namespace {
 
-/// Entries of the stiffness matrix of trilinear functions on cells of side 1: of a node with
+/// Limit: entries of the stiffness matrix of trilinear functions on cells of side 1: of a node with
 /// itself, and with those across an edge and a corner. With nodes across a face they are zero.
 constexpr float kDiagonal = 8.0f / 3, kEdge = -1.0f / 6, kCorner = -1.0f / 12;
 
@@ -39,7 +39,7 @@ class NearbySamples {
   }
 
  private:
-  static constexpr int kCells = kSide + 1;
+  static constexpr int kCells = kSide + 1;  // Limit: those at a brick's nodes.
 
   static size_t index(int x, int y, int z) {
     return static_cast<size_t>(((z + 1) * kCells + y + 1) * kCells + x + 1);
@@ -66,7 +66,7 @@ class NearbySamples {
   size_t count_ = 0;
 };
 
-/// Offsets of a cell's corners from the first one in a padded brick.
+/// Limit: offsets of a cell's corners from the first one in a padded brick.
 constexpr size_t kCorners[8] = {padded_index(0, 0, 0), padded_index(1, 0, 0), padded_index(0, 1, 0),
                                 padded_index(1, 1, 0), padded_index(0, 0, 1), padded_index(1, 0, 1),
                                 padded_index(0, 1, 1), padded_index(1, 1, 1)};
@@ -74,7 +74,7 @@ constexpr size_t kCorners[8] = {padded_index(0, 0, 0), padded_index(1, 0, 0), pa
 /// Solves the equation of a node for its value.
 void relax_node(Padded& values, int x, int y, int z, float rhs, const NearbySamples& near) {
   float* v = values.data() + padded_index(x + 1, y + 1, z + 1);
-  constexpr int X = 1, Y = kPadded, Z = kPadded * kPadded;
+  constexpr int X = 1, Y = kPadded, Z = kPadded * kPadded;  // Limit: strides of a padded brick.
   const float edges = v[-X - Y] + v[X - Y] + v[-X + Y] + v[X + Y] + v[-X - Z] + v[X - Z] +
                       v[-X + Z] + v[X + Z] + v[-Y - Z] + v[Y - Z] + v[-Y + Z] + v[Y + Z];
   const float corners = v[-X - Y - Z] + v[X - Y - Z] + v[-X + Y - Z] + v[X + Y - Z] +

@@ -32,8 +32,8 @@ NormalField splatted_normals(const Level& level, int finest, const Samples& samp
   return field;
 }
 
-/// Integrals of two hat functions one node apart, the first before, equal to or after the second:
-/// of their product, and of that of the second's derivative with the first.
+/// Limit: integrals of two hat functions one node apart, the first before, equal to or after the
+/// second: of their product, and of that of the second's derivative with the first.
 constexpr float kMass[3] = {1.0f / 6, 2.0f / 3, 1.0f / 6};
 constexpr float kDerivative[3] = {0.5f, 0, -0.5f};
 

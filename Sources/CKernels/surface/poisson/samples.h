@@ -25,7 +25,7 @@ struct Sample {
   uint64_t code;
 };
 
-/// The depth at which a code of three coordinates fits 64 bits.
+/// Depth of the codes. Limit: a code of three coordinates of 21 bits fits 64 bits.
 constexpr int kCodeDepth = 21;
 
 /// The finite points with a normal, in Morton order, with the transform to their frame:
@@ -59,7 +59,7 @@ struct Samples {
   /// The results of `body(first, last)` for consecutive parts of the samples, in their order.
   template <typename Body>
   auto map_blocks(const ck_control* control, Body&& body) const {
-    // A few milliseconds; parts repeat the bricks at their ends. Chosen.
+    // Samples of a part. Chosen: a few milliseconds; parts repeat the bricks at their ends.
     constexpr size_t kBlock = 1 << 15;
     const size_t count = samples.size();
     std::vector<decltype(body(size_t{0}, count))> results((count + kBlock - 1) / kBlock);

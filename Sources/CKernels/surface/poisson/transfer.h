@@ -6,8 +6,8 @@
 
 namespace ck::poisson {
 
-/// The nodes of the level above among which a brick lies: five per axis, of which each second node
-/// of the brick is one.
+/// Limit: the nodes of the level above among which a brick lies: five per axis, of which each
+/// second node of the brick is one.
 constexpr int kParents = kSide / 2 + 1;
 using ParentValues = std::array<float, kParents * kParents * kParents>;
 
