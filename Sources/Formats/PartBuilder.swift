@@ -13,7 +13,7 @@ struct PartBuilder {
   }
 
   /// Vertices at one position that are compared with a corner before it gets a new one. Real models
-  /// have a few; without a limit, hostile files would take quadratic time.
+  /// have a few; without a limit, hostile files would take quadratic time. Chosen.
   private static let maximumComparisons = 32
   private static let none = UInt32.max
 

@@ -4,9 +4,9 @@ import Foundation
 enum DecimalNumber {
   /// Powers of ten that doubles represent exactly.
   private static let powers: [Double] = (0...22).map { pow(10, Double($0)) }
-  /// Integers of so many digits are exact, too.
+  /// Integers of so many digits are exact, too. Limit: of double precision.
   private static let exactDigits = 15
-  /// Longer words are no numbers.
+  /// Longer words are no numbers. Chosen.
   private static let maximumLength = 64
 
   /// The number at `offset`, which then is after it; nil without a number. Accepts `nan` and `inf`.

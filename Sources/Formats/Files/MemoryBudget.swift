@@ -3,6 +3,7 @@
 /// Compressed and repeated content can stand for more memory than any computer has. What a model
 /// needs is proportional to the size of its file, with a generous factor.
 final class MemoryBudget {
+  /// Bytes that a file may take regardless of its size, and for each of its bytes. Chosen.
   private static let base = 64 << 20
   private static let factor = 64
 

@@ -2,7 +2,7 @@ import SceneModel
 
 /// Collects the triangles of the nodes of an untrusted glTF scene.
 struct GLTFScene {
-  /// Nested deeper than real scenes; the stack of a thread has an end.
+  /// Limit: the stack of a thread has an end; real scenes are not nested as deeply.
   private static let maximumDepth = 128
 
   private let content: GLTFContent

@@ -12,6 +12,7 @@ extension USDAText {
 
 /// A recursive descent parser of layers.
 private struct USDAParser {
+  /// Nesting of values and prims. Chosen: as in `USDStage`.
   private static let maximumDepth = 128
 
   private var tokenizer: USDATokenizer

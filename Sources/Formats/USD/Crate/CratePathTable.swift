@@ -10,7 +10,7 @@ struct CratePathTable {
     var depth = 0
   }
 
-  /// Deeper paths are rejected.
+  /// Deeper paths are rejected. Chosen: as in `USDStage`.
   static let maximumDepth = 128
 
   private(set) var nodes: [Node]

@@ -2,9 +2,9 @@ import SceneModel
 
 /// Decodes values of an untrusted crate file. Those of a type that this module doesn't use are nil.
 struct CrateValueReader {
-  /// Shorter arrays are stored uncompressed.
+  /// Shorter arrays are stored uncompressed. Limit: of the format.
   private static let minimumCompressedCount = 16
-  /// A time sample could be another list of samples.
+  /// A time sample could be another list of samples. Chosen.
   private static let maximumNesting = 4
 
   let file: CrateFile

@@ -32,9 +32,10 @@ extension USDStage {
 
 /// Loads layers, and merges prims with those that they refer to.
 private struct Composer {
+  /// Layers that refer to each other are followed so far. Chosen.
   private static let maximumDepth = 16
-  /// Nesting of prims after composition. Real files need a few tens, and the stack of a thread has
-  /// an end.
+  /// Nesting of prims after composition. Chosen: real files need a few tens, and the stack of a
+  /// thread has an end.
   private static let maximumNesting = 128
 
   let budget: MemoryBudget
