@@ -7,7 +7,7 @@ import SceneModel
 func parallelChunks<Element: Sendable>(
   _ count: Int, threads: Int, _ body: @Sendable (Range<Int>) -> [Element]
 ) -> [Element] {
-  let chunkSize = 4096
+  let chunkSize = 4096  // Chosen.
   let chunks = (count + chunkSize - 1) / chunkSize
   let results = Locked([[Element]](repeating: [], count: chunks))
   let next = Atomic<Int>(0)
