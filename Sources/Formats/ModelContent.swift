@@ -29,7 +29,7 @@ package struct ModelContent: Sendable {
   /// The name of every model, of its root prim, and the stem of its file names, as in the files of
   /// Object Capture.
   package static let name = "baked_mesh"
-  /// The roughness of a material without a roughness map, 0…1.
+  /// The roughness of a material without a roughness map, 0…1. Chosen: as in `MapBaking`.
   static let defaultRoughness = 0.9
 
   package var mesh: TexturedMesh

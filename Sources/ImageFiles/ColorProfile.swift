@@ -12,8 +12,8 @@ package enum ColorProfile: Hashable, Sendable {
   /// Adobe RGB (1998), which cameras indicate without a profile (DCF 2.0, section 5.3).
   case adobeRGB
 
-  /// Size in bytes above which a profile is ignored. Those of cameras have less than 4 kB, those of
-  /// scanners up to a few hundred kB.
+  /// Size in bytes above which a profile is ignored. Chosen: those of cameras have less than 4 kB,
+  /// those of scanners up to a few hundred kB.
   private static let maximumSize = 4 << 20
 
   /// The profile in an image file's content; nil without one, which means sRGB.

@@ -16,11 +16,11 @@ import SceneModel
 package enum ImageCodec {
   /// Sizes above which a file is rejected before decoding.
   package struct Limits: Hashable, Codable, Sendable {
-    /// Pixels per side.
+    /// Pixels per side. Chosen.
     package var maximumSide = 16384
-    /// Pixels per image.
+    /// Pixels per image. Chosen.
     package var maximumPixels = 300_000_000
-    /// Bytes per file.
+    /// Bytes per file. Chosen.
     package var maximumFileSize = 1 << 30
 
     package init() {}
@@ -160,7 +160,7 @@ package enum ImageCodec {
     case lossy(quality: Float)
   }
 
-  /// The largest width and height of a WebP file.
+  /// The largest width and height of a WebP file. Limit: the format has 14 bits.
   package static let maximumWebPSide = 16383
 
   /// Encodes gray or RGB as WebP; deterministic.
@@ -182,7 +182,7 @@ package enum ImageCodec {
 
   /// The contents of a HEIC file besides its pixels.
   package struct HEICContent: Hashable, Sendable {
-    /// 0…1.
+    /// 0…1. Chosen.
     package var quality: Float = 0.9
     /// As in EXIF, 1…8: how the pixels must be rotated for display.
     package var orientation = 1

@@ -42,7 +42,7 @@ package struct PhotoMetadata: Hashable, Sendable {
   /// (6) have y ≈ −1, those of a phone on its left edge (1) have x ≈ −1.
   package var acceleration: SIMD3<Double>?
 
-  /// Plausible values.
+  /// Plausible values. Chosen.
   static let focalLengths = 0.5...5000
   static let focalLengthsIn35mmFilm = 2.0...5000
 

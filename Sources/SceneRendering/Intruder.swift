@@ -5,14 +5,15 @@ import SceneModel
 /// in each of them: a ball, in place of a hand or a passer-by. It is lit from the camera and casts
 /// no shadow. All values were chosen.
 package struct Intruder: Sendable {
-  /// The first photo that shows it, and the interval to the next one.
+  /// The first photo that shows it, and the interval to the next one. Chosen.
   package var first = 1
   package var period = 3
-  /// Radius in meters.
+  /// Radius in meters. Chosen.
   package var radius: Float = 0.03
-  /// Depth of its center in the camera frame, in meters.
+  /// Depth of its center in the camera frame, in meters. Chosen.
   package var depth: Float = 0.38
   /// Maximum horizontal and vertical distance of its center from the optical axis, in meters.
+  /// Chosen.
   package var reach: SIMD2<Float> = [0.035, 0.06]
   package var texture = SolidTexture(
     palette: [[0.02, 0.06, 0.30], [0.05, 0.16, 0.62], [0.16, 0.36, 0.80]], wavelength: 0.02,

@@ -139,6 +139,7 @@ package struct RayCaster: Sendable {
     return range.lowerBound + parts[0].count
   }
 
+  /// Chosen: more bins hardly change the tree.
   private static let binCount = 16
 
   /// The costs of dividing before each bin but the first; infinite if a part is empty.

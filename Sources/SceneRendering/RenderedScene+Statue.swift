@@ -14,7 +14,7 @@ extension RenderedScene {
     meshColumns: Int = 120, textureContrast: Float = 1, seed: UInt64 = 1
   ) -> RenderedScene {
     let lowerCount = photoCount - upperCount
-    let target = SIMD3<Double>(0, 0.128, 0)
+    let target = SIMD3<Double>(0, 0.128, 0)  // Chosen.
     let poses = (0..<photoCount).map { index in
       let isLower = index < lowerCount
       let turn =

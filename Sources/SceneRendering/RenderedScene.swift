@@ -33,14 +33,14 @@ package struct RenderedScene: Sendable {
 
   /// The light of a scene: radiance per albedo.
   package struct Lighting: Sendable {
-    /// From all sides, on a vertical surface.
+    /// From all sides, on a vertical surface. Chosen.
     package var ambient: Float = 0.36
     /// What a surface that faces up receives beyond `ambient`; one that faces down receives as
-    /// much less.
+    /// much less. Chosen.
     package var sky: Float = 0.14
-    /// From the direction of the sun, with shadows.
+    /// From the direction of the sun, with shadows. Chosen.
     package var sun: Float = 0.62
-    /// The unit vector to the sun.
+    /// The unit vector to the sun. Chosen.
     package var sunDirection = SIMD3<Float>(0.45, 0.8, 0.5).normalized
 
     package init() {}
@@ -48,7 +48,7 @@ package struct RenderedScene: Sendable {
 
   /// A plain background without detail behind all surfaces.
   package struct Backdrop: Sendable {
-    /// The light from below and from above, linear RGB.
+    /// The light from below and from above, linear RGB. Chosen.
     package var low: SIMD3<Float> = [0.10, 0.11, 0.12]
     package var high: SIMD3<Float> = [0.22, 0.24, 0.27]
 
@@ -63,9 +63,9 @@ package struct RenderedScene: Sendable {
   package let camera: Camera
   /// `cameraFromWorld` by photo.
   package let poses: [RigidTransform]
-  /// Standard deviation of the sensor noise in gray levels.
+  /// Standard deviation of the sensor noise in gray levels. Chosen.
   package var noise = 1.2
-  /// Rays per pixel and direction: 2 casts four rays.
+  /// Rays per pixel and direction: 2 casts four rays. Chosen.
   package var samplesPerSide = 2
   /// A lens, an exposure per photo, and adaptive sampling at edges; nil casts the same rays
   /// everywhere and applies no photographic effects.

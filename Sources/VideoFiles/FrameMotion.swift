@@ -16,7 +16,7 @@ struct FrameMotion {
     /// Number of anchors in the video at least. Chosen: where only a part of the picture moves, its
     /// features stop matching long before the mean displacement is large.
     var minimumAnchors = 80
-    /// Matches below which frames have nothing in common, as after a cut.
+    /// Matches below which frames have nothing in common, as after a cut. Chosen.
     var minimumMatches = 12
     /// The distance of such frames as a share of the diagonal. Chosen: the step of
     /// `FrameSelection`.
@@ -24,7 +24,7 @@ struct FrameMotion {
     /// Displacement as a share of the diagonal up to which a feature stands still. Chosen: three
     /// times the noise of positions, half a pixel of 734.
     var noise = 0.002
-    /// Share of the matches with the largest displacements that may be wrong.
+    /// Share of the matches with the largest displacements that may be wrong. Chosen.
     var wrongShare = 0.05
 
     init() {}

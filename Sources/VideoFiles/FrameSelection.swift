@@ -3,10 +3,10 @@ import Foundation
 /// Selects sharp frames at even distances along the camera's path.
 package struct FrameSelection: Sendable {
   package struct Options: Hashable, Sendable {
-    /// Distance between frames as a share of the picture's diagonal.
+    /// Distance between frames as a share of the picture's diagonal. Chosen.
     package var step = 0.03
     /// Bounds of the number of frames: the step is changed to keep them, as far as there are
-    /// frames.
+    /// frames. Chosen.
     package var minimumCount = 40
     package var maximumCount = 250
     /// How far a frame may be from its place to be the sharper one, as a share of the step. Chosen:

@@ -6,17 +6,17 @@ import SceneModel
 struct VideoAnalysis {
   struct Options: Hashable, Sendable {
     /// Frames measured per second at most: a trembling hand rests for a frame or two at a time.
-    /// Chosen; on a rendered walk (`render-fixtures video 5`), 15 and a tolerance of 0.25 gave an
+    /// Measured: on a rendered walk (`render-fixtures video 5`), 15 and a tolerance of 0.25 gave an
     /// F-score of 0.959 at 1 mm, 30 and 0.4 one of 0.972.
     var framesPerSecond = 30.0
     /// Longer side in pixels at which sharpness is measured: a blur of three pixels of a 4K frame
-    /// is one pixel here.
+    /// is one pixel here. Chosen.
     var sharpnessSide = 1280
-    /// Longer side in pixels at which features are detected.
+    /// Longer side in pixels at which features are detected. Chosen.
     var featureSide = 640
     /// Features per frame at most. Chosen: the mean displacement needs no more.
     var features = 800
-    /// Frames measured at a time.
+    /// Frames measured at a time. Chosen.
     var batch = 32
 
     init() {}
@@ -65,7 +65,7 @@ struct VideoAnalysis {
     return readings
   }
 
-  /// Share of the interval by which a frame may come early: times are rounded.
+  /// Share of the interval by which a frame may come early: times are rounded. Chosen.
   private static let slack = 0.05
 
   private struct Frame: Sendable {

@@ -33,10 +33,10 @@ package struct VideoFrames: Sendable {
     package var seconds: Double
   }
 
-  /// Fewer photos can't be reconstructed.
+  /// Fewer photos can't be reconstructed. Limit: as `PipelineError.minimumPhotos`.
   private static let minimumPhotos = 3
   /// The share of the time that reading the video for the first time takes: both decode it, and the
-  /// first also measures. Chosen, for progress only.
+  /// first also measures. Chosen: for progress only.
   private static let analysisShare = 0.75
 
   package var options: Options

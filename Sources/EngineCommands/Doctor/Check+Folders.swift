@@ -2,10 +2,10 @@ import Pipeline
 import SharedCommands
 
 extension Check {
-  /// A set of usual size, to which the space is compared. Chosen, in the middle of the 20 to 200
+  /// A set of usual size, to which the space is compared. Chosen: in the middle of the 20 to 200
   /// photos that are recommended.
   private static let usualPhotos = 100
-  /// The smallest set that is recommended.
+  /// The smallest set that is recommended. Chosen: as in docs/taking-photos.md.
   private static let fewPhotos = 20
 
   /// The space for intermediate results, which a run removes at its end.

@@ -11,6 +11,7 @@ struct SampleImage {
   /// The content of the file; line breaks don't count.
   let base64: String
 
+  /// Colors of the halves. Chosen.
   static let colors = (left: SIMD3<Int>(200, 80, 40), right: SIMD3<Int>(40, 80, 200))
   /// The largest permitted difference of a channel. Chosen: lossy compression changes the samples
   /// by less, and the two colors are 160 apart.

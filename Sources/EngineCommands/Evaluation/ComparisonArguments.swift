@@ -14,12 +14,12 @@ struct ComparisonArguments: ParsableArguments {
   @Option(
     name: .long,
     help: ArgumentHelp("Number of samples on the result's surface.", valueName: "count"))
-  var samples = 1_000_000
+  var samples = SurfaceComparison.Options().resultSamples
 
   @Option(
     name: .long,
     help: ArgumentHelp("Voxel size of the downsampling; 0 for none.", valueName: "length"))
-  var voxel = 0.0005
+  var voxel = SurfaceComparison.Options().voxel
 
   @Option(
     name: .long,
@@ -33,12 +33,12 @@ struct ComparisonArguments: ParsableArguments {
     help: ArgumentHelp(
       "Recall counts the surface that this many cameras of the reference see.",
       valueName: "count"))
-  var views = 3
+  var views = SurfaceComparison.Options().minimumViews
 
   @Option(
     name: .long,
     help: ArgumentHelp("Maximum width at which outlines are compared.", valueName: "pixels"))
-  var outlineWidth = 1000
+  var outlineWidth = OutlineComparison.Options().maximumWidth
 
   func validate() throws {
     if threshold.contains(where: { !($0 > 0) || !$0.isFinite }) {

@@ -22,7 +22,7 @@ struct OverlapReport: Encodable {
   /// Names of photos that are connected by overlaps, the largest group first.
   var groups: [[String]]
 
-  /// Maximum number of partners that a line lists.
+  /// Maximum number of partners that a line lists. Chosen.
   private static let listedPartners = 4
 
   init(_ survey: OverlapSurvey.Result, _ photos: [Photo]) {

@@ -13,7 +13,7 @@ package struct ShadedModel: Sendable {
     var color: SIMD3<Float>
   }
 
-  /// The color of pixels that show no surface, and of surfaces without color.
+  /// The color of pixels that show no surface. Chosen: the middle of the range.
   package static let background = SIMD3<Float>(repeating: 0.5)
 
   private let caster: RayCaster

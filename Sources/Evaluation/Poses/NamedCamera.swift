@@ -23,7 +23,7 @@ package struct NamedCamera: Hashable, Sendable {
 
 extension NamedCamera {
   /// Maximum deviation of a rotation matrix from orthonormality, and maximum skew relative to the
-  /// focal length: files may contain rounded numbers.
+  /// focal length: files may contain rounded numbers. Chosen.
   private static let rounding = 1e-3
   /// Maximum width and height of a photo in pixels. Chosen: JPEG ends at 65,535, and sizes in files
   /// may be of stitched photos.

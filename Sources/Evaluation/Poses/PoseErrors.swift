@@ -25,7 +25,7 @@ package struct PoseErrors: Codable, Hashable, Sendable {
     package var value: Double
   }
 
-  /// Thresholds of `areaUnderCurve`.
+  /// Thresholds of `areaUnderCurve`. Chosen.
   package static let thresholdsDegrees = [0.1, 0.5, 1, 5]
 }
 

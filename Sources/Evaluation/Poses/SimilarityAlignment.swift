@@ -6,13 +6,13 @@ import SceneModel
 /// Adds a robust variant to the least-squares fit of `SimilarityTransform.fitting`.
 package struct SimilarityAlignment: Sendable {
   package struct Options: Codable, Hashable, Sendable {
-    /// Number of samples of the robust variant.
+    /// Number of samples of the robust variant. Chosen.
     package var trials = 400
-    /// Inlier threshold as a fraction of the targets' mean distance from their centroid.
+    /// Inlier threshold as a fraction of the targets' mean distance from their centroid. Chosen.
     package var inlierFraction = 0.02
-    /// Number of pairs in a sample; a consensus set must have at least as many.
+    /// Number of pairs in a sample; a consensus set must have at least as many. Chosen.
     package var sampleSize = 4
-    /// Maximum number of fits to the growing consensus set.
+    /// Maximum number of fits to the growing consensus set. Chosen.
     package var refinements = 3
 
     package init() {}

@@ -28,7 +28,7 @@ struct BoundingTree<Item: BoundedItem>: Sendable {
     init() {}
   }
 
-  /// Maximum number of items in a leaf.
+  /// Maximum number of items in a leaf. Chosen.
   private static var leafSize: Int { 4 }
 
   private var items: [Item] = []

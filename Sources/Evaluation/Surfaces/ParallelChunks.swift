@@ -3,7 +3,7 @@ import Synchronization
 import SceneModel
 
 /// Maps contiguous ranges that cover `0..<count` on multiple threads and concatenates the results
-/// in order.
+/// in order. The size of a range is chosen.
 func parallelChunks<Element: Sendable>(
   _ count: Int, threads: Int, size chunkSize: Int = 4096,
   _ body: @Sendable (Range<Int>) -> [Element]

@@ -25,7 +25,7 @@ package struct SurfaceRegistration: Sendable {
     /// A step that moves the surface by less than this share of its size is the last one. Chosen:
     /// below the rounding of positions in files.
     package var tolerance = 1e-7
-    /// Number of threads; results are independent of it.
+    /// Number of threads; results are independent of it. Chosen.
     package var threadCount = 1
 
     package init() {}

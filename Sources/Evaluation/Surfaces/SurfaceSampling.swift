@@ -20,7 +20,8 @@ package struct SurfaceSampling: Sendable {
     var points: [SIMD3<Float>] = []
     points.reserveCapacity(count)
     var index = 0
-    // The sequence of the plastic number (Roberts 2018), a generalization of the golden ratio.
+    // Paper: Roberts 2018, the sequence of the plastic number, a generalization of the golden
+    // ratio.
     let steps = SIMD2(0.754_877_666_246_692_7, 0.569_840_290_998_053_2)
     var uv = SIMD2(0.5, 0.5)
     for sample in 0..<count {

@@ -3,7 +3,7 @@ import SceneModel
 /// Determines which points of a surface are visible to cameras.
 struct Visibility: Sendable {
   /// Start and end of the ray from a point to a camera, as fractions of their distance: the ray
-  /// must not hit the surface at the point itself.
+  /// must not hit the surface at the point itself. Chosen.
   private static let margin: Float = 1e-3
   private static let limit: Float = 0.999
 

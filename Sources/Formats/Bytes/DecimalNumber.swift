@@ -4,7 +4,7 @@ import Foundation
 enum DecimalNumber {
   /// Powers of ten that doubles represent exactly: 5²² < 2⁵³.
   private static let powers: [Double] = (0...22).map { pow(10, Double($0)) }
-  /// Integers of so many digits are exact, too: 10¹⁵ < 2⁵³ (IEEE 754).
+  /// Integers of so many digits are exact, too. Limit: 10¹⁵ < 2⁵³ (IEEE 754).
   private static let exactDigits = 15
   /// Longer words are no numbers. Chosen: doubles are written with 24 characters at most.
   private static let maximumLength = 64

@@ -3,7 +3,7 @@ import Foundation
 /// Temporary files and folders of `AtomicFile` and `AtomicDirectory` left behind by killed
 /// processes.
 package enum UnfinishedFiles {
-  /// Younger files, in seconds, may still be in use.
+  /// Younger files, in seconds, may still be in use. Chosen.
   static let minimumAge = 600.0
 
   /// Removes those in a folder: all, or only those for the file `name`.

@@ -6,7 +6,7 @@ import SceneModel
 /// With 8 bits the error is at most 0.9°, and 1.2° after the decoder has rounded to bytes again;
 /// more bits would need twice the memory, and the baked normal map has the fine relief.
 enum OctahedralNormal {
-  /// The normalized byte for 1.
+  /// The normalized byte for 1. Limit: the largest signed byte.
   private static let one: Float = 127
 
   /// The two coordinates in the square, the value of 1, and a zero. The vector (0, 1, 0) replaces

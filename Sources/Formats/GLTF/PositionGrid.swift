@@ -5,9 +5,9 @@ import SceneModel
 /// All parts of a model share the grid, so that their borders stay together. It is a cube, since
 /// normals would need another transform than positions if the axes had different scales.
 package struct PositionGrid: Equatable, Sendable {
-  /// Bits per coordinate. At 16 bits the error is at most a 130,000th of the model's longest side:
-  /// a tenth of a texel of an atlas of 8192² texels, which has about 5,000 across such a model. 14
-  /// bits would be enough up to 2048² texels, but save only 2 % of the file.
+  /// Bits per coordinate. Chosen: at 16 bits the error is at most a 130,000th of the model's
+  /// longest side: a tenth of a texel of an atlas of 8192² texels, which has about 5,000 across
+  /// such a model. 14 bits would be enough up to 2048² texels, but save only 2 % of the file.
   static let bits = 16
   private static let maximum = Float(1 << bits - 1)
 

@@ -75,7 +75,7 @@ package enum MetashapeCameras {
   private static func rigid(rotation r: [Double], translation t: [Double]) -> RigidTransform? {
     guard r.count == 9, t.count == 3 else { return nil }
     let rows = stride(from: 0, to: 9, by: 3).map { SIMD3(r[$0], r[$0 + 1], r[$0 + 2]) }
-    // Rounded numbers; PhotoScan 0.9 wrote six digits.
+    // Numbers are rounded. Chosen: PhotoScan 0.9 wrote six digits.
     let tolerance = 1e-3
     for i in 0..<3 {
       for j in 0..<3 where abs(rows[i].dot(rows[j]) - (i == j ? 1 : 0)) > tolerance { return nil }

@@ -68,7 +68,7 @@ struct PLYHeader {
 }
 
 extension PLYHeader {
-  /// Longer headers are rejected.
+  /// Longer headers are rejected. Chosen.
   private static let maximumLength = 1 << 16
 
   /// Parses a header; throws a `FormatFault`.

@@ -7,19 +7,20 @@ package struct StoredZip {
     var offset: UInt32
   }
 
+  /// Bytes to which the content of files is aligned. Limit: of the USDZ format.
   private static let alignment = 64
-  /// 1980-01-01 00:00, the zip epoch.
+  /// 1980-01-01 00:00. Limit: the zip epoch.
   private static let date: UInt16 = 1 << 5 | 1
   /// The version needed to extract: 1.0, for stored entries.
   private static let version: UInt16 = 10
   private static let localHeaderSignature: UInt32 = 0x0403_4B50
   private static let directoryEntrySignature: UInt32 = 0x0201_4B50
   private static let directoryEndSignature: UInt32 = 0x0605_4B50
-  /// Sizes in bytes, without the name and without a comment.
+  /// Sizes in bytes, without the name and without a comment. Limit: of the format.
   private static let (directoryEntrySize, directoryEndSize) = (46, 22)
   /// The ID of the extra field that pads entries; USD's own writer uses the same.
   private static let paddingFieldID: UInt16 = 0x1986
-  /// ID and length of an extra field.
+  /// ID and length of an extra field. Limit: of the format.
   private static let fieldHeaderSize = 4
 
   private var writer = ByteWriter()

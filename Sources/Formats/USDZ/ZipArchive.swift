@@ -11,7 +11,8 @@ struct ZipArchive {
 
   private static let directoryEnd: [UInt8] = [0x50, 0x4B, 5, 6]
   private static let (localHeader, directoryEntry): (UInt64, UInt64) = (0x0403_4B50, 0x0201_4B50)
-  /// The size of the end of the directory without a comment, and the longest comment.
+  /// The size of the end of the directory without a comment, and the longest comment. Limit: of the
+  /// format, whose lengths have 16 bits.
   private static let (endSize, maximumComment) = (22, 65_535)
 
   let bytes: [UInt8]

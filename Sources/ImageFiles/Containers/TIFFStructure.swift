@@ -15,9 +15,9 @@ package struct TIFFStructure: Sendable {
 
   /// Sizes in bytes of the field types 1…13.
   private static let sizes = [0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4]
-  /// More fields than any camera writes; the rest of a malicious directory is not read.
+  /// The rest of a malicious directory is not read. Chosen: more fields than any camera writes.
   private static let maximumEntries = 1024
-  /// Bytes before the directory in a maker note of Apple's phones.
+  /// Bytes before the directory in a maker note of Apple's phones. Limit: of the format.
   private static let appleHeaderSize = 14
 
   private let reader: ByteReader

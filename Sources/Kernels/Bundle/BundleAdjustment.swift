@@ -6,15 +6,18 @@ import SceneModel
 package struct BundleAdjustment: Sendable {
   /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum number of Levenberg–Marquardt iterations.
+    /// Maximum number of Levenberg–Marquardt iterations. Chosen: the default of Ceres, too.
     package var maximumIterations = 50
-    /// Residual at which the Huber loss changes from quadratic to linear, in pixels.
+    /// Residual at which the Huber loss changes from quadratic to linear, in pixels. Chosen.
     package var huberWidth = 1.0
-    /// Stops when the relative decrease of the cost falls below this.
+    /// Stops when the relative decrease of the cost falls below this. Chosen: the default of Ceres,
+    /// too.
     package var functionTolerance = 1e-6
     /// Above this number of free photos, reduced camera systems are factorized as sparse matrices.
+    /// Chosen.
     package var densePhotoLimit = 60
     /// Above this number of free photos, they are solved by preconditioned conjugate gradients.
+    /// Chosen.
     package var directPhotoLimit = 1000
 
     package init() {}

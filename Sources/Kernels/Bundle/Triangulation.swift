@@ -5,9 +5,9 @@ import CKernels
 package struct Triangulation: Sendable {
   /// Inlier criteria.
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum reprojection error of an inlier in pixels.
+    /// Maximum reprojection error of an inlier in pixels. Chosen: as in `IncrementalMapping`.
     package var maximumError = 4.0
-    /// Minimum triangulation angle in radians.
+    /// Minimum triangulation angle in radians. Chosen: as in `IncrementalMapping`.
     package var minimumAngle = 1.5 * Double.pi / 180
 
     package init() {}

@@ -4,9 +4,10 @@ import SceneModel
 /// Exact nearest-neighbor matching of descriptors: mutual best, with Lowe's ratio test in both
 /// directions.
 package struct DescriptorMatching: Hashable, Codable, Sendable {
-  /// Maximum ratio of the best to the second-best distance.
+  /// Maximum ratio of the best to the second-best distance. Chosen: stricter than the 0.8 of Lowe
+  /// 2004, section 7.1.
   package var ratio = 0.7
-  /// Maximum distance of a match; a descriptor has length 512.
+  /// Maximum distance of a match; a descriptor has length 512. Chosen.
   package var maximumDistance = 360.0
   /// All instruction sets give the same result.
   package var instructions = Instructions.automatic

@@ -19,11 +19,12 @@ package struct EpipolarMatching: Hashable, Codable, Sendable {
     }
   }
 
-  /// Maximum Sampson error of a match in units of the points.
+  /// Maximum Sampson error of a match in units of the points. Chosen: `PairVerification` has a
+  /// limit in pixels.
   package var maximumError = 1e-3
-  /// Maximum ratio of the best to the second-best distance.
+  /// Maximum ratio of the best to the second-best distance. Chosen: as in `DescriptorMatching`.
   package var ratio = 0.7
-  /// Maximum distance of a match; a descriptor has length 512.
+  /// Maximum distance of a match; a descriptor has length 512. Chosen.
   package var maximumDistance = 250.0
 
   package init() {}

@@ -4,26 +4,27 @@ import SceneModel
 /// SIFT detector with root-SIFT descriptors (Lowe, IJCV 2004; Arandjelović and Zisserman, CVPR
 /// 2012).
 package struct FeatureDetection: Hashable, Codable, Sendable {
-  /// Maximum number of features, the strongest of each grid cell.
+  /// Maximum number of features, the strongest of each grid cell. Chosen.
   package var maximumFeatures = 8000
-  /// Lowe's contrast threshold for intensities 0…1.
+  /// Lowe's contrast threshold for intensities 0…1. Chosen: lower than the 0.03 of Lowe 2004,
+  /// section 4.
   package var contrastThreshold = 0.02
   /// Bounds of a factor on the contrast threshold; the highest factor that still yields
-  /// `sufficientFeatures` is used.
+  /// `sufficientFeatures` is used. Chosen.
   package var lowestFactor = 0.8
   package var highestFactor = 1.2
-  /// Sufficient number of features of a photo.
+  /// Sufficient number of features of a photo. Chosen.
   package var sufficientFeatures = 6000
-  /// Lowe's limit on the ratio of principal curvatures.
+  /// Lowe's limit on the ratio of principal curvatures. Paper: Lowe 2004, section 4.1.
   package var edgeThreshold = 10.0
   /// Whether the first octave is the photo upsampled to twice its size, which detects small
   /// features, or the photo itself.
   package var doublesPhoto = true
-  /// Scale samples per octave.
+  /// Scale samples per octave. Paper: Lowe 2004, section 3.2.
   package var octaveLayers = 3
-  /// Gaussian blur of the first layer in pixels.
+  /// Gaussian blur of the first layer in pixels. Paper: Lowe 2004, section 3.3.
   package var sigma = 1.6
-  /// Grid cells along the longer side, over which the features are balanced.
+  /// Grid cells along the longer side, over which the features are balanced. Chosen.
   package var gridCells = 12
   /// All vector instruction sets give the same bytes; the portable path differs by rounding.
   package var instructions = Instructions.automatic

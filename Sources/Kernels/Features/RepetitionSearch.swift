@@ -4,8 +4,8 @@ import SceneModel
 /// Finds features that look like another feature of the same photo: those of wallpaper, tiles, or
 /// the bays of a facade.
 package struct RepetitionSearch: Hashable, Codable, Sendable {
-  /// Half the side of a descriptor's window, in units of the feature's scale σ: two bins of 3σ
-  /// (Lowe, IJCV 2004, section 6). Features whose windows overlap are no repetition.
+  /// Half the side of a descriptor's window, in units of the feature's scale σ; features whose
+  /// windows overlap are no repetition. Paper: Lowe 2004, section 6: two bins of 3σ.
   package var windowRadius = 6.0
   /// Maximum distance of the descriptors of two features that look the same; a descriptor has
   /// length 512.

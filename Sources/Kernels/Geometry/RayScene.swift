@@ -5,9 +5,9 @@ import SceneModel
 package final class RayScene: Sendable {
   /// Criteria of visibility in a view.
   package struct ObservationOptions: Hashable, Codable, Sendable {
-    /// Triangles at a smaller cosine count as not visible.
+    /// Triangles at a smaller cosine count as not visible. Chosen.
     package var minimumCosine: Float = 0.15
-    /// Minimum distance in pixels from the image border and from occluding edges.
+    /// Minimum distance in pixels from the image border and from occluding edges. Chosen.
     package var margin: Float = 4
 
     package init() {}

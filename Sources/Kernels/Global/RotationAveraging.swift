@@ -7,15 +7,15 @@ import SceneModel
 package struct RotationAveraging: Sendable {
   /// Solver parameters.
   package struct Options: Hashable, Codable, Sendable {
-    /// Iterations that minimize the sum of angles (L1).
+    /// Iterations that minimize the sum of angles (L1). Chosen.
     package var absoluteIterations = 20
-    /// Iterations with the robust loss.
+    /// Iterations with the robust loss. Chosen.
     package var robustIterations = 30
     /// The scale of the robust loss is three times the median error, clamped to these bounds in
-    /// degrees.
+    /// degrees. Chosen.
     package var minimumScaleDegrees = 0.3
     package var maximumScaleDegrees = 5.0
-    /// Stops when the mean change of a rotation falls below this, in radians.
+    /// Stops when the mean change of a rotation falls below this, in radians. Chosen.
     package var tolerance = 1e-6
 
     package init() {}

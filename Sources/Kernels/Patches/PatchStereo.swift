@@ -6,21 +6,24 @@ package enum PatchStereo {
   /// Parameters of patch optimization.
   package struct Options: Hashable, Codable, Sendable {
     /// Number of resolution levels, each half of the previous one, starting with the view's.
+    /// Chosen: the levels below half resolution gain nothing on boot, which has many sparse points
+    /// (BENCHMARKS.md, Contribution of each step).
     package var levelCount = 4
-    /// Propagation sweeps at the coarsest level.
+    /// Propagation sweeps at the coarsest level. Chosen.
     package var coarseSweeps = 2
-    /// Number of random perturbations of the current plane to test at the coarsest level.
+    /// Number of random perturbations of the current plane to test at the coarsest level. Chosen.
     package var perturbations = 3
-    /// Gauss–Newton steps.
+    /// Gauss–Newton steps. Chosen.
     package var refinementSteps = 2
-    /// Gray-level difference at which the bilateral weight is one half. On boot at half resolution,
-    /// 6 gave an F-score of 0.966 at 0.5 mm, 10 gave 0.965 (BENCHMARKS.md).
+    /// Gray-level difference at which the bilateral weight is one half. Measured: on boot at half
+    /// resolution, 6 gave an F-score of 0.966 at 0.5 mm, 10 gave 0.965 (BENCHMARKS.md,
+    /// Experiments).
     package var bilateralContrast: Float = 6
     /// Whether views propagate patches to each other.
     package var expandsAcrossViews = true
     /// Whether patches follow the surface instead of being fronto-parallel.
     package var estimatesNormals = true
-    /// Seed of the random perturbations.
+    /// Seed of the random perturbations. Chosen: any value serves.
     package var seed: UInt32 = 1
     /// Of the inner loops; results differ only by rounding.
     package var instructions = Instructions.automatic
@@ -30,34 +33,39 @@ package enum PatchStereo {
 
   /// Parameters of filtering and fusing patches.
   package struct FilterOptions: Hashable, Codable, Sendable {
-    /// Maximum 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm. Empirical; higher than
-    /// the thresholds in the literature for ZNCC alone, because noise in weak texture raises this
-    /// cost and each patch is also confirmed geometrically by other views.
+    /// Maximum 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm. Higher than the
+    /// thresholds in the literature for ZNCC alone, because noise in weak texture raises this cost
+    /// and each patch is also confirmed geometrically by other views. Measured: tuned on the photo
+    /// sets of BENCHMARKS.md.
     package var photometricThreshold: Float = 0.5
     /// Maximum 1 − ZNCC of any patch; between the two thresholds, where texture is weak, one more
-    /// view must agree. Empirical.
+    /// view must agree. Measured: as above.
     package var weakTextureThreshold: Float = 0.6
     /// Number of other views that must agree; with fewer views all but one, but at least one.
+    /// Measured: as above.
     package var minimumAgreeingViews = 2
     /// Maximum disparity in pixels between a patch and its confirmation, in the coarser view; the
-    /// parallax determines the corresponding depth difference. On boot at half resolution, 0.6 gave
-    /// an F-score of 0.966 at 0.5 mm, 0.8 gave 0.964 and 1 gave 0.965 (BENCHMARKS.md).
+    /// parallax determines the corresponding depth difference. Measured: on boot at half
+    /// resolution, 0.6 gave an F-score of 0.966 at 0.5 mm, 0.8 gave 0.964 and 1 gave 0.965
+    /// (BENCHMARKS.md, Experiments).
     package var reprojectionThreshold: Float = 0.6
-    /// Maximum relative difference of depth, for small parallax.
+    /// Maximum relative difference of depth, for small parallax. Measured: tuned on the photo sets
+    /// of BENCHMARKS.md.
     package var depthThreshold: Float = 0.01
-    /// Maximum angle between normals in degrees.
+    /// Maximum angle between normals in degrees. Measured: as above.
     package var normalThresholdDegrees: Float = 60
     /// Relative depth difference from which another view that sees past a patch counts as a
-    /// free-space violation.
+    /// free-space violation. Measured: as above.
     package var contradictionThreshold: Float = 0.01
     /// Number of erosion passes that remove boundary pixels similar to their rejected neighbors
-    /// (foreground fattening).
+    /// (foreground fattening). Chosen.
     package var depthEdgePasses = 1
-    /// Gray-level difference at which the similarity of two pixels is one half.
+    /// Gray-level difference at which the similarity of two pixels is one half. Chosen.
     package var depthEdgeContrast: Float = 10
     /// Connected components with fewer patches are removed.
     package var minimumIsland: Int
     /// Maximum disparity at which consistent patches are fused, in pixels of the coarser view.
+    /// Chosen: as `reprojectionThreshold`.
     package var fusionThreshold: Float = 0.6
     /// Of the inner loops; results differ only by rounding.
     package var instructions = Instructions.automatic
@@ -67,7 +75,7 @@ package enum PatchStereo {
     }
   }
 
-  /// Maximum number of source views of a reference view.
+  /// Maximum number of source views of a reference view. Limit: the bits of a byte.
   package static let maximumSources = 8
 
   /// Computes the patches of `map`'s view from its seeds and the source views, best first. Throws

@@ -75,7 +75,7 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     package var zncc: Double
   }
 
-  /// Maximum distance in pixels from the expected center.
+  /// Maximum distance in pixels from the expected center. Chosen.
   package var maximumShift = 3.0
 
   package init() {}

@@ -6,15 +6,15 @@ import SceneModel
 package struct Resection: Sendable {
   /// RANSAC parameters.
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum reprojection error of an inlier in pixels.
+    /// Maximum reprojection error of an inlier in pixels. Chosen.
     package var maximumError = 8.0
-    /// Maximum number of hypotheses.
+    /// Maximum number of hypotheses. Chosen.
     package var maximumIterations = 1000
-    /// Stops when the best hypothesis is optimal with this probability.
+    /// Stops when the best hypothesis is optimal with this probability. Chosen.
     package var confidence = 0.99999
-    /// With fewer inliers there is no pose.
+    /// With fewer inliers there is no pose. Chosen.
     package var minimumInliers = 15
-    /// Seed of the random samples.
+    /// Seed of the random samples. Chosen: any value serves.
     package var seed: UInt64 = 0
 
     package init() {}

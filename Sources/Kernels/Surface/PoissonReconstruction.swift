@@ -3,9 +3,10 @@ import SceneModel
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013).
 package struct PoissonReconstruction: Hashable, Codable, Sendable {
-  /// Octree depth: the smallest cells have a side of `scale × extent / 2^depth`.
+  /// Octree depth: the smallest cells have a side of `scale × extent / 2^depth`. Chosen.
   package var depth = 9
   /// Side of the cube in which the system is solved, relative to the largest extent of the points.
+  /// Chosen: the default of the code of Kazhdan and Hoppe 2013.
   package var scale = 1.1
   /// Memory that the solver may use, in bytes; the octree is less deep if it would need more.
   package var maximumBytes = Int.max

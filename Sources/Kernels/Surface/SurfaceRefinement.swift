@@ -11,19 +11,20 @@ import SceneModel
 package final class SurfaceRefinement {
   /// Parameters of the refinement.
   package struct Options: Hashable, Codable, Sendable {
-    /// Number of rounds of comparing photos and moving vertices by at most half a pixel.
+    /// Number of rounds of comparing photos and moving vertices by at most half a pixel. Chosen.
     package var rounds = 3
-    /// Maximum number of photos that each photo is compared with.
+    /// Maximum number of photos that each photo is compared with. Chosen.
     package var neighbors = 8
     /// Photos are compared by normalized cross-correlation in windows of `2 × radius + 1` pixels
-    /// per side.
+    /// per side. Chosen.
     package var radius = 6
-    /// Standard deviation of luminance, 0…255, below which a window counts as untextured; two to
-    /// three times the noise of photos.
+    /// Standard deviation of luminance, 0…255, below which a window counts as untextured. Chosen:
+    /// two to three times the noise of photos.
     package var noise: Float = 6
     /// Windows with a lower correlation are ignored: they show different surfaces, or noise.
+    /// Chosen.
     package var minimumCorrelation: Float = 0.4
-    /// Weight of smoothness relative to the photos, for edges of one pixel length.
+    /// Weight of smoothness relative to the photos, for edges of one pixel length. Chosen.
     package var smoothness: Float = 100
 
     package init() {}

@@ -9,7 +9,7 @@ package struct ChartClustering: Hashable, Codable, Sendable {
   /// Maximum half-angle of the cone that contains the normals of a chart, in radians.
   package var maximumAngle: Float = 1
   /// Charts with a smaller fraction of the surface area are merged with a neighbor if that does not
-  /// fold them.
+  /// fold them. Chosen.
   package var minimumShare: Float = 2e-4
 
   package init() {}

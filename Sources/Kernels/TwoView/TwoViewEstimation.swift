@@ -7,13 +7,14 @@ import SceneModel
 package struct TwoViewEstimation: Hashable, Codable, Sendable {
   /// Whether to estimate an essential matrix; otherwise a fundamental matrix.
   package var isCalibrated = true
-  /// Maximum Sampson error of an inlier in units of the points.
+  /// Maximum Sampson error of an inlier in units of the points. Chosen: `PairVerification` has a
+  /// limit in pixels.
   package var maximumError = 1e-3
-  /// Probability of finding the best model.
+  /// Probability of finding the best model. Chosen.
   package var confidence = 0.9999
-  /// Minimum number of samples to draw.
+  /// Minimum number of samples to draw. Chosen.
   package var minimumIterations = 30
-  /// Maximum number of samples to draw.
+  /// Maximum number of samples to draw. Chosen: as in `PairVerification`.
   package var maximumIterations = 1000
   /// Seed of the random samples.
   package var seed: UInt64 = 0

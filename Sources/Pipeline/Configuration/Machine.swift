@@ -9,7 +9,7 @@ package struct Machine: Hashable, Sendable {
   /// The processor's features by the kernel's names; nil if the kernel lists none.
   package var processorFeatures: Set<String>?
 
-  /// The minimum memory of a reconstruction, in bytes.
+  /// The minimum memory of a reconstruction, in bytes. Chosen.
   package static let neededMemoryBytes = 2 << 30
   /// The instruction sets that the numeric libraries are built for, on x86-64.
   static let neededFeatures = ["sse4_1", "sse4_2", "popcnt"]
@@ -86,9 +86,9 @@ package struct Machine: Hashable, Sendable {
 }
 
 extension Machine {
-  /// Memory in GiB from which on a run has the largest limits.
+  /// Memory in GiB from which on a run has the largest limits. Chosen.
   private static let sufficientGibibytes = 7.5
-  /// Photos per GiB of memory: 1000 photos need somewhat less than `sufficientGibibytes`.
+  /// Photos per GiB of memory: 1000 photos need somewhat less than `sufficientGibibytes`. Chosen.
   private static let photosPerGibibyte = 134.0
 
   /// With 7.5 GiB of memory or more, 1000 photos of at most 16384 pixels per side. With less, in

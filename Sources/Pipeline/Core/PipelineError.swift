@@ -61,7 +61,7 @@ package enum PipelineError: LocalizedError, Equatable, Sendable {
 }
 
 extension PipelineError {
-  /// The minimum number of photos: two have a relative pose, but give no usable surface.
+  /// The minimum number of photos. Limit: two have a relative pose, but give no usable surface.
   package static let minimumPhotos = 3
 
   /// Throws `tooFewPhotos` for fewer than `needed`.

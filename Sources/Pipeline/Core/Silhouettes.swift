@@ -8,14 +8,15 @@ import SceneModel
 /// the object.
 package struct Silhouettes: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// The maximum number of pixels of a mask.
+    /// The maximum number of pixels of a mask. Chosen.
     package var maximumPixels = 500_000
     /// The margin around masks, as a fraction of a photo's longer side: the tolerance for errors of
-    /// poses and of hand-drawn outlines.
+    /// poses and of hand-drawn outlines. Chosen.
     package var margin = 0.003
-    /// The minimum number of photos whose masks must exclude a point to reject it.
+    /// The minimum number of photos whose masks must exclude a point to reject it. Chosen: a single
+    /// mask may be wrong.
     package var minimumPhotos = 2
-    /// The same, as a share of the photos with masks that contain the point in their frame.
+    /// The same, as a share of the photos with masks that contain the point in their frame. Chosen.
     package var minimumShare = 0.15
 
     package init() {}

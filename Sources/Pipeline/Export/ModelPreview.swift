@@ -8,9 +8,9 @@ import SceneModel
 package struct ModelPreview: Sendable {
   /// Parameters of the preview.
   package struct Options: Hashable, Codable, Sendable {
-    /// Pixels of a picture's longer side.
+    /// Pixels of a picture's longer side. Chosen.
     package var tileSide = 480
-    /// Pictures per row.
+    /// Pictures per row. Chosen: two rows of the eight views of `Turntable`.
     package var columns = 4
     var turntable = Turntable.Options()
     var picture = ModelPicture.Options()

@@ -6,11 +6,11 @@ import SceneModel
 /// Triangles without a partner stay, and no quad crosses a texture seam.
 struct QuadPairing: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum angle between the normals of the two triangles, in degrees.
+    /// Maximum angle between the normals of the two triangles, in degrees. Chosen.
     var maximumBendDegrees: Float = 40
-    /// Maximum deviation of a corner from a right angle, in degrees.
+    /// Maximum deviation of a corner from a right angle, in degrees. Chosen.
     var maximumSkewDegrees: Float = 75
-    /// Rounds of augmentation, which split a pair to form two others.
+    /// Rounds of augmentation, which split a pair to form two others. Chosen.
     var rounds = 8
   }
 

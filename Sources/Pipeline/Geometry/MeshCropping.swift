@@ -12,6 +12,7 @@ struct MeshCropping: Sendable {
 
   /// Shares of the diagonal of the box or the surface, whichever is smaller: points within
   /// `tolerance` of a face count as on it; outside triangles keep a distance of `clearance`.
+  /// Chosen: the first is a few steps of single precision.
   private static let (tolerance, clearance): (Float, Float) = (1e-6, 0.005)
 
   var box: OrientedBox

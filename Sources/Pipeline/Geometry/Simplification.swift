@@ -7,7 +7,7 @@ import SceneModel
 package struct Simplification: Sendable {
   /// Parameters of simplification.
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum number of triangles.
+    /// Maximum number of triangles. Chosen: that of the medium level (`DetailSpecification`).
     package var maximumTriangles = 99_999
 
     package init(maximumTriangles: Int = 99_999) { self.maximumTriangles = maximumTriangles }

@@ -8,7 +8,7 @@ package struct ImageAlignment: Sendable {
     /// Whether the photos are in the order of capture.
     package var ordering = SampleOrdering.unordered
     /// Ratio of the ratio test at high `features.sensitivity`. Faint features are less distinctive;
-    /// false matches that pass are left to geometric verification.
+    /// false matches that pass are left to geometric verification. Paper: Lowe 2004, section 7.1.
     package var highSensitivityRatio = 0.8
     /// Minimum number of registered photos; fewer are an error.
     package var minimumPhotos = PipelineError.minimumPhotos

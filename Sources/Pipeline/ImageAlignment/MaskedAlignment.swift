@@ -9,11 +9,11 @@ import SceneModel
 /// object was rotated in front of a static camera.
 struct MaskedAlignment {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum fraction of the photos that must be registered by the masked object alone.
+    /// Minimum fraction of the photos that must be registered by the masked object alone. Chosen.
     var minimumShare = 0.6
-    /// Minimum number of observations inside its mask for a photo to agree with the object.
+    /// Minimum number of observations inside its mask for a photo to agree with the object. Chosen.
     var minimumObservations = 8
-    /// Minimum fraction of the registered photos that must agree.
+    /// Minimum fraction of the registered photos that must agree. Chosen.
     var minimumAgreement = 0.6
 
     init() {}

@@ -7,9 +7,9 @@ import SceneModel
 /// one half: notches are filled with the surface as solved, spikes are cut off.
 struct BoundarySmoothing: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Diffusion steps: the boundary is smooth over about √steps edges.
+    /// Diffusion steps: the boundary is smooth over about √steps edges. Chosen.
     var steps = 80
-    /// Only faces within this many edges of the boundary can change.
+    /// Only faces within this many edges of the boundary can change. Chosen.
     var reach = 14
 
     init() {}

@@ -10,26 +10,28 @@ struct HoleFilling {
   struct Options: Hashable, Codable, Sendable {
     /// Fill holes of any size, for an object, which has an inside.
     var fillsLarge = true
-    /// A hole with an extent below this share of the surface's is small.
+    /// A hole with an extent below this share of the surface's is small. Chosen.
     var smallShare = 0.05
     /// A hole below this share is filled regardless of free space: a passage through an object is
-    /// not a hole in its surface.
+    /// not a hole in its surface. Chosen.
     var tinyShare = 0.015
-    /// Maximum share of a small hole's area in free space for it to be filled.
+    /// Maximum share of a small hole's area in free space for it to be filled. Chosen.
     var smallFreeShare = 0.05
-    /// The same for a membrane.
+    /// The same for a membrane. Chosen.
     var membraneFreeShare = 0.2
     /// Openings of a membrane that photos see through stay open from this share of its area on.
+    /// Chosen.
     var minimumOpeningShare = 0.01
     /// How far below the hole free space is evaluated, in world units: rays that graze the surface
-    /// don't reach this depth.
+    /// don't reach this depth. Chosen: `SurfaceTrimming` sets it to the side of a cell.
     var depth: Float = 0
     /// Surface below this share of the object's height above its support was in contact with it.
-    /// Rays that pass just above the support are no evidence of a hole.
+    /// Rays that pass just above the support are no evidence of a hole. Chosen.
     var contactShare = 0.02
     /// Vertices within this many edges of a hole's boundary are not projected onto the support.
+    /// Chosen.
     var boundaryMargin = 6
-    /// Maximum number of solver iterations for a membrane.
+    /// Maximum number of solver iterations for a membrane. Chosen.
     var iterations = 400
 
     init() {}

@@ -12,11 +12,11 @@ package struct MeshGeneration {
     package var isolatesObject = true
     /// Fill the unobserved parts of an isolated object; otherwise large holes stay open.
     package var closesObject = true
-    /// Maximum octree depth; 9 resolves 1/460, 10 resolves 1/930 of the object's size.
+    /// Maximum octree depth; 9 resolves 1/460, 10 resolves 1/930 of the object's size. Chosen.
     package var maximumDepth = 9
-    /// Share of photos with masks from which on the masks determine what is the object.
+    /// Share of photos with masks from which on the masks determine what is the object. Chosen.
     package var sufficientMaskShare = 0.5
-    /// Minimum number of finite points of a cloud.
+    /// Minimum number of finite points of a cloud. Chosen.
     package var minimumPoints = 100
     var isolation = ObjectIsolation.Options()
     var sceneTrimming = SceneTrimming.Options()
@@ -28,7 +28,7 @@ package struct MeshGeneration {
     var cleaning = MeshCleaning.Options()
 
     /// Number of pixels per view up to which the default depth suffices, and the largest depth for
-    /// more.
+    /// more. Chosen: the first is the medium level (`DetailSpecification`).
     private static let (basePixels, largestDepth) = (500_000, 12)
 
     package init() {}

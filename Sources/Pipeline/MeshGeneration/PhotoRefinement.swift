@@ -6,7 +6,7 @@ import SceneModel
 /// and Visibility-Consistent Dense Multiview Stereo", PAMI 2012).
 package struct PhotoRefinement {
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum number of pixels of a photo.
+    /// Maximum number of pixels of a photo. Chosen.
     package var maximumPixels = 8_000_000
     package var surface = SurfaceRefinement.Options()
 

@@ -6,13 +6,14 @@ import SceneModel
 /// (Kazhdan and Hoppe, ACM TOG 2013), with cells about as large as the sample spacing.
 struct PoissonSurface {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum octree depth. Each level quadruples time and memory.
+    /// Maximum octree depth. Each level quadruples time and memory. Chosen.
     var maximumDepth = 10
-    /// Minimum depth, also for a cloud of unknown spacing.
+    /// Minimum depth, also for a cloud of unknown spacing. Chosen.
     var minimumDepth = 5
-    /// Side of the solved cube relative to the cloud's largest extent.
+    /// Side of the solved cube relative to the cloud's largest extent. Chosen: the default of the
+    /// code of Kazhdan and Hoppe 2013.
     var scale = 1.1
-    /// Minimum number of points.
+    /// Minimum number of points. Chosen.
     var minimumPoints = 20
     /// Memory of the solver, in bytes; cells are larger if it would need more.
     var maximumBytes = Int.max

@@ -6,16 +6,16 @@ import SceneModel
 /// small floating components.
 struct SceneTrimming {
   struct Options: Hashable, Codable, Sendable {
-    /// Points with a footprint above this many medians are distant background.
+    /// Points with a footprint above this many medians are distant background. Chosen.
     var maximumFootprints = 8.0
     /// Points whose viewing directions differ by less than this, in degrees, have no reliable
-    /// depth.
+    /// depth. Chosen.
     var minimumParallaxDegrees = 1.0
-    /// Side of a voxel for connecting points, in median footprints.
+    /// Side of a voxel for connecting points, in median footprints. Chosen.
     var connectionFootprints = 6.0
-    /// Components with fewer points are removed.
+    /// Components with fewer points are removed. Chosen.
     var minimumPoints = 100
-    /// The same as a share of all points.
+    /// The same as a share of all points. Chosen.
     var minimumShare = 0.0005
 
     init() {}

@@ -7,20 +7,21 @@ import SceneModel
 /// the boundary; `HoleFilling` decides which of the holes are filled again.
 struct SurfaceTrimming {
   struct Options: Hashable, Codable, Sendable {
-    /// Faces farther than this many spacings from the nearest sample are unsupported.
+    /// Faces farther than this many spacings from the nearest sample are unsupported. Chosen.
     var maximumSpacings = 2.5
     /// Faces farther than this many spacings from any sample are removed if photos see through
-    /// them.
+    /// them. Chosen.
     var contradictedSpacings = 1.5
-    /// Number of photos that must see through a face.
+    /// Number of photos that must see through a face. Chosen.
     var contradictingPhotos = 3
     /// Maximum distance from a sample, in spacings, at which a notch in the boundary is filled.
+    /// Chosen.
     var notchSpacings = 5.0
-    /// How far in front of its point a ray ends, in spacings.
+    /// How far in front of its point a ray ends, in spacings. Chosen.
     var clearanceSpacings = 5.0
-    /// Side of the free-space cells, in spacings.
+    /// Side of the free-space cells, in spacings. Chosen.
     var cellSpacings = 2.0
-    /// Maximum number of points that rays are cast to.
+    /// Maximum number of points that rays are cast to. Chosen.
     var maximumRayPoints = 500_000
     var boundary = BoundarySmoothing.Options()
     var holeFilling = HoleFilling.Options()

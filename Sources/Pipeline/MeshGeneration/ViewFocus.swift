@@ -3,11 +3,11 @@ import SceneModel
 /// The focus of the photos: the point nearest to all optical axes, and the share of photos that
 /// have a point in their frame.
 struct ViewFocus: Sendable {
-  /// Number of rounds of iteratively reweighted least squares.
+  /// Number of rounds of iteratively reweighted least squares. Chosen.
   private static let rounds = 10
-  /// Minimum residual that a weight is the inverse of, in typical depths.
+  /// Minimum residual that a weight is the inverse of, in typical depths. Chosen.
   private static let minimumResidual = 0.05
-  /// Weight of an anchor relative to that of its axis.
+  /// Weight of an anchor relative to that of its axis. Chosen.
   private static let anchorWeight = 0.05
 
   /// World frame.

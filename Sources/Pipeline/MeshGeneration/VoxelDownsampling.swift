@@ -10,12 +10,12 @@ import SceneModel
 /// thumb: as many samples as cells).
 struct VoxelDownsampling {
   struct Options: Hashable, Codable, Sendable {
-    /// Side of a voxel in median footprints.
+    /// Side of a voxel in median footprints. Chosen.
     var voxelFootprints = 1.0
-    /// Minimum weight of a point; weights are the points' consistencies.
+    /// Minimum weight of a point; weights are the points' consistencies. Chosen.
     var minimumWeight = 0.01
     /// A point needs this number of others within `outlierRadius` spacings: isolated points are
-    /// mostly false matches, and each distorts a Poisson surface.
+    /// mostly false matches, and each distorts a Poisson surface. Chosen.
     var outlierNeighbors = 5
     var outlierRadius = 4.0
 
@@ -55,7 +55,7 @@ struct VoxelDownsampling {
     _ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double, _ control: KernelControl
   ) throws -> Result {
     let members = Members(of: grid.cells, count: grid.cellCount)
-    let chunk = 8192
+    let chunk = 8192  // Cells of a unit of parallel work. Chosen.
     let parts = try control.parallelMap((grid.cellCount + chunk - 1) / chunk) { part in
       average(
         part * chunk..<min(grid.cellCount, (part + 1) * chunk), of: members, cloud, Float(size))

@@ -8,20 +8,21 @@ import SceneModel
 /// is reconstructed and separated as a surface.
 struct BackdropDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Width of the border, as a share of the photo's shorter side.
+    /// Width of the border, as a share of the photo's shorter side. Chosen.
     var borderWidth = 0.02
     /// Colors whose channels differ by at most this from the backdrop's belong to it, 0…255.
+    /// Chosen.
     var tolerance = 24
-    /// Maximum number of colors, and the share of the smooth border that each must have.
+    /// Maximum number of colors, and the share of the smooth border that each must have. Chosen.
     var maximumColors = 3
     var minimumColorShare = 0.1
-    /// Maximum range of the luma in a window of three by three pixels, 0…255.
+    /// Maximum range of the luma in a window of three by three pixels, 0…255. Chosen.
     var maximumRange: UInt8 = 6
-    /// The share of the border that must be smooth and have a color of the backdrop. With these
-    /// limits it is 0.9 for black velvet (dinoRing, templeSparse) and a white board (axe), and 0.7
+    /// The share of the border that must be smooth and have a color of the backdrop. Measured: with
+    /// these limits, 0.9 for black velvet (dinoRing, templeSparse) and a white board (axe), and 0.7
     /// for a pale, faintly textured table (boot).
     var minimumBorderShare = 0.8
-    /// The share of the photos that must show a backdrop.
+    /// The share of the photos that must show a backdrop. Chosen.
     var minimumPhotoShare = 0.8
 
     init() {}

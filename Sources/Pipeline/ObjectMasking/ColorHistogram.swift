@@ -3,6 +3,7 @@ import SceneModel
 /// A distribution of colors: a histogram of RGB values with 32 levels per channel, smoothed by a
 /// binomial filter.
 struct ColorHistogram: Sendable {
+  /// Levels of each channel. Chosen.
   static let levels = 32
   /// Number of bins.
   static let count = levels * levels * levels

@@ -10,23 +10,23 @@ import SceneModel
 /// volumetric graph-cuts", IVC 2010).
 struct MaskEstimation: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Number of rounds of cuts, at least two.
+    /// Number of rounds of cuts, at least two. Chosen.
     var rounds = 2
-    /// Log-odds of a pixel inside a region of surface points, away from its outline.
+    /// Log-odds of a pixel inside a region of surface points, away from its outline. Chosen.
     var coreEvidence: Float = 5
-    /// The same near the outline, where the coarse reconstruction is inaccurate.
+    /// The same near the outline, where the coarse reconstruction is inaccurate. Chosen.
     var rimEvidence: Float = 1.5
-    /// Log-odds of a pixel without a surface point.
+    /// Log-odds of a pixel without a surface point. Chosen.
     var emptyEvidence: Float = -1
-    /// The same where the pixel is inside the visual hull.
+    /// The same where the pixel is inside the visual hull. Chosen.
     var hullEvidence: Float = 1
-    /// Log-odds of all pixels outside the visual hull are reduced by this.
+    /// Log-odds of all pixels outside the visual hull are reduced by this. Chosen.
     var outsideEvidence: Float = 4
     /// Weight of the log-likelihood ratio of the colors, and its maximum magnitude: neighboring
-    /// pixels are not independent.
+    /// pixels are not independent. Chosen.
     var colorWeight: Float = 0.6
     var maximumColorRatio: Float = 6
-    /// Share of the photo's own surroundings in the model of the surroundings' colors.
+    /// Share of the photo's own surroundings in the model of the surroundings' colors. Chosen.
     var localShare: Float = 0.5
     var cut = ImageCut()
     var hull = VisualHull.Options()

@@ -12,8 +12,8 @@ struct MovedObjectAlignment {
   struct Options: Hashable, Codable, Sendable {
     var join = PlacementJoin.Options()
     /// Duration of the alignment of an object that moves, relative to that of a scene that stands
-    /// still. Measured with two threads: 1.43 for a flower pot on a turntable, 1.48 for MicroPasts'
-    /// axe.
+    /// still. Measured: with two threads, 1.43 for a flower pot on a turntable, 1.48 for
+    /// MicroPasts' axe.
     var relativeDuration = 1.5
 
     init() {}

@@ -11,32 +11,32 @@ struct ObjectMasking {
   struct Options: Hashable, Codable, Sendable {
     /// Whether to mask the object if the photos have no masks.
     var isEnabled = true
-    /// The coarse reconstruction; only its steps at half resolution are used.
+    /// The coarse reconstruction; only its steps at half resolution are used. Chosen.
     var coarse = PointCloudGeneration.Options(maximumPixelsPerView: 160_000)
     var backdrop = BackdropDetection.Options()
     var shadows = ShadowPlane.Options()
     var isolation = ObjectIsolation.Options()
-    /// Maximum number of pixels of a mask.
+    /// Maximum number of pixels of a mask. Chosen.
     var maximumPixels = 300_000
-    /// Radius of the discs that points are drawn as, in footprints.
+    /// Radius of the discs that points are drawn as, in footprints. Chosen.
     var discRadius: Float = 0.75
     /// Coarse points of two placements of an object are of the same surface if they are within this
-    /// many footprints of each other.
+    /// many footprints of each other. Chosen.
     var neighborFootprints: Float = 1
     /// Radius of the discs that features of the surroundings are drawn as, in their scales, and its
-    /// maximum in pixels.
+    /// maximum in pixels. Chosen.
     var featureRadius: Float = 1.5
     var maximumFeatureRadius: Float = 4
     /// Distance from the outline of a region of points within which the region is inaccurate, in
-    /// pixels of the coarse reconstruction: half the width of its patches.
+    /// pixels of the coarse reconstruction. Limit: half the width of its patches.
     var rim = 2.5
     /// Distance from the object's points up to which its mask extends, as a share of the diagonal
-    /// of their bounding box in the photo.
+    /// of their bounding box in the photo. Chosen.
     var reach = 0.12
     var estimation = MaskEstimation.Options()
-    /// Masks that agree less with the visual hull of all masks are not used.
+    /// Masks that agree less with the visual hull of all masks are not used. Chosen.
     var minimumAgreement = 0.7
-    /// If fewer masks than this share of the photos are usable, none is used.
+    /// If fewer masks than this share of the photos are usable, none is used. Chosen.
     var minimumShare = 0.6
 
     init() {}

@@ -7,7 +7,7 @@ struct PlacementJoin {
 
   struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos that the joined alignment must register, as a share of those of the
-    /// largest placement.
+    /// largest placement. Chosen.
     var minimumShare = 0.9
     /// If the alignment by the object misses more than this share of the photos, it is repeated
     /// with more features, which takes three to four times as long. Chosen.

@@ -10,24 +10,27 @@ import SceneModel
 /// finds its outline.
 struct SkyDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum number of pixels of a mask.
+    /// Maximum number of pixels of a mask. Chosen.
     var maximumPixels = 300_000
-    /// Maximum range of the luma in a window of three by three pixels, 0…255.
+    /// Maximum range of the luma in a window of three by three pixels, 0…255. Measured: found on
+    /// sceaux, saharov32 and lund (BENCHMARKS.md, Blur, concerns and sky).
     var maximumRange: UInt8 = 8
-    /// Minimum sine of the elevation of a pixel; not 0, as the up direction is inaccurate.
+    /// Minimum sine of the elevation of a pixel; not 0, as the up direction is inaccurate. Chosen.
     var minimumElevation = -0.2
-    /// Minimum area of a region, as a share of the photo.
+    /// Minimum area of a region, as a share of the photo. Chosen.
     var minimumArea = 0.005
-    /// Maximum density of observations in a region, relative to that of the photo. Found on sceaux,
-    /// saharov32 and lund, where that of sky is 0.025 at most.
+    /// Maximum density of observations in a region, relative to that of the photo. Measured: that
+    /// of sky is 0.025 at most in sceaux, saharov32 and lund.
     var maximumDensity = 0.05
-    /// A region is bright if its mean luma is above this quantile of the photo's.
+    /// A region is bright if its mean luma is above this quantile of the photo's. Measured: found
+    /// on sceaux, saharov32 and lund (BENCHMARKS.md, Blur, concerns and sky).
     var brightQuantile = 0.75
-    /// A region is blue if blue exceeds red by this factor, and its luma the median.
+    /// A region is blue if blue exceeds red by this factor, and its luma the median. Measured: as
+    /// above.
     var blueRatio: Float = 1.15
-    /// Width of the band around a region in which the cut finds the outline, in pixels.
+    /// Width of the band around a region in which the cut finds the outline, in pixels. Chosen.
     var band = 6
-    /// Weight of the log-likelihood ratio of the colors.
+    /// Weight of the log-likelihood ratio of the colors. Chosen: as in `MaskEstimation`.
     var colorWeight: Float = 0.6
     var cut = ImageCut()
   }

@@ -5,11 +5,11 @@ import SceneModel
 /// The volume that most masks agree on (visual hull; Laurentini, PAMI 1994), on a grid of cubes.
 struct VisualHull: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Number of cubes along the longest side of the box.
+    /// Number of cubes along the longest side of the box. Chosen.
     var resolution = 96
-    /// The share of the photos with a cube in their frame whose masks must contain it.
+    /// The share of the photos with a cube in their frame whose masks must contain it. Chosen.
     var minimumShare = 0.85
-    /// The box is larger than that of the object's points by this share of its diagonal.
+    /// The box is larger than that of the object's points by this share of its diagonal. Chosen.
     var margin = 0.08
 
     init() {}

@@ -7,9 +7,10 @@ package struct CloudMetrics: Sendable {
   /// Parameters of the metrics.
   package struct Options: Hashable, Codable, Sendable {
     /// A sparse point is covered if the nearest dense point is within this many of its footprints.
+    /// Chosen.
     package var coverageFootprints = 3.0
     /// Share of the points trimmed at each side of the box whose volume counts, so that outliers
-    /// don't enlarge it.
+    /// don't enlarge it. Chosen.
     package var boxQuantile = 0.01
 
     package init() {}

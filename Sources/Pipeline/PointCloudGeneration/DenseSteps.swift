@@ -287,7 +287,7 @@ extension DenseSteps {
     private let shares: [PatchWorkspace.Step: Double]
     private var done = 0.0
 
-    /// Relative cost of each step per view.
+    /// Relative cost of each step per view. Chosen: for progress only.
     private static let costs: [(PatchWorkspace.Step, Double)] = [
       (.view, 0.03), (.coarse, 0.13), (.coarseStates, 0.02), (.coarseCompleted, 0.06),
       (.patches, 0.35), (.states, 0.08), (.completed, 0.17), (.completedStates, 0.08),

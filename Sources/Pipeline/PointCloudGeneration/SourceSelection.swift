@@ -6,14 +6,15 @@ import SceneModel
 /// 2016).
 struct SourceSelection {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum number of sources of a view.
+    /// Maximum number of sources of a view. Limit: `PatchStereo.maximumSources`.
     var maximumSources = 8
-    /// Optimal triangulation angle for stereo in degrees.
+    /// Optimal triangulation angle for stereo in degrees. Chosen.
     var bestAngleDegrees = 11.0
     /// Standard deviations, in degrees, of the Gaussian weight below and above the optimal angle.
+    /// Chosen.
     var narrowWidthDegrees = 5.0
     var wideWidthDegrees = 14.0
-    /// Views that share fewer points are not sources.
+    /// Views that share fewer points are not sources. Chosen.
     var minimumSharedPoints = 5
   }
 

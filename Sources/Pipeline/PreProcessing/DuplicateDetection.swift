@@ -6,16 +6,17 @@ import SceneModel
 /// more than encoding changes them; therefore every part of the picture must agree.
 package struct DuplicateDetection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum root mean square difference, in gray levels, of any block of two thumbnails.
+    /// Maximum root mean square difference, in gray levels, of any block of two thumbnails. Chosen.
     package var maximumBlockDifference = 2.0
     /// Additional tolerance as a fraction of the block's standard deviation: encoders lose more in
     /// strong texture, while consecutive photos differ by more than the standard deviation itself.
+    /// Chosen.
     package var maximumShareOfContrast = 0.15
-    /// Side of a block in thumbnail pixels.
+    /// Side of a block in thumbnail pixels. Chosen.
     package var blockSide = 16
-    /// Side of the reduced thumbnails that are compared first, in pixels.
+    /// Side of the reduced thumbnails that are compared first, in pixels. Chosen.
     package var coarseSide = 16
-    /// Maximum relative difference between the aspect ratios of one picture in two sizes.
+    /// Maximum relative difference between the aspect ratios of one picture in two sizes. Chosen.
     package var maximumAspectDifference = 0.01
 
     package init() {}

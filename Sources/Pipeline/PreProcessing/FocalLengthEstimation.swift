@@ -9,16 +9,18 @@ package struct FocalLengthEstimation: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Assumed focal length without metadata, as a multiple of the photo's longer side. 1.2 is a
     /// horizontal field of view of 45°, between the main cameras of phones and standard lenses.
+    /// Chosen: COLMAP's default, too.
     package var assumedFactor = 1.2
     /// Width of 35 mm film in millimeters. Cameras that round the equivalent mostly compare widths,
-    /// not diagonals; for 3:2 sensors there is no difference.
+    /// not diagonals; for 3:2 sensors there is no difference. Limit: a frame of 35 mm film is 36 ×
+    /// 24 mm.
     package var filmWidth = 36.0
     /// Bounds of a plausible focal length as a multiple of the photo's longer side, and of a
-    /// plausible sensor width in millimeters; metadata beyond them is ignored.
+    /// plausible sensor width in millimeters; metadata beyond them is ignored. Chosen.
     package var plausibleFactors = 0.2...50
     package var plausibleSensorWidths = 1.0...200
     /// Maximum difference in millimeters between the focal length and its rounded equivalent on a
-    /// full-frame body.
+    /// full-frame body. Limit: equivalents are whole millimeters.
     package var equivalentRounding = 0.5
 
     package init() {}

@@ -29,7 +29,7 @@ struct MaskInspection: Sendable {
   }
 
   /// Maximum relative deviation of a side from the photo's aspect ratio, in addition to one pixel
-  /// of rounding.
+  /// of rounding. Chosen.
   static let aspectTolerance = 0.005
 
   /// Reads a mask from its file; throws if it is unusable.

@@ -13,12 +13,14 @@ package struct PhotoIngestion: Sendable {
     package var duplicates = DuplicateDetection.Options()
     package var blur = BlurDetection.Options()
     package var focalLength = FocalLengthEstimation.Options()
-    /// Maximum number of photos; further ones are rejected.
+    /// Maximum number of photos; further ones are rejected. Chosen: `Machine.limits` sets that of
+    /// the machine.
     package var maximumPhotos = 1000
-    /// Maximum number of bytes used to process one photo.
+    /// Maximum number of bytes used to process one photo. Chosen: `Machine.limits` sets that of the
+    /// machine.
     package var memoryBudget = 1 << 30
     /// Bytes that a stage needs per pixel of a photo; the scale space of feature detection needs
-    /// the most.
+    /// the most. Chosen.
     package var bytesPerPixel = 64
     /// A folder of masks that replaces the one inside the folder of photos.
     package var maskFolder: URL?
@@ -108,7 +110,7 @@ package struct PhotoIngestion: Sendable {
     let companions = RawCompanions(files)
     var accepted: [InspectedPhoto] = []
     var rejected: [RejectedPhoto] = []
-    let blockSize = 64
+    let blockSize = 64  // Photos that are inspected at a time. Chosen.
     for start in stride(from: 0, to: files.count, by: blockSize) {
       let block = start..<min(start + blockSize, files.count)
       let control = context.control.part(

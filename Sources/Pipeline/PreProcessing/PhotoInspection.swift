@@ -7,12 +7,12 @@ import SceneModel
 package struct PhotoInspection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     package var limits = ImageCodec.Limits()
-    /// Minimum number of pixels; smaller photos show too little to align.
+    /// Minimum number of pixels; smaller photos show too little to align. Chosen.
     package var minimumPixels = 100_000
-    /// Minimum number of pixels of the shorter side.
+    /// Minimum number of pixels of the shorter side. Chosen.
     package var minimumSide = 240
     /// Pixels of the copy that sharpness is measured on, which makes photos of all sizes
-    /// comparable.
+    /// comparable. Chosen.
     package var sharpnessPixels = 1_000_000
     /// Whether masks are read.
     package var usesMasks = true
@@ -20,7 +20,7 @@ package struct PhotoInspection: Sendable {
     package init() {}
   }
 
-  /// Longer side of the thumbnail in pixels.
+  /// Longer side of the thumbnail in pixels. Chosen: sixteen blocks of `DuplicateDetection`.
   static let thumbnailSide = 256
 
   package var options: Options

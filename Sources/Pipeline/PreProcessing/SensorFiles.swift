@@ -11,7 +11,7 @@ import SceneModel
 struct SensorFiles {
   /// The other files, in their original order.
   private(set) var photos: [URL] = []
-  /// Larger files, in bytes, hold something other than three numbers.
+  /// Larger files, in bytes, hold something other than three numbers. Chosen.
   private static let maximumGravityFileSize = 4096
 
   /// Depth and gravity files by the lowercase stem of their photo.

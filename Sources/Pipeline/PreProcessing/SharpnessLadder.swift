@@ -6,7 +6,7 @@ package struct SharpnessLadder: Equatable, Sendable {
   /// The largest number of pixels first.
   package var steps: [(pixels: Double, sharpness: Double)]
 
-  /// Scales between the sizes, and their number.
+  /// Scales between the sizes, and their number. Chosen.
   private static let (reduction, count) = (0.5, 4)
 
   package init(steps: [(pixels: Double, sharpness: Double)]) { self.steps = steps }

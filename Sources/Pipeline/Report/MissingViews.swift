@@ -7,15 +7,16 @@ import SceneModel
 /// "View planning for automated three-dimensional object reconstruction", ACM CSUR 2003).
 struct MissingViews {
   struct Options {
-    /// A part of the surface needs this many photos: with two, nothing confirms a match.
+    /// A part of the surface needs this many photos: with two, nothing confirms a match. Limit:
+    /// three photos are the fewest that confirm each other.
     var sufficientPhotos = 3
-    /// Parts that are smaller, as a share of the area, are not worth a photo. With 6 complete
-    /// rendered sets (dense5, orbit, `captures`) the best place gains 1.3 % at most, with 8 sets
-    /// from which an arc or the top was left out 2.7 % or more.
+    /// Parts that are smaller, as a share of the area, are not worth a photo. Measured: with 6
+    /// complete rendered sets (dense5, orbit, `captures`) the best place gains 1.3 % at most, with
+    /// 8 sets from which an arc or the top was left out 2.7 % or more.
     var minimumShare = 0.02
     /// The smallest cosine at which a photo shows a surface well: that of 65°. Matching fails
     /// beyond 30° from one photo to the next (Moreels and Perona, "Evaluation of features detectors
-    /// and descriptors based on 3D objects", IJCV 2007).
+    /// and descriptors based on 3D objects", IJCV 2007). Chosen: 65°.
     var minimumCosine: Float = 0.42
     /// Number of places that are tried: one for every 8°. Chosen.
     var candidates = 600

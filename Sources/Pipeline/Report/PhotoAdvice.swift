@@ -18,6 +18,7 @@ struct PhotoAdvice {
     /// The largest number of groups that are spoken of. Chosen.
     var maximumGroups = 4
     /// Fewer matches may occur by chance; as in the reasons of photos that are not registered.
+    /// Chosen.
     var chanceMatches = 8
   }
 

@@ -38,8 +38,8 @@ extension RunReport {
 }
 
 extension RunVerdict {
-  /// Shares of the photos that are used, below which a model is not good or even poor: those of
-  /// Pix4D's quality report.
+  /// Shares of the photos that are used, below which a model is not good or even poor. Chosen:
+  /// those of Pix4D's quality report.
   private static let (goodPhotos, fairPhotos) = (0.95, 0.65)
   /// The shares of the area that three photos show; the first one if it isn't known what more
   /// photos could show. Chosen: an object that stands on a table shows a fifth of its surface to no

@@ -8,8 +8,8 @@ struct SurfaceAdvice {
   private let ring: CameraRing
   private let missing: MissingViews.Result
 
-  /// Photos closer than this, in degrees, match reliably; more would help little. The limit of SIFT
-  /// is at about 30° (Moreels and Perona, 2007).
+  /// Photos closer than this, in degrees, match reliably; more would help little. Chosen: half the
+  /// limit of SIFT, which is at about 30° (Moreels and Perona, 2007).
   private static let spacing = 15.0
   /// Elevation, in degrees, above which a place is "above" the object. Chosen.
   private static let steep = 60.0

@@ -43,7 +43,7 @@ package final class SerialThread<Local>: Sendable {
     wake()
   }
 
-  /// Bytes of the thread's stack.
+  /// Bytes of the thread's stack. Chosen.
   private static var stackSize: Int { 16 << 20 }
 
   private func start() {

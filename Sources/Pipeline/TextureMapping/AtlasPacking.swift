@@ -4,21 +4,23 @@ import Kernels
 /// and more are allowed.
 struct AtlasPacking: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum texture side in texels.
+    /// Maximum texture side in texels. Chosen: `DetailSpecification` sets that of the detail level.
     var maximumSide = 4096
-    /// Maximum number of textures.
+    /// Maximum number of textures. Chosen: as above.
     var maximumAtlases = 1
-    /// A texture with fewer texels per side is not halved.
+    /// A texture with fewer texels per side is not halved. Chosen.
     var minimumHalvedSide = 512
     /// Padding between charts as one in this number of a texture's side, and its minimum in texels.
+    /// Chosen.
     var paddingDivisor = 1024
     var minimumPadding = 2
     /// Texels per photo pixel, linear, that preserve all detail. The smallest texture size that
-    /// provides it is chosen and filled; beyond `maximumSide` further textures are added.
+    /// provides it is chosen and filled; beyond `maximumSide` further textures are added. Chosen.
     var sufficientMagnification: Float = 1.5
-    /// Upper bound of the linear magnification; more would only store interpolated values.
+    /// Upper bound of the linear magnification; more would only store interpolated values. Chosen.
     var maximumMagnification: Float = 4
-    /// Share of a texture that charts are expected to fill.
+    /// Share of a texture that charts are expected to fill. Chosen: textures are filled to 75 to 84
+    /// % (BENCHMARKS.md, Detail levels).
     var expectedUsage: Float = 0.7
   }
 

@@ -10,12 +10,12 @@ import SceneModel
 struct Charting: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var clustering = ChartClustering()
-    /// Resolution of charts that no photo sees, relative to the typical chart.
+    /// Resolution of charts that no photo sees, relative to the typical chart. Chosen.
     var unseenDensity: Float = 0.3
-    /// Bounds of a chart's resolution relative to the typical chart.
+    /// Bounds of a chart's resolution relative to the typical chart. Chosen.
     var densityRange: ClosedRange<Float> = 0.3...2
     /// Number of rotations within a quarter turn that are tested for the smallest bounding
-    /// rectangle.
+    /// rectangle. Chosen: steps of 3°.
     var rotations = 30
   }
 

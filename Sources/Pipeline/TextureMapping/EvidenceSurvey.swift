@@ -11,8 +11,9 @@ struct EvidenceSurvey {
   let focalLengths: [Double]
   let gains: [ExposureGain]
 
-  /// The smallest cosine at which a photo counts: that of 75°. On rendered sets (dense5, orbit,
-  /// `captures` with arcs left out), it separates complete from incomplete ones best of 65° to 81°.
+  /// The smallest cosine at which a photo counts: that of 75°. Measured: on rendered sets (dense5,
+  /// orbit, `captures` with arcs left out), it separates complete from incomplete ones best of 65°
+  /// to 81°.
   static let minimumCosine: Float = 0.25
 
   /// `gains` are those of the registered photos.

@@ -8,19 +8,20 @@ import SceneModel
 /// Least squares on logarithms with Huber weights; the triangles' colors are eliminated.
 struct ExposureCompensation: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Residuals beyond this, in natural logarithms, are down-weighted.
+    /// Residuals beyond this, in natural logarithms, are down-weighted. Chosen.
     var huber = 0.1
-    /// Number of reweighted solutions.
+    /// Number of reweighted solutions. Chosen.
     var rounds = 3
-    /// Weight of the prior gain of 1, as a share of the observations' weight.
+    /// Weight of the prior gain of 1, as a share of the observations' weight. Chosen.
     var prior = 0.02
-    /// Gains are limited to 1 / maximum … maximum.
+    /// Gains are limited to 1 / maximum … maximum. Chosen.
     var maximumGain: Float = 2.5
-    /// Observations at a smaller cosine (more oblique) are ignored.
+    /// Observations at a smaller cosine (more oblique) are ignored. Chosen.
     var minimumCosine: Float = 0.35
-    /// Values of a channel, exclusive, between which the sensor response is linear, 0…255.
+    /// Values of a channel, exclusive, between which the sensor response is linear, 0…255. Chosen.
     var linearRange: ClosedRange<Float> = 6...246
     /// On surfaces with more triangles, every nth is used, so that at least this many remain.
+    /// Chosen.
     var sufficientFaces = 200_000
   }
 

@@ -5,16 +5,19 @@ import SceneModel
 struct MapBaking: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Maximum distance of the dense from the textured surface, as a share of the mesh's diagonal.
+    /// Chosen.
     var reach: Float = 0.01
-    /// Ambient-occlusion rays per texel; sixteen texels share theirs.
+    /// Ambient-occlusion rays per texel; sixteen texels share theirs. Chosen: together, they have
+    /// 96 rays.
     var occlusionRays = 6
-    /// Length of these rays, as a share of the mesh's diagonal.
+    /// Length of these rays, as a share of the mesh's diagonal. Chosen.
     var occlusionReach: Float = 0.3
     /// Maximum texels of the low-frequency maps, ambient occlusion and roughness, over all
-    /// textures: their side is halved until they fit.
+    /// textures: their side is halved until they fit. Chosen.
     var smoothTexels = 5_000_000
     /// One value for the whole surface: photos alone don't separate gloss from color.
     /// UsdPreviewSurface models of photogrammetry programs commonly use it for unpolished objects.
+    /// Chosen.
     var roughness: Float = 0.9
   }
 

@@ -7,11 +7,11 @@ import SceneModel
 /// surroundings beside it.
 struct ObjectPresence: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Side of the middle of a photo, as a share of the photo's sides.
+    /// Side of the middle of a photo, as a share of the photo's sides. Chosen.
     var middleShare = 0.5
-    /// Minimum share of the middle that the surface covers in a photo that shows it.
+    /// Minimum share of the middle that the surface covers in a photo that shows it. Chosen.
     var minimumCoverage: Float = 0.005
-    /// Minimum share of the photos that show the surface.
+    /// Minimum share of the photos that show the surface. Chosen.
     var minimumPhotos = 0.5
   }
 

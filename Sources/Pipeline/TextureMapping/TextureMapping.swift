@@ -7,9 +7,10 @@ import SceneModel
 package struct TextureMapping: Sendable {
   /// Parameters of texturing.
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum texture side in texels; halved while the photos have less detail.
+    /// Maximum texture side in texels; halved while the photos have less detail. Chosen:
+    /// `DetailSpecification` sets that of the detail level.
     package var textureSide = 4096
-    /// Maximum number of textures; more than one only if the photos fill it.
+    /// Maximum number of textures; more than one only if the photos fill it. Chosen: as above.
     package var maximumAtlases = 1
     /// The maps to produce.
     package var maps: Set<TextureMap> {
@@ -19,9 +20,9 @@ package struct TextureMapping: Sendable {
     /// In the order of the cases, so that equal options have equal encodings.
     private var sortedMaps: [TextureMap] = [.diffuseColor, .normal, .ambientOcclusion]
 
-    /// Minimum area of a transient occluder, as a share of a photo.
+    /// Minimum area of a transient occluder, as a share of a photo. Chosen.
     var minimumRegionShare: Float = 0.001
-    /// Maximum triangles of the cropped-away surface that is kept as an occluder.
+    /// Maximum triangles of the cropped-away surface that is kept as an occluder. Chosen.
     var occluderTriangles = 100_000
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()

@@ -4,7 +4,7 @@ import SceneModel
 /// Paints the textures from the photos, one photo at a time.
 struct TexturePainting: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum pixels of a view.
+    /// Maximum pixels of a view. Chosen.
     var maximumPixels = 8_000_000
   }
 

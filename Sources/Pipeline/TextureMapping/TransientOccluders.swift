@@ -11,22 +11,24 @@ import SceneModel
 /// as the photo shows the occluder's color.
 struct TransientOccluders: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Views that differ from the median by more are outliers; gray levels, 0…255.
+    /// Views that differ from the median by more are outliers; gray levels, 0…255. Chosen.
     var colorTolerance: Float = 14
-    /// The same in standard deviations of the views.
+    /// The same in standard deviations of the views. Chosen.
     var deviations: Float = 3
-    /// Minimum number of views for a meaningful median.
+    /// Minimum number of views for a meaningful median. Limit: the median of two is neither.
     var minimumViews = 3
     /// Minimum area of a connected outlier region, in pixels of a photo; larger in large photos.
+    /// Chosen.
     var minimumRegionPixels: Float = 400
-    /// Share of the tolerance that suffices next to outliers (the low hysteresis threshold).
+    /// Share of the tolerance that suffices next to outliers (the low hysteresis threshold). Paper:
+    /// Canny 1986, hysteresis: a ratio of two or three to one.
     var lowThresholdShare: Float = 0.5
     /// Minimum similarity to the occluder's color for a neighbor without other evidence: 0 is the
-    /// surface's color, 1 the occluder's.
+    /// surface's color, 1 the occluder's. Chosen.
     var colorSimilarity: Float = 0.7
-    /// The same where too few photos see the surface.
+    /// The same where too few photos see the surface. Chosen.
     var unverifiedColorSimilarity: Float = 0.5
-    /// Rings of triangles around an occluder that its blurred boundary may cover.
+    /// Rings of triangles around an occluder that its blurred boundary may cover. Chosen.
     var rings = 2
   }
 

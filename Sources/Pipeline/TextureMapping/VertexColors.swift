@@ -3,7 +3,7 @@ import SceneModel
 
 /// The triangles' consensus colors, averaged at the vertices.
 struct VertexColors: Sendable {
-  /// Weight of the mean color, which only determines components without any color.
+  /// Weight of the mean color, which only determines components without any color. Chosen.
   private static let meanWeight = 1e-6
 
   private var colors: [SIMD3<Float>?]

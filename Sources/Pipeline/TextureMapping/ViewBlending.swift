@@ -6,7 +6,7 @@ import SceneModel
 /// A vertex averages the labels of its triangles; a triangle uses only photos that see it.
 struct ViewBlending: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Rings of triangles that the transition covers, beyond those at the label boundary.
+    /// Rings of triangles that the transition covers, beyond those at the label boundary. Chosen.
     var rings = 0
   }
 

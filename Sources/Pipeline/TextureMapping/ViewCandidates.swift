@@ -7,18 +7,18 @@ import Kernels
 struct ViewCandidates: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var outliers = TransientOccluders.Options()
-    /// Exponent of the cosine in the quality, in addition to its effect on the area.
+    /// Exponent of the cosine in the quality, in addition to its effect on the area. Chosen.
     var cosinePower = 1
     /// Factor on the quality next to an occluding edge or the object's outline, and for
-    /// overexposure.
+    /// overexposure. Chosen.
     var uncertainFactor: Float = 0.1
     /// At the outline, observations below this cosine show background if the surface is slightly
-    /// too large; they are excluded.
+    /// too large; they are excluded. Chosen.
     var minimumCosineAtOutline: Float = 0.5
     /// Bounds of a view's sharpness relative to the triangle's median view, as a factor on the
-    /// quality.
+    /// quality. Chosen.
     var sharpnessRange: ClosedRange<Float> = 0.5...1.5
-    /// Channel means at which overexposure becomes possible and certain, 0…255.
+    /// Channel means at which overexposure becomes possible and certain, 0…255. Chosen.
     var brightRange: ClosedRange<Float> = 225...248
   }
 

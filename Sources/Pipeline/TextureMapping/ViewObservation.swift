@@ -6,9 +6,9 @@ import SceneModel
 struct ViewObservation: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var rays = RayScene.ObservationOptions()
-    /// Maximum pixels of the views; sufficient for triangles' mean colors.
+    /// Maximum pixels of the views; sufficient for triangles' mean colors. Chosen.
     var maximumPixels = 2_000_000
-    /// Maximum observations kept per triangle; those with the largest area.
+    /// Maximum observations kept per triangle; those with the largest area. Chosen.
     var maximumViews = 24
   }
 

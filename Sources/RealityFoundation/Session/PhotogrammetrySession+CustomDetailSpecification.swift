@@ -2,7 +2,7 @@ extension PhotogrammetrySession.Configuration {
   /// The limits of a model at the detail level `custom`.
   public struct CustomDetailSpecification: Equatable, Sendable {
     /// The maximum number of faces. A mesh of quads is made from at most this many triangles, so it
-    /// has fewer faces.
+    /// has fewer faces. Chosen: as at the medium level.
     public var maximumPolygonCount: UInt = 100_000
     /// The maximum side of a texture.
     public var maximumTextureDimension = TextureDimension.fourK

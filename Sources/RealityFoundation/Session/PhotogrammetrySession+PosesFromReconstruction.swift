@@ -47,7 +47,7 @@ extension LensDistortionData {
     let size = SIMD2(Double(camera.width), Double(camera.height))
     let reach = pointwiseMax(camera.principalPoint, size - camera.principalPoint)
     let farthest = (reach / camera.focalLength).squaredLength
-    let steps = 64
+    let steps = 64  // Entries of the table. Chosen.
     self.init(
       center: SIMD2<Float>(camera.principalPoint),
       radialLookupTable: (0..<steps).map { step in

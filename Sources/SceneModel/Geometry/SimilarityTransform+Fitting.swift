@@ -2,6 +2,7 @@ import Foundation
 
 extension SimilarityTransform {
   /// Minimum relative gap between the two largest eigenvalues for the rotation to be unique.
+  /// Chosen.
   private static let minimumGap = 1e-9
 
   /// The similarity that maps `source` to `target` with the least sum of squared distances.

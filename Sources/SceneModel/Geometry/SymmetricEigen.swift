@@ -6,9 +6,9 @@ package struct SymmetricEigen: Sendable {
   /// `vectors[i]` belongs to `values[i]`.
   package private(set) var vectors: [[Double]]
 
-  /// Maximum number of sweeps; five to ten suffice.
+  /// Maximum number of sweeps. Chosen: five to ten suffice.
   private static let maximumSweeps = 50
-  /// Off-diagonal elements up to this value count as zero.
+  /// Off-diagonal elements up to this value count as zero. Limit: near the smallest double.
   private static let tolerance = 1e-300
 
   /// Decomposes a matrix given by rows.

@@ -1,6 +1,6 @@
 /// The keypoints of one photo as parallel arrays.
 package struct FeatureSet: Sendable {
-  /// Bytes per descriptor (RootSIFT).
+  /// Bytes per descriptor (RootSIFT). Paper: Lowe 2004, section 6.1: 4 × 4 × 8.
   package static let descriptorLength = 128
 
   /// Pixels of the upright photo at full size, origin at the top-left corner.

@@ -88,7 +88,7 @@ package struct Camera: Hashable, Codable, Sendable {
   }
 
   /// Number of Newton iterations; the determinant of the distortion's Jacobian below which it can't
-  /// be inverted; and the squared step at which the iteration has converged.
+  /// be inverted; and the squared step at which the iteration has converged. Chosen.
   private static let maximumIterations = 20
   private static let minimumDeterminant = 1e-9
   private static let squaredTolerance = 1e-24

@@ -10,7 +10,7 @@ struct CratePathTable {
     var depth = 0
   }
 
-  /// Deeper paths are rejected. Chosen; USDA and glTF have the same limit.
+  /// Deeper paths are rejected. Chosen: USDA and glTF have the same limit.
   static let maximumDepth = 128
 
   private(set) var nodes: [Node]

@@ -2,7 +2,7 @@ import SceneModel
 
 /// Decodes values of an untrusted crate file. Those of a type that this module doesn't use are nil.
 struct CrateValueReader {
-  /// Shorter arrays are stored uncompressed: `MinCompressedArraySize` of OpenUSD's `crateFile.cpp`.
+  /// Shorter arrays are stored uncompressed. Limit: `MinCompressedArraySize` of OpenUSD.
   private static let minimumCompressedCount = 16
   /// A time sample could be another list of samples. Chosen: one level has a meaning.
   private static let maximumNesting = 4

@@ -12,7 +12,7 @@ struct CrateValues {
 
   private typealias ListOpBits = CrateListOpBits
 
-  /// Shorter integer arrays are stored uncompressed.
+  /// Shorter integer arrays are stored uncompressed. Limit: of the format.
   private static let minimumCompressedCount = 16
 
   init(file: ByteWriter) {

@@ -1,5 +1,6 @@
 extension LZ4Block {
-  /// The largest ratio of decompressed to compressed size: a byte of a length stands for 255 bytes.
+  /// The largest ratio of decompressed to compressed size. Limit: a byte of a length stands for 255
+  /// bytes.
   static let maximumRatio = 255
 
   /// Decompresses a block of which at most `maximumCount` bytes are expected. Throws a

@@ -1,16 +1,20 @@
 /// Bytes as one LZ4 block (LZ4 Block Format Description, Collet): compressed by greedy matching,
 /// with a hash table of one candidate.
 enum LZ4Block {
+  /// The length of the shortest match. Limit: of the format.
   static let minimumMatch = 4
-  /// The format requires the last five bytes as literals, and no match start in the last twelve.
+  /// Limit: the format requires the last five bytes as literals, and no match start in the last
+  /// twelve.
   private static let literalTail = 5
   private static let tail = 12
   private static let maximumOffset = 0xFFFF
+  /// Bits of an index of the hash table. Chosen.
   private static let hashBits: UInt32 = 15
-  /// Knuth's multiplicative hash: 2³² divided by the golden ratio, rounded to a prime.
+  /// Knuth's multiplicative hash: 2³² divided by the golden ratio, rounded to a prime. Paper: Knuth
+  /// 1998, The Art of Computer Programming, volume 3, section 6.4.
   private static let hashFactor: UInt32 = 2_654_435_761
   /// After every 2⁶ positions without a match the search advances by one byte more, so that
-  /// incompressible data is skipped quickly.
+  /// incompressible data is skipped quickly. Chosen: that of the reference implementation.
   private static let accelerationShift = 6
 
   /// The block for `input`.

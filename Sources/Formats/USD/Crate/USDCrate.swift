@@ -23,10 +23,11 @@ private struct CrateWriter {
   /// those after 0.9.0 are newer than macOS 12, which has to read the files. What is written does
   /// not depend on it: 0.8.0 adds payloads with offsets, 0.9.0 time codes, and layers have neither.
   private static let version: [UInt8] = [0, 8, 0, 0, 0, 0, 0, 0]
+  /// Bytes of the header. Limit: of the format.
   private static let headerSize = 88
-  /// Offset in the header of the position of the table of contents.
+  /// Offset in the header of the position of the table of contents. Limit: of the format.
   private static let contentsOffset = 16
-  /// Bytes of a section's name in the table of contents.
+  /// Bytes of a section's name in the table of contents. Limit: of the format.
   private static let sectionNameSize = 16
   private static let endOfSet: UInt32 = .max
 

@@ -16,9 +16,9 @@ struct USDMaterials {
     var transform = TextureTransform.identity
   }
 
-  /// UsdPreviewSurface's color without a value.
+  /// UsdPreviewSurface's color without a value. Limit: of the specification.
   private static let defaultColor = SIMD3<Float>(0.18, 0.18, 0.18)
-  /// Connections are followed so far.
+  /// Connections are followed so far. Chosen.
   private static let maximumHops = 16
   /// The names of the base color in UsdPreviewSurface, and in surfaces of MaterialX.
   private static let colorInputs = ["inputs:diffuseColor", "inputs:base_color", "inputs:baseColor"]

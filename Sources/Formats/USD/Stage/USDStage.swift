@@ -34,7 +34,7 @@ extension USDStage {
 private struct Composer {
   /// Layers that refer to each other in a row. Chosen.
   private static let maximumDepth = 16
-  /// Nesting of prims after composition, as in one layer.
+  /// Nesting of prims after composition. Chosen: as in one layer.
   private static let maximumNesting = 128
 
   let budget: MemoryBudget

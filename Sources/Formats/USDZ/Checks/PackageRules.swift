@@ -2,7 +2,7 @@ import Foundation
 
 /// The rules for the archive of a USDZ package.
 struct PackageRules {
-  /// Data of files begins at multiples of this (USDZ specification, "Layout").
+  /// Data of files begins at multiples of this. Limit: of USDZ (specification, "Layout").
   private static let alignment = 64
   /// What AR Quick Look reads (OpenUSD, `ARKitFileExtensionChecker`).
   private static let extensions: Set = [

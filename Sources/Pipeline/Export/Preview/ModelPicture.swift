@@ -7,16 +7,16 @@ import SceneModel
 /// its shape; back faces have a distinct color.
 struct ModelPicture: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Supersampling per direction: 3 takes nine samples per pixel.
+    /// Supersampling per direction: 3 takes nine samples per pixel. Chosen.
     var samplesPerSide = 3
-    /// Share of light that a surface seen edge-on loses.
+    /// Share of light that a surface seen edge-on loses. Chosen.
     var shading: Float = 0.3
-    /// The same for untextured surfaces.
+    /// The same for untextured surfaces. Chosen.
     var untexturedShading: Float = 0.75
-    /// RGB of a surface without texture.
+    /// RGB of a surface without texture. Chosen.
     var untextured = SIMD3<UInt8>(205, 205, 205)
     var background = SIMD3<UInt8>(238, 238, 238)
-    /// Color of back faces, so that a hole is visible as a hole.
+    /// Color of back faces, so that a hole is visible as a hole. Chosen.
     var backFace = SIMD3<UInt8>(140, 108, 140)
   }
 

@@ -8,29 +8,29 @@ import SceneModel
 /// Azimuth is measured from +z toward +x, elevation upward from the horizon; both in radians.
 struct Turntable: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Number of viewpoints.
+    /// Number of viewpoints. Chosen.
     var viewCount = 8
-    /// Approximate angle that a picture spans.
+    /// Approximate angle that a picture spans. Chosen.
     var fieldOfViewDegrees = 30.0
-    /// Margin around the model, as a share of a picture's longer side.
+    /// Margin around the model, as a share of a picture's longer side. Chosen.
     var margin = 0.04
-    /// Minimum of a picture's shorter side, as a share of the longer one.
+    /// Minimum of a picture's shorter side, as a share of the longer one. Chosen.
     var minimumAspect = 0.3
-    /// Elevation without photos.
+    /// Elevation without photos. Chosen.
     var elevationDegrees = 20.0
-    /// Bounds of the photos' median elevation.
+    /// Bounds of the photos' median elevation. Chosen.
     var minimumElevationDegrees = 10.0
     var maximumElevationDegrees = 50.0
     /// Photos whose horizontal unit directions have a longer mean than this, 0…1, show one side;
-    /// 0.64 corresponds to a semicircle.
+    /// 0.64 corresponds to a semicircle. Chosen: a little less.
     var oneSidedConcentration = 0.6
     /// Minimum mean length, 0…1, of the horizontal part of the photos' unit directions: for photos
-    /// from above it carries no information.
+    /// from above it carries no information. Chosen.
     var minimumHorizontalShare = 0.2
-    /// Bounds of half the angle that viewpoints of a single side span.
+    /// Bounds of half the angle that viewpoints of a single side span. Chosen.
     var minimumReachDegrees = 40.0
     var maximumReachDegrees = 80.0
-    /// Share of the photos that this angle covers.
+    /// Share of the photos that this angle covers. Chosen.
     var reachShare = 0.8
   }
 

@@ -10,19 +10,19 @@ import SceneModel
 package struct PureRotationCheck: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Focal lengths range from the given one divided by this to the one multiplied by it, for
-    /// assumed values and for values from metadata.
+    /// assumed values and for values from metadata. Chosen.
     package var assumedRange = SelfCalibration.Options().range
     package var exifRange = 1.15
-    /// Number of focal lengths tested, evenly spaced in their logarithms.
+    /// Number of focal lengths tested, evenly spaced in their logarithms. Chosen.
     package var candidates = 81
-    /// Maximum number of matches used per pair.
+    /// Maximum number of matches used per pair. Chosen.
     package var maximumMatches = 200
-    /// Maximum number of pairs used, those with the most matches.
+    /// Maximum number of pairs used, those with the most matches. Chosen.
     package var maximumPairs = 60
     /// Maximum median change of angles explained by noise, as a fraction of the photo's longer
-    /// side.
+    /// side. Chosen.
     package var relativeError = 0.002
-    /// Minimum fraction of the pairs that must be pure rotations.
+    /// Minimum fraction of the pairs that must be pure rotations. Chosen.
     package var pureRotationShare = 0.9
 
     package init() {}

@@ -7,10 +7,11 @@ package struct CorrespondenceSearch {
   package struct Options: Hashable, Codable, Sendable {
     package var selection = PairSelection.Options()
     /// Maximum fraction of the sampled rejections that may turn out verifiable. Above it,
-    /// preemptive matching is considered unreliable and all candidates are matched.
+    /// preemptive matching is considered unreliable and all candidates are matched. Chosen.
     package var maximumFalseRejectionRatio = 0.03
     /// If an object moves, matches of its surroundings are dropped, provided that at least this
-    /// share of the connected photos stays connected.
+    /// share of the connected photos stays connected. Measured: found on captures of seed 7
+    /// (BENCHMARKS.md, Objects that move).
     package var minimumObjectShare = 0.4
     /// Whether two photos without masks are matched even if others have masks. If the masks exclude
     /// surroundings that moved, such a pair would match these.

@@ -8,7 +8,7 @@ import SceneModel
 /// orientation consistently with the known ones.
 package struct GuidedMatching {
   package struct Options: Hashable, Codable, Sendable {
-    /// Pairs with at least this number of matches are skipped.
+    /// Pairs with at least this number of matches are skipped. Chosen.
     package var sufficientMatches = 60
     package var matching = EpipolarMatching()
 

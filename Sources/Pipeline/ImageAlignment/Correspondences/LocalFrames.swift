@@ -12,10 +12,11 @@ struct LocalFrames {
   private var turn = SIMD2<Double>.zero
 
   /// Maximum deviation from the median scale ratio, as a factor, and from the mean rotation, in
-  /// degrees.
+  /// degrees. Chosen.
   private static let maximumFactor = 2.0
   private static let maximumTurnDegrees = 45.0
   /// Length of the mean rotation vector below which rotations vary too much to be a criterion.
+  /// Chosen.
   private static let minimumAgreement = 0.5
 
   init(_ known: [FeatureMatch], _ first: FeatureSet, _ second: FeatureSet) {

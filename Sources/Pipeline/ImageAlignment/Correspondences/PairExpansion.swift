@@ -6,16 +6,17 @@ import SceneModel
 /// partners or are disconnected from the largest group.
 package struct PairExpansion {
   package struct Options: Hashable, Codable, Sendable {
-    /// Maximum number of partners of partners that a photo is paired with.
+    /// Maximum number of partners of partners that a photo is paired with. Chosen.
     package var partners = 10
-    /// The same for photos in order of capture.
+    /// The same for photos in order of capture. Chosen.
     package var sequencePartners = 1
-    /// Minimum number of verified partners that two photos must have in common.
+    /// Minimum number of verified partners that two photos must have in common. Chosen: a single
+    /// one may be a false pair.
     package var commonPartners = 2
     /// A photo with fewer verified partners is matched with all its candidates, including the
-    /// unpromising ones.
+    /// unpromising ones. Chosen.
     package var minimumPartners = 4
-    /// Number of most similar photos that such a photo is additionally matched with.
+    /// Number of most similar photos that such a photo is additionally matched with. Chosen.
     package var retryPartners = 10
 
     package init() {}

@@ -12,36 +12,40 @@ import SceneModel
 /// don't follow from the order must pass preemptive matching.
 package struct PairSelection {
   package struct Options: Hashable, Codable, Sendable {
-    /// Up to this number of pairs, all pairs are candidates.
+    /// Up to this number of pairs, all pairs are candidates. Chosen: fifty photos have 1225.
     package var exhaustivePairs = 1300
-    /// From this number of pairs on, preemptive matching of all pairs pays off.
+    /// From this number of pairs on, preemptive matching of all pairs pays off. Chosen.
     package var minimumPreemptivePairs = 100
     /// One in this number of pairs that preemptive matching rejects is matched anyway: rejection
     /// fails for pairs whose large-scale features differ, such as close-ups and fine texture.
+    /// Chosen.
     package var rejectionSamplingInterval = 4
-    /// Number of partners of a photo in large sets: the most similar ones.
+    /// Number of partners of a photo in large sets: the most similar ones. Chosen.
     package var partners = 40
-    /// Number of partners of a photo by GPS position.
+    /// Number of partners of a photo by GPS position. Chosen.
     package var positionPartners = 10
-    /// Distances in the order of capture at which photos are paired.
+    /// Distances in the order of capture at which photos are paired. Chosen: a known order saves 67
+    /// and 45 % of the matching time of boot and lund, and costs boot 0.024 of AUC at 0.1°
+    /// (BENCHMARKS.md, Order of capture).
     package var sequenceSteps = [1, 2, 3, 4]
     /// Number of partners of a photo of a sequence: the most similar ones outside its window of
-    /// neighbors.
+    /// neighbors. Chosen.
     package var sequencePartners = 4
     /// Up to this number of pairs of a sequence, preemptive matching tests all of them, which is
     /// more informative than retrieval. Beyond about sixty photos it would cost more than it saves.
+    /// Chosen: 64 photos have 2016.
     package var maximumPreemptiveSequencePairs = 2000
     /// Distances in the order of capture at which photos of such a sequence are paired
     /// unconditionally; more distant neighbors compete with the others by their number of
-    /// preemptive matches.
+    /// preemptive matches. Chosen.
     package var preemptiveSequenceSteps = [1, 2]
-    /// Pairs of such a sequence with fewer preemptive matches are considered unrelated: one in a
-    /// hundred of them is verifiable, and barely.
+    /// Pairs of such a sequence with fewer preemptive matches are considered unrelated. Chosen: one
+    /// in a hundred of them is verifiable, and barely.
     package var sequenceMatches = 8
     /// Photos are assumed to be in order of capture if this fraction of them is most similar to a
-    /// neighbor.
+    /// neighbor. Chosen.
     package var orderedShare = 0.7
-    /// Number of partners of a photo in a large set that turned out to be in order.
+    /// Number of partners of a photo in a large set that turned out to be in order. Chosen.
     package var orderedPartners = 20
     package var retrieval = PhotoRetrieval.Options()
     package var preemptiveMatching = PreemptiveMatching.Options()
@@ -166,7 +170,7 @@ package struct PairSelection {
   private func nearest(
     _ positions: [GeographicPosition?], _ features: [FeatureSet]
   ) -> Set<PhotoPair> {
-    // Of latitude; on the scale of one set the Earth is flat.
+    // Limit: the mean length of a degree of latitude; on the scale of one set the Earth is flat.
     let metersPerDegree = 111_320.0
     let points = positions.enumerated().compactMap { photo, position in
       position.map { position in

@@ -5,11 +5,11 @@ import SceneModel
 /// 2010) over a visual vocabulary learned from the photos' descriptors.
 package struct PhotoRetrieval: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Number of visual words.
+    /// Number of visual words. Chosen: between the 16 and 256 of Jégou et al. 2010.
     package var words = 128
-    /// Number of descriptors, over all photos, that the words are learned from.
+    /// Number of descriptors, over all photos, that the words are learned from. Chosen.
     package var sampledDescriptors = 40_000
-    /// Seed of the vocabulary's clustering.
+    /// Seed of the vocabulary's clustering. Chosen: any value serves.
     package var seed: UInt64 = 0
 
     package init() {}

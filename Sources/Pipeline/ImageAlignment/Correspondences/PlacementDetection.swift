@@ -15,7 +15,7 @@ struct PlacementDetection: Sendable {
   struct Options: Hashable, Codable, Sendable {
     var intervals = CaptureIntervals.Options()
     /// Weight of a point that is missing in a photo, relative to one that is there: of the points
-    /// that the map predicts, up to a sixth are not found even if nothing moved.
+    /// that the map predicts, up to a sixth are not found even if nothing moved. Chosen.
     var absenceWeight = 4
 
     init() {}

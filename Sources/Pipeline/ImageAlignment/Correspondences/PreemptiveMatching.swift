@@ -6,14 +6,15 @@ import SceneModel
 /// largest-scale features. These are few, and they survive a change of distance longest.
 package struct PreemptiveMatching {
   package struct Options: Hashable, Codable, Sendable {
-    /// Number of features per photo that are matched.
+    /// Number of features per photo that are matched. Chosen.
     package var features = 1024
-    /// Ratio of the ratio test; more permissive than that of full matching.
+    /// Ratio of the ratio test; more permissive than that of full matching. Paper: Lowe 2004,
+    /// section 7.1.
     package var ratio = 0.8
-    /// Pairs with fewer matches are unpromising.
+    /// Pairs with fewer matches are unpromising. Chosen.
     package var minimumMatches = 5
     /// Photos with fewer features than this multiple of `features` skip the test: full matching is
-    /// just as fast.
+    /// just as fast. Chosen.
     package var minimumFeatureFactor = 2
 
     package init() {}

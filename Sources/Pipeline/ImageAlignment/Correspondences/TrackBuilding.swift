@@ -8,7 +8,7 @@ import SceneModel
 /// match is rejected.
 package struct TrackBuilding: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Shorter tracks are dropped.
+    /// Shorter tracks are dropped. Limit: a point needs two observations.
     package var minimumLength = 2
 
     package init() {}

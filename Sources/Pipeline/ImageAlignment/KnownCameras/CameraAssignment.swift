@@ -6,7 +6,7 @@ package struct CameraAssignment: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Minimum number of photos with a camera; fewer are an error.
     package var minimumPhotos = PipelineError.minimumPhotos
-    /// Maximum number of file names listed in one message.
+    /// Maximum number of file names listed in one message. Chosen.
     package var namesInSentence = 5
 
     package init() {}

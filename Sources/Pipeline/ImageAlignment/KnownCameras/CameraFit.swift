@@ -4,7 +4,7 @@ import SceneModel
 /// photo at hand.
 struct CameraFit: Hashable {
   /// Maximum distance of the principal point from the center, as a fraction of the photo's width or
-  /// height, for a camera of unknown size.
+  /// height, for a camera of unknown size. Chosen.
   private static let maximumOffset = 0.2
   /// Focal lengths as multiples of the photo's longer side that no lens exceeds, and the maximum
   /// coordinate of a principal point, which may be outside a cropped photo. Chosen: only numbers

@@ -5,10 +5,10 @@ import SceneModel
 /// stage, newly triangulated ones otherwise.
 struct KnownPoints: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Mean number of points observed per photo from which the given points suffice.
+    /// Mean number of points observed per photo from which the given points suffice. Chosen.
     var sufficientPoints = 50.0
     /// Maximum median reprojection error of the given points, as a fraction of the photo's longer
-    /// side: far beyond that of the worst usable cameras.
+    /// side: far beyond that of the worst usable cameras. Chosen.
     var relativeMaximumError = 0.02
     var triangulation = KnownPoseTriangulation.Options()
   }

@@ -13,18 +13,19 @@ package struct KnownPoseTriangulation: Sendable {
     /// Maximum distance from the epipolar line, and then maximum reprojection error, as a fraction
     /// of the photo's longer side.
     package var relativeMaximumError = PairVerification.Options().relativeMaximumError
-    /// Pairs with fewer matches consistent with the poses are dropped.
+    /// Pairs with fewer matches consistent with the poses are dropped. Chosen.
     package var minimumMatches = 12
     /// Maximum reprojection error as a multiple of the median, which reflects the accuracy of the
-    /// cameras.
+    /// cameras. Chosen.
     package var maximumErrorFactor = 3.0
     /// Error in pixels that is attributed to feature localization; the error limit is never lower.
+    /// Chosen.
     package var featureError = 1.0
-    /// Minimum triangulation angle of a point in degrees.
+    /// Minimum triangulation angle of a point in degrees. Chosen: as in `IncrementalMapping`.
     package var minimumAngleDegrees = 1.5
-    /// Fraction of matches consistent with the cameras below which a warning is issued.
+    /// Fraction of matches consistent with the cameras below which a warning is issued. Chosen.
     package var suspiciousAgreement = 0.4
-    /// Fraction below which the cameras are rejected: close to what chance matches reach.
+    /// Fraction below which the cameras are rejected: close to what chance matches reach. Chosen.
     package var minimumAgreement = 0.15
 
     package init() {}

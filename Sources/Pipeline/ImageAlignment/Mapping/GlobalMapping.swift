@@ -9,41 +9,43 @@ import SceneModel
 /// mapping.
 package struct GlobalMapping: Sendable {
   package struct Options: Hashable, Codable, Sendable {
-    /// Minimum number of matches of a pair whose rotation is used.
+    /// Minimum number of matches of a pair whose rotation is used. Chosen.
     package var minimumMatches = 30
     /// Maximum distance from the epipolar line, as a fraction of the photo's longer side, in pairs
     /// that were verified without focal lengths: a wrong focal length causes errors of a few
-    /// pixels.
+    /// pixels. Chosen.
     package var relativeMaximumError = 0.003
-    /// Maximum rotation of a consistent triplet's loop, in degrees.
+    /// Maximum rotation of a consistent triplet's loop, in degrees. Chosen.
     package var tripletErrorDegrees = 5.0
-    /// Minimum fraction of its triplets in which a pair must be consistent.
+    /// Minimum fraction of its triplets in which a pair must be consistent. Chosen.
     package var tripletShare = 0.2
     /// Pairs that deviate from the averaged rotations by more than this, in degrees, are dropped.
+    /// Chosen: the default of GLOMAP (Pan et al. 2024), too.
     package var rotationErrorDegrees = 10.0
     /// Maximum number of averaging rounds; each drops the pairs that the previous result
-    /// contradicts.
+    /// contradicts. Chosen.
     package var rotationRounds = 3
     package var averaging = RotationAveraging.Options()
-    /// Minimum number of photos that observe a track used for positioning.
+    /// Minimum number of photos that observe a track used for positioning. Chosen: GLOMAP's
+    /// default, too.
     package var minimumTrackLength = 3
-    /// Number of tracks used for positioning that each photo observes, if available.
+    /// Number of tracks used for positioning that each photo observes, if available. Chosen.
     package var pointsPerPhoto = 100
     package var positioning = GlobalPositioning.Options()
     /// Maximum angle in degrees between an observation and the direction to its point after
-    /// positioning.
+    /// positioning. Chosen.
     package var positionErrorDegrees = 3.0
-    /// Maximum reprojection errors in the first adjustments, as multiples of `growthError`.
+    /// Maximum reprojection errors in the first adjustments, as multiples of `growthError`. Chosen.
     package var errorFactors = [4.0, 1.0]
-    /// Minimum fraction of the points it observes that a photo must agree with.
+    /// Minimum fraction of the points it observes that a photo must agree with. Chosen.
     package var minimumPhotoShare = 0.4
     /// Median triangulation angle in radians beyond which a pair's points aren't any better
-    /// conditioned.
+    /// conditioned. Chosen.
     package var saturationAngle = 0.3
     /// Half the side of the cube of random initial positions of global positioning; its unit is
-    /// arbitrary.
+    /// arbitrary. Chosen: GLOMAP's value.
     package var initialHalfExtent = 100.0
-    /// Seed of these positions.
+    /// Seed of these positions. Chosen: any value serves.
     package var seed: UInt64 = 1
 
     package init() {}

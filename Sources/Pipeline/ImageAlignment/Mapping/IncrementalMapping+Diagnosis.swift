@@ -37,9 +37,9 @@ private struct UnregisteredPhotoDiagnosis {
   /// The links of each photo, the strongest first.
   private var links: [[Link]]
 
-  /// Fewer matches may occur by chance.
+  /// Fewer matches may occur by chance. Chosen.
   private static let chanceMatches = 8
-  /// Pairs below this median triangulation angle, in radians, share one viewpoint.
+  /// Pairs below this median triangulation angle, in radians, share one viewpoint. Chosen.
   private static let sameViewpointAngle = 0.5 * Double.pi / 180
 
   init(

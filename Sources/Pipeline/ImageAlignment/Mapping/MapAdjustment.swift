@@ -4,36 +4,37 @@ import SceneModel
 /// Bundle adjustment of a map: locally around one photo, or globally.
 struct MapAdjustment: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Number of photos in a local adjustment, including the new one.
+    /// Number of photos in a local adjustment, including the new one. Chosen: COLMAP's default,
+    /// too.
     var localPhotoCount = 6
     /// Maximum number of iterations of a local and of a global adjustment; the final one has twice
-    /// as many.
+    /// as many. Chosen.
     var localIterations = 15
     var globalIterations = 30
     /// Relative cost decrease at which an adjustment terminates, while the map grows and for the
     /// final one. Under the Huber loss, single points keep drifting long after cameras and poses
-    /// have converged.
+    /// have converged. Chosen.
     var growthTolerance = 1e-4
     var finalTolerance = 5e-6
-    /// Residual in pixels at which the Huber loss changes from quadratic to linear.
+    /// Residual in pixels at which the Huber loss changes from quadratic to linear. Chosen.
     var huberWidth = 1.0
-    /// Standard deviation of a focal length from EXIF, relative.
+    /// Standard deviation of a focal length from EXIF, relative. Chosen.
     var exifFocalDeviation = 0.15
-    /// Standard deviation of an assumed focal length, relative.
+    /// Standard deviation of an assumed focal length, relative. Chosen.
     var assumedFocalDeviation = 0.5
-    /// Standard deviation of the principal point, relative to the longer side of the photo.
+    /// Standard deviation of the principal point, relative to the longer side of the photo. Chosen.
     var principalPointDeviation = 0.02
-    /// Standard deviation of k1 and k2.
+    /// Standard deviation of k1 and k2. Chosen.
     var radialDeviation = 0.3
     /// Number of registered photos of a camera from which on the focal length, k1, k2 and the
-    /// principal point are refined.
+    /// principal point are refined. Chosen.
     var photosForFocalLength = 3
     var photosForK1 = 3
     var photosForK2 = 5
     var photosForPrincipalPoint = 6
-    /// Maximum relative cost increase accepted for a simpler camera model.
+    /// Maximum relative cost increase accepted for a simpler camera model. Chosen.
     var simplificationTolerance = 0.01
-    /// Approximate number of observations used for this decision.
+    /// Approximate number of observations used for this decision. Chosen.
     var simplificationObservations = 20_000
   }
 

@@ -1,5 +1,6 @@
 extension MapGrowth {
-  /// Failure count of a photo whose only trial without points was used.
+  /// Failure count of a photo whose only trial without points was used. Chosen: above every number
+  /// of trials.
   private static let maximumFailures = 100
 
   /// Registers one photo by its pairs with registered photos only, without scene points; false if

@@ -30,7 +30,7 @@ struct NextBestViewRanking: Sendable {
 
   /// Counts the occupied cells of grids of 2×2 to 32×32 over the photo, weighted by resolution.
   private func score(_ photo: Int, _ map: SparseMap) -> Int {
-    let finest = 32
+    let finest = 32  // Chosen: a power of two, as it is halved down to 2.
     let size = SIMD2(Double(photos[photo].width), Double(photos[photo].height))
     var cells = [Bool](repeating: false, count: finest * finest)
     for index in map.tracks.observationsOfPhoto[photo]

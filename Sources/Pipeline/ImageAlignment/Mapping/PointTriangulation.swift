@@ -4,9 +4,9 @@ import SceneModel
 /// Triangulates, completes and filters the points of a map.
 struct PointTriangulation: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Maximum reprojection error in pixels.
+    /// Maximum reprojection error in pixels. Chosen: as in `IncrementalMapping`.
     var maximumError = 4.0
-    /// Minimum triangulation angle of a point in degrees.
+    /// Minimum triangulation angle of a point in degrees. Chosen: as in `IncrementalMapping`.
     var minimumAngleDegrees = 1.5
   }
 

@@ -7,7 +7,7 @@ package struct SparseMapping: Sendable {
     package var incremental = IncrementalMapping.Options()
     package var global = GlobalMapping.Options()
     /// Minimum fraction of the largest connected group that global mapping must register, at its
-    /// start and in the end, for the automatic method to use it.
+    /// start and in the end, for the automatic method to use it. Chosen.
     package var minimumShare = 0.8
 
     package init() {}

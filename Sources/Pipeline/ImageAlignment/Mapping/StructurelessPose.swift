@@ -7,15 +7,15 @@ import SceneModel
 /// Wu, "Structure from motion using structure-less resection", ICCV 2015).
 struct StructurelessPose: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum number of matches of a pair.
+    /// Minimum number of matches of a pair. Chosen.
     var minimumMatches = 30
-    /// Minimum median triangulation angle of a pair in degrees.
+    /// Minimum median triangulation angle of a pair in degrees. Chosen.
     var minimumAngleDegrees = 2.0
-    /// Minimum number of agreeing pairs.
+    /// Minimum number of agreeing pairs. Limit: one pair gives a direction, two a position.
     var minimumPairs = 2
-    /// Maximum angle in degrees between a pair's rotation or direction and the pose.
+    /// Maximum angle in degrees between a pair's rotation or direction and the pose. Chosen.
     var maximumErrorDegrees = 5.0
-    /// Minimum angle in degrees at which two directions must intersect.
+    /// Minimum angle in degrees at which two directions must intersect. Chosen.
     var minimumIntersectionDegrees = 10.0
   }
 

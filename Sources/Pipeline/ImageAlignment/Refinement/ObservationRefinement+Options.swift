@@ -1,37 +1,40 @@
 extension ObservationRefinement {
   package struct Options: Hashable, Codable, Sendable {
-    /// Photos with more pixels are reduced to this size.
+    /// Photos with more pixels are reduced to this size. Chosen: as in `FeatureExtraction`.
     package var workingPixels = 6_500_000
-    /// Distance between template samples in σ of the feature; at least one working pixel.
+    /// Distance between template samples in σ of the feature; at least one working pixel. Chosen.
     package var stepPerScale = 1.0 / 3
-    /// Minimum correlation (ZNCC) of a known observation, and of a new one.
+    /// Minimum correlation (ZNCC) of a known observation, and of a new one. Chosen.
     package var minimumCorrelation = 0.8
     package var minimumNewCorrelation = 0.9
     /// Maximum displacement in working pixels of a known observation, and of a new one from its
-    /// expected position.
+    /// expected position. Chosen.
     package var maximumShift = 3.0
     package var maximumNewShift = 1.0
     /// A photo with a smaller fraction of confirmed observations keeps the unconfirmed ones
-    /// unchanged.
+    /// unchanged. Chosen.
     package var minimumConfirmedShare = 0.25
-    /// Minimum number of observations that keep a photo registered.
+    /// Minimum number of observations that keep a photo registered. Chosen.
     package var minimumObservations = 10
-    /// The same for a blurred photo, as a share of the median photo's observations.
+    /// The same for a blurred photo, as a share of the median photo's observations. Chosen.
     package var minimumShareIfBlurred = 0.05
     /// If a smaller fraction of the points remains, the refinement is discarded: the photos don't
-    /// show what the poses predict.
+    /// show what the poses predict. Chosen.
     package var minimumPointShare = 0.5
     /// Maximum number of photos that a point is searched for in: those that share the most points
-    /// with its reference photo.
+    /// with its reference photo. Chosen.
     package var neighbors = 20
     /// Maximum angle in degrees between a new observation's ray and the mean of the known ones.
+    /// Chosen.
     package var maximumAngleDegrees = 40.0
     /// Maximum reprojection error as a multiple of the median, and its bounds in working pixels.
+    /// Chosen.
     package var errorFactor = 6.0
     package var errorBounds = 0.5...2.0
     /// Transition of the Huber loss from quadratic to linear, as a multiple of the median error.
+    /// Chosen.
     package var huberFactor = 2.5
-    /// Its minimum in working pixels.
+    /// Its minimum in working pixels. Chosen.
     package var minimumHuberWidth = 0.1
     var adjustment = MapAdjustment.Options()
 

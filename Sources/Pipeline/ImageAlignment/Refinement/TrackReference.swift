@@ -30,7 +30,7 @@ struct TrackReference: Sendable {
       let seen = into * (center + normal.dot(point - center) / slope * direction)
       return seen.z > 1e-9 ? target.project(seen) : nil
     }
-    // The Jacobian is estimated by central differences over this number of pixels.
+    // The Jacobian is estimated by central differences over this number of pixels. Chosen.
     let reach = 2.0
     guard into.center.dot(normal) > point.dot(normal), let middle = project(pixel),
       let right = project(pixel + [reach, 0]), let left = project(pixel - [reach, 0]),

@@ -3,18 +3,18 @@ import SceneModel
 /// Estimates the up direction of the scene from the orientations of the cameras.
 struct CameraUp: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum length, 0…1, of the mean image top; below it, the cameras look up or down.
+    /// Minimum length, 0…1, of the mean image top; below it, the cameras look up or down. Chosen.
     var minimumTop = 0.3
-    /// Minimum length, 0…1, of the mean backward axis of such cameras.
+    /// Minimum length, 0…1, of the mean backward axis of such cameras. Chosen.
     var minimumBack = 0.1
-    /// Maximum mean squared component of the x axes along their common normal.
+    /// Maximum mean squared component of the x axes along their common normal. Chosen.
     var maximumNormalVariance = 0.02
-    /// Minimum of the second smallest principal value of the x axes: they span a plane.
+    /// Minimum of the second smallest principal value of the x axes: they span a plane. Chosen.
     var minimumSpread = 0.1
-    /// Minimum cosine of the angle between their normal and the mean image top.
+    /// Minimum cosine of the angle between their normal and the mean image top. Chosen.
     var minimumCosine = 0.6
     /// Cameras in several orientations are assumed if that reduces the cost of `LevelCameras` by
-    /// this: some photos were taken with the camera on its side.
+    /// this: some photos were taken with the camera on its side. Chosen.
     var minimumLevelGain = 0.05
     var level = LevelCameras.Options()
   }

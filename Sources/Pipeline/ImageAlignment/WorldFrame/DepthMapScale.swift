@@ -8,14 +8,14 @@ import SceneModel
 /// disparities are evaluated both as depths and as disparities.
 struct DepthMapScale: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Minimum number of points of a photo with a measured depth.
+    /// Minimum number of points of a photo with a measured depth. Chosen.
     var minimumPoints = 20
     /// Maximum median deviation of a photo's points from their median, relative. A map that exceeds
-    /// it shows something else, or is not in meters along the optical axis.
+    /// it shows something else, or is not in meters along the optical axis. Chosen.
     var maximumDeviation = 0.1
-    /// Maximum relative deviation of a photo's scale from the median over the photos.
+    /// Maximum relative deviation of a photo's scale from the median over the photos. Chosen.
     var tolerance = 0.1
-    /// Minimum fraction of the photos with depth maps that must agree.
+    /// Minimum fraction of the photos with depth maps that must agree. Chosen.
     var minimumShare = 0.5
   }
 

@@ -98,6 +98,7 @@ struct GPSFit: Sendable {
   private static func earthCentered(
     _ position: GeographicPosition, _ altitude: Double
   ) -> SIMD3<Double> {
+    // Limit: the semi-major axis and the squared eccentricity of WGS 84.
     let (a, e2) = (6_378_137.0, 6.694_379_990_14e-3)
     let latitude = position.latitudeDegrees * .pi / 180
     let longitude = position.longitudeDegrees * .pi / 180

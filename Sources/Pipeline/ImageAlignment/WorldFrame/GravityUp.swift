@@ -4,15 +4,15 @@ import SceneModel
 /// The up direction from the accelerometers of the cameras: the mean over the photos that agree.
 struct GravityUp: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Photos agree within this angle.
+    /// Photos agree within this angle. Chosen.
     var toleranceDegrees = 10.0
-    /// Minimum fraction of the photos that must agree.
+    /// Minimum fraction of the photos that must agree. Chosen.
     var minimumShare = 0.5
     /// Maximum roll of the camera: people hold cameras roughly upright, so gravity deviates from
-    /// the downward image axis by at most this.
+    /// the downward image axis by at most this. Chosen.
     var maximumRollDegrees = 60.0
     /// Minimum sine of the angle between gravity and the optical axis at which the roll is
-    /// meaningful.
+    /// meaningful. Chosen.
     var minimumSine = 0.3
   }
 

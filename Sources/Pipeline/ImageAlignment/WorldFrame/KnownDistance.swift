@@ -28,8 +28,8 @@ package struct KnownDistance: Hashable, Codable, Sendable {
     }
   }
 
-  /// Lengths from that of a bacterium to that of a country: beyond them, the numbers of a model in
-  /// meters would be out of range.
+  /// Lengths from that of a bacterium to that of a country. Chosen: beyond them, the numbers of a
+  /// model in meters would be out of range.
   package static let possibleMeters = 1e-6...1e6
   /// Completes the sentence "A distance must be …".
   package static let possibleMetersText = "from 0.000001 to 1000000 m"

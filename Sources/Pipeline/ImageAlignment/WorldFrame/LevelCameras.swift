@@ -4,20 +4,21 @@ import SceneModel
 /// orientation, even if the photos don't record which: one of the two image axes is horizontal.
 struct LevelCameras: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Number of hypotheses, each from the horizontal axes of two photos.
+    /// Number of hypotheses, each from the horizontal axes of two photos. Chosen.
     var iterations = 400
-    /// Two horizontal axes must differ by an angle with at least this sine.
+    /// Two horizontal axes must differ by an angle with at least this sine. Chosen.
     var minimumSine = 0.3
     /// Cameras whose optical axis has at least this cosine with the vertical look up or down: their
-    /// image axes are all horizontal.
+    /// image axes are all horizontal. Chosen: 20° about the vertical.
     var verticalCosine = 0.94
     /// Cost of a photo that was taken with the camera on its side, in the unit of `cost(of:)`: both
-    /// explanations are equally good if all photos have the same direction.
+    /// explanations are equally good if all photos have the same direction. Chosen.
     var sideCost = 0.02
     /// If fewer than this share of the photos are upright, the sign follows from the cameras'
-    /// looking down.
+    /// looking down. Chosen.
     var minimumUprightShare = 0.2
     /// The sign is certain if cameras look down by an angle with at least this sine, on average.
+    /// Chosen.
     var minimumDownwardSine = 0.1
     var seed: UInt64 = 0x5eed_0002
 

@@ -8,11 +8,11 @@ struct MeasuredScale: Sendable {
   /// value.
   var deviations: [Double]
 
-  /// Maximum reprojection error of a pick, as a fraction of the photo's longer side.
+  /// Maximum reprojection error of a pick, as a fraction of the photo's longer side. Chosen.
   static let maximumPickError = 0.01
-  /// Maximum relative deviation of a distance from its measured value without a warning.
+  /// Maximum relative deviation of a distance from its measured value without a warning. Chosen.
   static let maximumDeviation = 0.02
-  /// Minimum of 1 − cos α for two rays at an angle α to determine a point.
+  /// Minimum of 1 − cos α for two rays at an angle α to determine a point. Chosen: 2.6°.
   static let minimumIntersection = 0.001
 
   /// Estimates the scale. It is nil without a usable distance; `problems` are messages about

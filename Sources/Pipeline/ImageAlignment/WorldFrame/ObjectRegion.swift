@@ -2,12 +2,12 @@ import SceneModel
 
 /// The part of the scene that most photos show.
 struct ObjectRegion: Sendable {
-  /// Approximate maximum number of points that are examined.
+  /// Approximate maximum number of points that are examined. Chosen.
   private static let maximumPoints = 4000
   /// A point is in view of most photos if at least eight tenths as many photos show it as the ninth
-  /// decile of all points.
+  /// decile of all points. Chosen.
   private static let (coreTenths, decile) = (8, 9)
-  /// Radius of the surroundings in camera distances.
+  /// Radius of the surroundings in camera distances. Chosen.
   private static let surroundingsRadius = 1.5
 
   /// The points that are in view of most photos.

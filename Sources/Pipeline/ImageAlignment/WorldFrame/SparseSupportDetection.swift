@@ -7,18 +7,18 @@ import SceneModel
 /// A plain table top has few points on it; then the layer must be denser than what is directly
 /// above it.
 struct SparseSupportDetection: Sendable {
-  /// Number of RANSAC hypotheses, and of fits to the points on the best one.
+  /// Number of RANSAC hypotheses, and of fits to the points on the best one. Chosen.
   private static let (iterations, refinements) = (1000, 3)
   /// Minimum number of points around the object, of points on an unambiguous layer, and of points
-  /// that a plane is fitted to.
+  /// that a plane is fitted to. Chosen.
   private static let (minimumPoints, minimumLayerPoints, minimumFitPoints) = (50, 40, 10)
-  /// Points lower than this number of thicknesses are below the plane.
+  /// Points lower than this number of thicknesses are below the plane. Chosen.
   private static let belowFactor = -3.0
-  /// Points up to this number of thicknesses are directly above the plane.
+  /// Points up to this number of thicknesses are directly above the plane. Chosen.
   private static let aboveFactor = 3.0
-  /// Score of a point below the plane; a point on it has 1.
+  /// Score of a point below the plane; a point on it has 1. Chosen.
   private static let belowScore = -2
-  /// Minimum width of a layer relative to that of the object.
+  /// Minimum width of a layer relative to that of the object. Chosen.
   private static let minimumLayerWidth = 0.7
 
   let options: WorldAlignment.Options

@@ -4,13 +4,13 @@ import SceneModel
 /// stands on its wider end.
 struct WiderEndUp: Sendable {
   struct Options: Hashable, Codable, Sendable {
-    /// Share of the height that is an end.
+    /// Share of the height that is an end. Chosen.
     var endShare = 0.1
-    /// Share of the points that are ignored as outliers, at each end.
+    /// Share of the points that are ignored as outliers, at each end. Chosen.
     var outlierShare = 0.01
-    /// Minimum ratio of the ends' areas at which the wider one is the lower one.
+    /// Minimum ratio of the ends' areas at which the wider one is the lower one. Chosen.
     var minimumRatio = 2.0
-    /// Minimum number of points of an end.
+    /// Minimum number of points of an end. Chosen.
     var minimumPoints = 10
   }
 

@@ -5,10 +5,10 @@ import Kernels
 import SceneModel
 
 extension PageModel {
-  /// Maximum side of a texture of a model that is viewed: that which every browser can draw (WebGL
+  /// Maximum side of a texture of a model that is viewed. Limit: what every browser can draw (WebGL
   /// 2 demands 2048, nearly all devices have 4096 and more).
   private static let viewedTextureSide = 4096
-  /// Chosen by eye.
+  /// Chosen: by eye.
   private static let viewedQuality: Float = 0.9
 
   /// A model from a file, with all its triangles. Textures that can't be decoded are left out.

@@ -43,12 +43,12 @@ package struct PageModel: Encodable, Sendable {
   }
 
   package struct Options: Hashable, Sendable {
-    /// A model with more triangles is simplified, and has a color per vertex. Measured with
-    /// software rendering on two cores: one picture a second.
+    /// A model with more triangles is simplified, and has a color per vertex. Measured: one picture
+    /// a second with software rendering on two cores.
     package var maximumTriangles = 250_000
     /// Maximum side of a texture, and of all together. Chosen: 0.4 MB.
     package var textureSide = 2048
-    /// Chosen by eye.
+    /// Chosen: by eye.
     package var quality: Float = 0.8
 
     package init() {}
