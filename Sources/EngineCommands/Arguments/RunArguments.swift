@@ -21,8 +21,8 @@ struct RunArguments: ParsableArguments {
     name: .long,
     help: ArgumentHelp(
       """
-      Change an option of the method, to measure what it does; docs/Tuning.md lists them. Can be \
-      repeated.
+      Change an option of the method, to measure what it does: one of those under 'configuration' \
+      in report.json, such as alignment.refinement.adjustment.huberWidth=2.
       """, valueName: "option=value"))
   var set: [OptionOverride] = []
 
