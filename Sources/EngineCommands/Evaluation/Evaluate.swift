@@ -124,7 +124,9 @@ struct Evaluate: ParsableCommand {
           + "reference with mesh.ply; for outlines, --masks.")
     }
     if let page {
-      try AtomicFile.write(try evaluation.page(report, name: self.result), to: page)
+      try AtomicFile.write(
+        try evaluation.page(report, name: URL(fileURLWithPath: self.result).lastPathComponent),
+        to: page)
     }
     Terminal.shared.result(try output.text(report))
     if let page { Terminal.shared.result(page.relativePath) }

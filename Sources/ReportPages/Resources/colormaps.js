@@ -60,4 +60,5 @@ const MAP_EXPLANATIONS = {
   photometric: 'How much the photos disagree about the color of a spot: movement, gloss or '
     + 'changing light.',
   uncertainty: 'How far the surface may lie from where it is drawn.',
+  distance: 'How far the surface is from the reference.',
 };

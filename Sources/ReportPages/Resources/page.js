@@ -66,7 +66,10 @@ function buildViewer(page, main) {
     .map(([term, value]) => [String(term), String(value)]);
   main.replaceChildren(view.element);
   const panel = main.querySelector('.panel') ?? main;
-  panel.prepend(...[figureList(facts, 'facts')].filter(Boolean));
+  const figures = figureList(facts, 'facts');
+  const field = panel.querySelector('.field');
+  if (figures && field) field.after(figures);
+  else if (figures) panel.prepend(figures);
   panel.append(...[libraryLicense(page.material.library)].filter(Boolean));
 }
 

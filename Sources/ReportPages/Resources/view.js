@@ -56,6 +56,8 @@ function colorSelect(scene, legend) {
     surface.modes.map((mode) => option(mode, SURFACE_NAMES[mode])),
     surface.maps.length > 0 && element('optgroup', { label: 'Maps of the surface' },
       surface.maps.map((map) => option(map.key, map.name))));
+  // A page about errors shows them first.
+  if (surface.maps.some((map) => map.key === 'distance')) select.value = 'distance';
   select.addEventListener('change', () => {
     const map = surface.maps.find((each) => each.key === select.value);
     surface.show(select.value);
