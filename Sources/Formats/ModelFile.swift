@@ -22,10 +22,12 @@ package enum ModelFile {
     _ url: URL, decompressedBy decoder: (any GLTFMeshDecoder)? = nil
   ) throws -> LoadedModel {
     if url.isExistingFolder {
-      let object = try naming(url) { try OBJFolder.object(in: url) }
+      let object = try FormatError.naming(url) { try OBJFolder.object(in: url) }
       return try decode(try contents(of: object), of: object)
     }
-    if Kind(url) == .ply { return try naming(url) { try LoadedModel(PLY.readMesh(url)).checked() } }
+    if Kind(url) == .ply {
+      return try FormatError.naming(url) { try LoadedModel(PLY.readMesh(url)).checked() }
+    }
     // An unknown format is reported without reading what may be large.
     return try decode(Kind(url) == nil ? [] : try contents(of: url), of: url, decoder)
   }
@@ -35,7 +37,7 @@ package enum ModelFile {
     _ bytes: [UInt8], of url: URL, _ decoder: (any GLTFMeshDecoder)? = nil
   ) throws -> LoadedModel {
     let files = RelatedFiles(folder: url.deletingLastPathComponent())
-    return try naming(url) {
+    return try FormatError.naming(url) {
       let model =
         switch Kind(url) {
         case .glb, .gltf:
@@ -51,24 +53,11 @@ package enum ModelFile {
       return try model.checked()
     }
   }
-
-  /// Calls `body`, and adds the path to errors.
-  private static func naming<Value>(_ url: URL, _ body: () throws -> Value) throws -> Value {
-    do {
-      return try body()
-    } catch let fault as FormatFault {
-      throw FormatError.malformed(path: url.path, reason: fault.reason)
-    } catch is ByteCursor.Truncated {
-      throw FormatError.malformed(path: url.path, reason: "it ends too early, or a size is wrong")
-    } catch let feature as UnsupportedFeature {
-      throw FormatError.unsupported(
-        path: url.path, reason: feature.reason, remedy: feature.remedy)
-    }
-  }
 }
 
 extension LoadedModel {
-  fileprivate init(_ mesh: Mesh) {
+  /// A surface without texture.
+  package init(_ mesh: Mesh) {
     var part = Part()
     part.positions = mesh.positions
     part.normals = mesh.normals

@@ -36,12 +36,8 @@ package enum COLMAPBinary {
   ) throws {
     let url = folder.appendingPathComponent(name)
     var cursor = ByteCursor(try contents(of: url))
-    do {
+    try FormatError.naming(url) {
       for _ in 0..<(try cursor.count()) { try entry(url.path, &cursor) }
-    } catch let fault as FormatFault {
-      throw FormatError.malformed(path: url.path, reason: fault.reason)
-    } catch is ByteCursor.Truncated {
-      throw FormatError.malformed(path: url.path, reason: "it ends too early, or a size is wrong")
     }
   }
 

@@ -13,11 +13,7 @@ package enum MetashapeCameras {
   /// Photos are named by their labels, in the order of the file. Throws a `FormatError`.
   package static func read(_ url: URL) throws -> Reconstruction {
     let bytes = try contents(of: url)
-    do {
-      return try decode(bytes)
-    } catch let fault as FormatFault {
-      throw FormatError.malformed(path: url.path, reason: fault.reason)
-    }
+    return try FormatError.naming(url) { try decode(bytes) }
   }
 
   static func decode(_ bytes: [UInt8]) throws -> Reconstruction {

@@ -6,7 +6,7 @@ struct PackageRules {
   private static let alignment = 64
   /// What AR Quick Look reads (OpenUSD, `ARKitFileExtensionChecker`).
   private static let extensions: Set = [
-    "usda", "usdc", "usd", "usdz", "png", "jpg", "jpeg", "exr", "avif", "m4a", "mp3", "wav",
+    "usda", "usdc", "usd", "usdz", "png", "jpg", "jpeg", "exr",
   ]
 
   private(set) var findings: [String] = []

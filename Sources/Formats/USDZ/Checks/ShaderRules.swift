@@ -30,7 +30,7 @@ struct ShaderRules {
 
   init(_ prims: PrimTable) {
     for (path, prim) in prims.entries {
-      if !Self.types.contains(prim.typeName) {
+      if !Self.types.contains(prim.typeName), !prim.typeName.hasPrefix("RealityKit") {
         findings.append("\(path) is a \(prim.typeName), which ARKit does not display")
       }
       if prim.typeName == "Shader" { checkShader(prim, path, prims) }

@@ -4,7 +4,7 @@ import Foundation
 ///
 /// The rules are those of the USDZ specification (openusd.org/release/spec_usdz.html) and of
 /// `UsdUtils.ComplianceChecker` with ARKit's rules, except that images aren't decoded here.
-package struct USDZCheck: Equatable, Sendable {
+package struct USDZCheck: Sendable {
   /// What a detail level allows and promises.
   package struct Level: Sendable {
     package var name: String
@@ -21,13 +21,6 @@ package struct USDZCheck: Equatable, Sendable {
     }
   }
 
-  /// A file of the package.
-  package struct File: Equatable, Sendable {
-    package var name: String
-    package var size: Int
-  }
-
-  package private(set) var files: [File] = []
   package private(set) var triangles = 0
   /// The inputs of materials with a texture, and the textures by their path.
   package private(set) var maps: [String] = []
@@ -35,29 +28,14 @@ package struct USDZCheck: Equatable, Sendable {
   /// Sentences; none for a clean package.
   package var findings: [String] = []
 
-  package static func == (a: USDZCheck, b: USDZCheck) -> Bool {
-    a.files == b.files && a.triangles == b.triangles && a.maps == b.maps
-      && a.findings == b.findings
-  }
-
   /// Checks the content of a file. Throws a `FormatError` if it is no package with a layer.
   package init(_ url: URL) throws {
     let bytes = try contents(of: url)
-    do {
-      try self.init(bytes)
-    } catch let fault as FormatFault {
-      throw FormatError.malformed(path: url.path, reason: fault.reason)
-    } catch is ByteCursor.Truncated {
-      throw FormatError.malformed(path: url.path, reason: "it ends too early, or a size is wrong")
-    } catch let feature as UnsupportedFeature {
-      throw FormatError.unsupported(
-        path: url.path, reason: feature.reason, remedy: feature.remedy)
-    }
+    self = try FormatError.naming(url) { try USDZCheck(bytes) }
   }
 
   init(_ bytes: [UInt8]) throws {
     let archive = try ZipArchive(bytes)
-    files = archive.entries.map { File(name: $0.name, size: $0.size) }
     findings = try PackageRules(archive).findings
     guard let layer = archive.entries.first, layer.method == 0,
       USDLayer.fileExtensions.contains((layer.name as NSString).pathExtension.lowercased())
