@@ -16,7 +16,7 @@ struct BatchBaseline {
   }
 
   /// A dataset that got worse, and how.
-  struct Regression: Equatable, Codable {
+  struct Regression: Equatable {
     var name: String
     var reasons: [String]
 

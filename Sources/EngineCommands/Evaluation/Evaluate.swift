@@ -111,11 +111,11 @@ struct Evaluate: ParsableCommand {
     }
     var result = try EvaluationInput(result: result)
     if let model { try result.readModel(model) }
-    let evaluation = Evaluated(
-      result: result, reference: try reference.map { try EvaluationInput(reference: $0) },
-      heldOutFolder: try heldOutFolder(), masks: try masks.map { try maskFolder($0) },
-      method: align, metersPerUnit: unit.meters, comparison: comparison,
-      control: KernelControl(threadCount: threading.threadCount))
+    let evaluation = ResultComparison(
+      of: result, with: try reference.map { try EvaluationInput(reference: $0) },
+      heldOutFolder: try heldOutFolder(), masks: try masks.map { try maskFolder($0) }, by: align,
+      metersPerUnit: unit.meters, comparison,
+      KernelControl(threadCount: threading.threadCount))
     let report = try evaluation.report()
     guard !report.isEmpty else {
       throw CommandFailure.usage(

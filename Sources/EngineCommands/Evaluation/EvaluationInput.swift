@@ -22,12 +22,7 @@ struct EvaluationInput {
   ///
   /// Throws a `CommandFailure` if it can't be read.
   init(result path: String) throws {
-    let url = URL(fileURLWithPath: path)
-    do {
-      if try Self.isFolder(path) { try readFolder(url) } else { try readFile(url) }
-    } catch let error where !(error is CommandFailure) {
-      throw CommandFailure.usage(CommandFailure(error).sentence)
-    }
+    try read(path) { $0 ? try $1.readFolder($2) : try $1.readFile($2) }
     if let reconstruction { cameras = NamedCamera.cameras(of: reconstruction) }
     guard reconstruction != nil || !cameras.isEmpty || model != nil || cloud != nil || masks != nil
     else {
@@ -39,14 +34,7 @@ struct EvaluationInput {
 
   /// Reads a folder with cameras and a surface, or a file of either. Throws a `CommandFailure`.
   init(reference path: String) throws {
-    let url = URL(fileURLWithPath: path)
-    do {
-      if try Self.isFolder(path) { try readReference(url) } else { try readFile(url) }
-    } catch EvaluationError.invalidReference(let reason) {
-      throw CommandFailure.usage("\(path) can't be used: \(reason).")
-    } catch let error where !(error is CommandFailure) {
-      throw CommandFailure.usage(CommandFailure(error).sentence)
-    }
+    try read(path) { $0 ? try $1.readReference($2) : try $1.readFile($2) }
     if let reconstruction, cameras.isEmpty {
       cameras = NamedCamera.cameras(of: reconstruction)
     }
@@ -57,11 +45,21 @@ struct EvaluationInput {
     }
   }
 
-  /// The surface of a model file, or the points of a PLY file.
+  /// Replaces the surface by that of a model, or the cloud by the points of a PLY file. Throws a
+  /// `CommandFailure`.
   mutating func readModel(_ path: String) throws {
-    guard try !Self.isFolder(path) || FileManager.default.fileExists(atPath: path) else { return }
+    model = nil
+    try read(path) { try $1.readSurface($2) }
+  }
+
+  /// Calls `body` with whether the path is a folder, and makes its errors those of the arguments.
+  private mutating func read(
+    _ path: String, _ body: (Bool, inout EvaluationInput, URL) throws -> Void
+  ) throws {
     do {
-      try readSurface(URL(fileURLWithPath: path))
+      try body(try Self.isFolder(path), &self, URL(fileURLWithPath: path))
+    } catch EvaluationError.invalidReference(let reason) {
+      throw CommandFailure.usage("\(path) can't be used: \(reason).")
     } catch let error where !(error is CommandFailure) {
       throw CommandFailure.usage(CommandFailure(error).sentence)
     }
@@ -78,10 +76,15 @@ extension EvaluationInput {
   }
 
   private mutating func readSurface(_ url: URL) throws {
-    if url.pathExtension.lowercased() == "ply", try PLY.readMesh(url).triangles.isEmpty {
+    guard url.pathExtension.lowercased() == "ply" else {
+      model = try ModelFile.read(url, decompressedBy: MeshoptDecoder())
+      return
+    }
+    let mesh = try PLY.readMesh(url)
+    if mesh.triangles.isEmpty {
       cloud = try PLY.readPointCloud(url)
     } else {
-      model = try ModelFile.read(url, decompressedBy: MeshoptDecoder())
+      model = LoadedModel(mesh)
     }
   }
 

@@ -6,7 +6,7 @@ import Pipeline
 import SceneModel
 import SharedCommands
 
-extension Evaluated {
+extension ResultComparison {
   /// A page with the model, colored by the distance to the reference, and the scores. Throws a
   /// `CommandFailure` if there are no surfaces to compare.
   func page(_ report: EvaluationReport, name: String) throws -> Data {

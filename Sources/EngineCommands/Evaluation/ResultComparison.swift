@@ -7,27 +7,34 @@ import SceneModel
 import SharedCommands
 
 /// A result that is compared with a reference, as far as both have what it takes.
-struct Evaluated {
+struct ResultComparison {
   let result: EvaluationInput
   let reference: EvaluationInput?
-  let heldOutFolder: URL?
   let masks: MaskFolder?
   /// Nil for the default.
   let method: AlignmentMethod?
   let metersPerUnit: Double?
   let comparison: ComparisonArguments
   let control: KernelControl
-
   /// The photos that were held out, and the cameras of the others.
-  private var heldOut: [HeldOutPhoto] {
-    guard let heldOutFolder, let cameras = reference?.cameras else { return [] }
-    let marked = cameras.filter(\.isHeldOut)
-    return HeldOutPhoto.photos(in: heldOutFolder, marked.isEmpty ? cameras : marked)
-  }
+  private let heldOut: [HeldOutPhoto]
+  private let referenceCameras: [NamedCamera]
 
-  private var referenceCameras: [NamedCamera] {
+  init(
+    of result: EvaluationInput, with reference: EvaluationInput?, heldOutFolder: URL?,
+    masks: MaskFolder?, by method: AlignmentMethod?, metersPerUnit: Double?,
+    _ comparison: ComparisonArguments, _ control: KernelControl
+  ) {
+    (self.result, self.reference, self.masks) = (result, reference, masks)
+    (self.method, self.metersPerUnit) = (method, metersPerUnit)
+    (self.comparison, self.control) = (comparison, control)
+    let cameras = reference?.cameras ?? []
+    let marked = cameras.filter(\.isHeldOut)
+    let heldOut =
+      heldOutFolder.map { HeldOutPhoto.photos(in: $0, marked.isEmpty ? cameras : marked) } ?? []
     let names = Set(heldOut.map(\.camera.name))
-    return (reference?.cameras ?? []).filter { !$0.isHeldOut && !names.contains($0.name) }
+    self.heldOut = heldOut
+    referenceCameras = cameras.filter { !$0.isHeldOut && !names.contains($0.name) }
   }
 
   /// All scores. Throws a `CommandFailure` if an input can't be read or aligned.
@@ -53,7 +60,7 @@ struct Evaluated {
         cloud, sparsePoints: result.reconstruction?.points.count, alignment,
         reference: reference?.model?.mesh)
     }
-    if let model = result.model {
+    if let model = result.model, !heldOut.isEmpty {
       let shaded = try ShadedModel(model, alignment, control)
       if shaded.hasColor {
         report.heldOut = try PhotoComparison(control).run(shaded, heldOut)

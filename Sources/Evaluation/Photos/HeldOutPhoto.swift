@@ -15,7 +15,7 @@ package struct HeldOutPhoto: Sendable {
   /// `a_mask.png` beside it.
   package static func photos(in folder: URL, _ cameras: [NamedCamera]) -> [HeldOutPhoto] {
     let names = (try? FileManager.default.contentsOfDirectory(atPath: folder.path)) ?? []
-    let files = names.sorted().filter { $0 != maskName(of: $0) && !$0.contains("_mask.") }
+    let files = names.sorted().filter { !$0.contains("_mask.") }
     let table = PhotoTable(files.map { ($0, $0) })
     return cameras.compactMap { camera in
       guard let name = table[camera.name] else { return nil }

@@ -12,10 +12,11 @@ package struct PhotoComparison: Sendable {
   ///
   /// Throws an `ImageError` for a photo or mask that can't be decoded.
   package func run(_ model: ShadedModel, _ photos: [HeldOutPhoto]) throws -> PhotoScoreSummary? {
-    PhotoScoreSummary(try photos.map { try scores(model, $0) })
+    PhotoScoreSummary(try photos.compactMap { try scores(model, $0) })
   }
 
-  private func scores(_ model: ShadedModel, _ photo: HeldOutPhoto) throws -> PhotoScores {
+  /// Nil if the mask is empty.
+  private func scores(_ model: ShadedModel, _ photo: HeldOutPhoto) throws -> PhotoScores? {
     let image = try photo.image()
     let mask = try photo.mask(for: image)
     let camera = photo.camera.fitted(to: image)
@@ -38,9 +39,7 @@ package struct PhotoComparison: Sendable {
       count += 1
       missing += pixel.isMissing ? 1 : 0
     }
-    guard count > 0 else {
-      return PhotoScores(name: photo.camera.name, psnr: 0, ssim: 0, missing: 1)
-    }
+    guard count > 0 else { return nil }
     let similarity = StructuralSimilarity(
       width: image.width, height: image.height, weights: pixels.map(\.weight))
     return PhotoScores(

@@ -66,8 +66,10 @@ package struct SurfaceRegistration: Sendable {
     _ tree: BoundingTree<Item>, samples: (Int) -> [SIMD3<Float>], _ reference: Mesh,
     _ initial: SimilarityTransform?
   ) throws -> SimilarityTransform {
-    let coarse = samples(20_000)
-    let (from, to) = (Extent(coarse), Extent(SurfaceSampling().run(reference, count: 20_000)))
+    let most = options.rounds.map(\.samples).max() ?? 0
+    let (from, to) = (
+      Extent(samples(most)), Extent(SurfaceSampling().run(reference, count: most))
+    )
     guard let from, let to else { throw EvaluationError.emptySurface }
     let referenceTree = BoundingTree(reference.triangles.map { FlatTriangle($0, of: reference) })
     let scale = options.estimatesScale ? to.radius / from.radius : 1
@@ -116,6 +118,7 @@ package struct SurfaceRegistration: Sendable {
       let close = pairs.filter { $0.distance <= options.outlierFactor * median }
       let step = toPlanes ? planeStep(transform, close) : pointStep(close)
       guard let next = step else { break }
+      // A few points determine how far the surface moves. Chosen.
       let moved = pairing.reference.prefix(8).map { point in
         (next * (transform.inverse * SIMD3<Double>(point)) - SIMD3<Double>(point)).length
       }

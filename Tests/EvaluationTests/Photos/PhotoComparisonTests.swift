@@ -90,6 +90,17 @@ import Testing
     #expect(found > largest && found < largest + 3)
   }
 
+  @Test func photosWithAnEmptyMaskDontCount() throws {
+    let folder = try TemporaryFolder()
+    try folder.write(try ImageCodec.encodePNG(Self.photo()), as: "photo.png")
+    let mask = RasterImage(width: 40, height: 20, channels: 1)
+    try folder.write(try ImageCodec.encodePNG(mask), as: "photo_mask.png")
+    let control = KernelControl(threadCount: 1)
+    let model = try ShadedModel(try Self.model(), .identity, control)
+    let photos = HeldOutPhoto.photos(in: folder.url, [Self.camera])
+    #expect(try PhotoComparison(control).run(model, photos) == nil)
+  }
+
   @Test func theMaskOfAPhotoIsNoPhoto() throws {
     let folder = try TemporaryFolder()
     try folder.write(try ImageCodec.encodePNG(Self.leftHalf), as: "photo_mask.png")
