@@ -20,14 +20,25 @@ struct RotationGraph: Sendable {
 
   // MARK: Triplets
 
-  /// The graph without the pairs that are inconsistent in most of their triplets: the composition
-  /// of the three rotations around a triplet should be the identity (Zach et al., "Disambiguating
-  /// visual relations using loop constraints", CVPR 2010).
-  ///
-  /// Pairs that are part of no triplet are kept. `limit` is in radians.
-  func consistent(limit: Double, minimumShare: Double) -> RotationGraph {
+  /// How many triplets there are, and in how many of them the composition of the three rotations
+  /// around the triplet is the identity, as it should be (Zach et al., "Disambiguating visual
+  /// relations using loop constraints", CVPR 2010).
+  struct TripletCounts: Sendable {
+    /// Of each pair, in their order.
+    var consistent: [Int]
+    var total: [Int]
+
+    /// The fraction of all triplets that is consistent; 1 if there is none.
+    var consistentShare: Double {
+      let all = total.reduce(0, +)
+      return all == 0 ? 1 : Double(consistent.reduce(0, +)) / Double(all)
+    }
+  }
+
+  /// Counts the triplets whose rotations compose to at most `limit` radians.
+  func tripletCounts(limit: Double) -> TripletCounts {
     let neighbors = neighbors
-    var (consistentCount, total) = (pairs.map { _ in 0 }, pairs.map { _ in 0 })
+    var counts = TripletCounts(consistent: pairs.map { _ in 0 }, total: pairs.map { _ in 0 })
     for (index, pair) in pairs.enumerated() {
       let (a, b) = (neighbors[Int(pair.first)], neighbors[Int(pair.second)])
       var (i, j) = (0, 0)
@@ -38,18 +49,24 @@ struct RotationGraph: Sendable {
           let loop = third.rotation.conjugate * other.rotation * pair.rotation
           let isConsistent = loop.angle <= limit ? 1 : 0
           for member in [index, Int(a[i].pair), Int(b[j].pair)] {
-            consistentCount[member] += isConsistent
-            total[member] += 1
+            counts.consistent[member] += isConsistent
+            counts.total[member] += 1
           }
         }
         if a[i].photo <= b[j].photo { i += 1 } else { j += 1 }
       }
     }
+    return counts
+  }
+
+  /// The graph without the pairs that are inconsistent in most of their triplets. Pairs that are
+  /// part of no triplet are kept.
+  func consistent(_ counts: TripletCounts, minimumShare: Double) -> RotationGraph {
     var result = self
     result.pairs = pairs.indices.filter {
-      total[$0] == 0
-        || (consistentCount[$0] > 0
-          && Double(consistentCount[$0]) >= minimumShare * Double(total[$0]))
+      counts.total[$0] == 0
+        || (counts.consistent[$0] > 0
+          && Double(counts.consistent[$0]) >= minimumShare * Double(counts.total[$0]))
     }.map { pairs[$0] }
     return result
   }

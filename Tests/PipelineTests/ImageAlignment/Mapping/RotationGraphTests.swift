@@ -29,6 +29,7 @@ import Testing
   @Test func chainHasNoTwoConnectedPart() {
     #expect(graph(4, [(0, 1), (1, 2), (2, 3)]).largestTwoConnectedPart().count == 1)
     #expect(graph(0, []).largestTwoConnectedPart().isEmpty)
+    #expect(graph(0, []).tripletCounts(limit: 0.1).consistentShare == 1)
   }
 
   @Test func inconsistentPairIsDropped() {
@@ -36,9 +37,14 @@ import Testing
     let rotations = (0..<6).map { _ in Quaternion(angle: random.uniform(), axis: random.normal3()) }
     let all = (0..<6).flatMap { a in ((a + 1)..<6).map { (Int32(a), Int32($0)) } }
     var graph = graph(6, all, rotations: rotations)
-    #expect(graph.consistent(limit: 0.01, minimumShare: 0.5).pairs.count == 15)
+    var triplets = graph.tripletCounts(limit: 0.01)
+    #expect(triplets.consistentShare == 1)
+    #expect(graph.consistent(triplets, minimumShare: 0.5).pairs.count == 15)
     graph.pairs[4].rotation = Quaternion(angle: 0.5, axis: [1, 0, 0]) * graph.pairs[4].rotation
-    let kept = graph.consistent(limit: 0.1, minimumShare: 0.5)
+    triplets = graph.tripletCounts(limit: 0.1)
+    // The pair is part of 4 of the 20 triplets.
+    #expect(triplets.consistentShare == 0.8)
+    let kept = graph.consistent(triplets, minimumShare: 0.5)
     #expect(kept.pairs == graph.pairs.indices.filter { $0 != 4 }.map { graph.pairs[$0] })
   }
 
