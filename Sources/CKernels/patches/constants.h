@@ -27,8 +27,8 @@ constexpr float kWeakCostSlope = 0.25f;
 constexpr float kSamePlaneMotion = 0.4f;
 
 /// In pixels of a source. After a Gauss–Newton step that moves the texels by less, the plane is not
-/// scored again. Measured: no loss of accuracy on boot at half resolution (BENCHMARKS.md,
-/// "Experiments").
+/// scored again. Measured: no loss of accuracy on boot at half resolution
+/// (docs/experiments/2026-11-dense-stage.md, "Experiments").
 constexpr float kUnverifiedMotion = 0.2f;
 
 /// Range of the first random perturbation of a plane, which is halved in each round: relative for
@@ -42,8 +42,8 @@ constexpr float kMinimumFootprint = 0.1f, kMaximumFootprint = 8.0f;
 /// A source takes part in a Gauss–Newton step if its cost is below `factor · best + offset`: a
 /// source with a much higher cost than the best one is occluded. Measured: the rule raises the
 /// share of pixels within 0.5 mm from 0.939 to 0.944 on four views of boot (BENCHMARKS.md of
-/// `a00f5c5`); weights by cost instead lower F from 0.966 to 0.962 on boot ("Experiments"). The
-/// numbers were chosen by trial.
+/// `a00f5c5`); weights by cost instead lower F from 0.966 to 0.962 on boot
+/// (docs/experiments/2026-11-dense-stage.md, "Experiments"). The numbers were chosen by trial.
 constexpr float kVisibleCostFactor = 1.5f, kVisibleCostOffset = 0.05f;
 
 /// Cosine of the largest angle between a patch's normal and its viewing ray: 80°. Chosen.

@@ -18,7 +18,7 @@ constexpr uint8_t kAllSources = 0xff;
 
 /// Number of pixels optimized together: enough to hide memory latency, few enough for the
 /// first-level cache. Measured: takes a quarter less time than one at a time on boot at half
-/// resolution (BENCHMARKS.md, "Experiments").
+/// resolution (docs/experiments/2026-11-dense-stage.md, "Experiments").
 constexpr int kWaveSize = 8;
 
 /// The cost where there is no patch. Limit: the largest possible 1 − ZNCC.

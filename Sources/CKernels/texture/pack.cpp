@@ -14,7 +14,7 @@ namespace ck::texture {
 namespace {
 
 /// Fraction of the texture that charts cover in the first attempt. Measured: charts cover 75 to
-/// 84 % (BENCHMARKS.md, "Detail levels").
+/// 84 % (docs/experiments/2026-11-models.md, "Detail levels").
 constexpr double kInitialUsage = 0.86;
 /// Factor by which the scale falls until all charts fit. Chosen.
 constexpr double kScaleStep = 0.97;

@@ -7,7 +7,7 @@ package enum PatchStereo {
   package struct Options: Hashable, Codable, Sendable {
     /// Number of resolution levels, each half of the previous one, starting with the view's.
     /// Chosen: the levels below half resolution gain nothing on boot, which has many sparse points
-    /// (BENCHMARKS.md, Contribution of each step).
+    /// (docs/experiments/2026-11-dense-stage.md, Contribution of each step).
     package var levelCount = 4
     /// Propagation sweeps at the coarsest level. Chosen.
     package var coarseSweeps = 2
@@ -16,8 +16,8 @@ package enum PatchStereo {
     /// Gauss–Newton steps. Chosen.
     package var refinementSteps = 2
     /// Gray-level difference at which the bilateral weight is one half. Measured: on boot at half
-    /// resolution, 6 gave an F-score of 0.966 at 0.5 mm, 10 gave 0.965 (BENCHMARKS.md,
-    /// Experiments).
+    /// resolution, 6 gave an F-score of 0.966 at 0.5 mm, 10 gave 0.965
+    /// (docs/experiments/2026-11-dense-stage.md, Experiments).
     package var bilateralContrast: Float = 6
     /// Whether views propagate patches to each other.
     package var expandsAcrossViews = true
@@ -35,8 +35,8 @@ package enum PatchStereo {
   package struct FilterOptions: Hashable, Codable, Sendable {
     /// Maximum 1 − ZNCC of a patch that `minimumAgreeingViews` may confirm. Higher than the
     /// thresholds in the literature for ZNCC alone, because noise in weak texture raises this cost
-    /// and each patch is also confirmed geometrically by other views. Measured: tuned on the photo
-    /// sets of BENCHMARKS.md.
+    /// and each patch is also confirmed geometrically by other views. Measured: tuned on the sets
+    /// marked so in Benchmarks/sets.json.
     package var photometricThreshold: Float = 0.5
     /// Maximum 1 − ZNCC of any patch; between the two thresholds, where texture is weak, one more
     /// view must agree. Measured: as above.
@@ -47,10 +47,10 @@ package enum PatchStereo {
     /// Maximum disparity in pixels between a patch and its confirmation, in the coarser view; the
     /// parallax determines the corresponding depth difference. Measured: on boot at half
     /// resolution, 0.6 gave an F-score of 0.966 at 0.5 mm, 0.8 gave 0.964 and 1 gave 0.965
-    /// (BENCHMARKS.md, Experiments).
+    /// (docs/experiments/2026-11-dense-stage.md, Experiments).
     package var reprojectionThreshold: Float = 0.6
-    /// Maximum relative difference of depth, for small parallax. Measured: tuned on the photo sets
-    /// of BENCHMARKS.md.
+    /// Maximum relative difference of depth, for small parallax. Measured: tuned on the sets marked
+    /// so in Benchmarks/sets.json.
     package var depthThreshold: Float = 0.01
     /// Maximum angle between normals in degrees. Measured: as above.
     package var normalThresholdDegrees: Float = 60

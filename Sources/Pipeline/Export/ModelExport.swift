@@ -17,7 +17,7 @@ package struct ModelExport: Sendable {
     /// limit.
     package var maximumBytes: Int?
     /// JPEG at a third of PNG's size. Measured: a PSNR of 45.5 dB against PNG on saharov32
-    /// (BENCHMARKS.md, Packages).
+    /// (docs/experiments/2026-11-packages.md).
     var compactColor = TextureFormat.jpeg(quality: 0.97)
     /// How GLB files are compressed; nil stores numbers and textures as other formats do. Readers
     /// must support three extensions of glTF.

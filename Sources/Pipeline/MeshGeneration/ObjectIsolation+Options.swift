@@ -5,7 +5,7 @@ extension ObjectIsolation {
     /// Samples within this many sample sides of each other are connected. Chosen.
     var connectionSamples = 2.0
     /// Share of the photos that must have a sample in their frame for it to enter plane detection.
-    /// Measured: tuned on the photo sets of BENCHMARKS.md.
+    /// Measured: tuned on the sets marked so in Benchmarks/sets.json.
     var focusCoverage = 0.4
     /// Share of the photos that must have a sample in their frame for it to belong to the object.
     /// Measured: as above.

@@ -14,7 +14,7 @@ struct SupportPlaneDetection {
     /// Number of samples that score a hypothesis. Chosen.
     var scoringSamples = 4000
     /// Inlier threshold: half the thickness of the plane, as a share of the camera distance.
-    /// Measured: tuned on the photo sets of BENCHMARKS.md.
+    /// Measured: tuned on the sets marked so in Benchmarks/sets.json.
     var tolerance = 0.006
     /// Share of the samples that must lie on the plane. Measured: as above.
     var minimumShare = 0.08

@@ -7,7 +7,7 @@ import SceneModel
 struct ShadowPlane: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Brightness of a shadow relative to the backdrop, at least. Measured: found on captures of
-    /// seed 7 (BENCHMARKS.md, Objects that move).
+    /// seed 7 (docs/experiments/2026-11-moving-objects.md).
     var minimumBrightness: Float = 0.25
     /// Maximum difference between the color of a shadow and the darkened backdrop, in each
     /// channel, 0…255. Measured: as above.
@@ -15,7 +15,7 @@ struct ShadowPlane: Sendable {
     /// Darker backdrops show no shadows; the brightest channel, 0…255. Chosen.
     var minimumBackdrop: Float = 64
     /// Maximum share of the points that may be below the plane. Measured: found on captures of seed
-    /// 7 (BENCHMARKS.md, Objects that move).
+    /// 7 (docs/experiments/2026-11-moving-objects.md).
     var maximumBelow = 0.02
     /// Number of planes, each below the one before, that are tried: the object has level faces,
     /// too. Chosen.

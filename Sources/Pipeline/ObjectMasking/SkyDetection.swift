@@ -13,7 +13,7 @@ struct SkyDetection: Sendable {
     /// Maximum number of pixels of a mask. Chosen.
     var maximumPixels = 300_000
     /// Maximum range of the luma in a window of three by three pixels, 0…255. Measured: found on
-    /// sceaux, saharov32 and lund (BENCHMARKS.md, Blur, concerns and sky).
+    /// sceaux, saharov32 and lund (docs/experiments/2026-11-masks.md, Blur, concerns and sky).
     var maximumRange: UInt8 = 8
     /// Minimum sine of the elevation of a pixel; not 0, as the up direction is inaccurate. Chosen.
     var minimumElevation = -0.2
@@ -23,7 +23,7 @@ struct SkyDetection: Sendable {
     /// of sky is 0.025 at most in sceaux, saharov32 and lund.
     var maximumDensity = 0.05
     /// A region is bright if its mean luma is above this quantile of the photo's. Measured: found
-    /// on sceaux, saharov32 and lund (BENCHMARKS.md, Blur, concerns and sky).
+    /// on sceaux, saharov32 and lund (docs/experiments/2026-11-masks.md, Blur, concerns and sky).
     var brightQuantile = 0.75
     /// A region is blue if blue exceeds red by this factor, and its luma the median. Measured: as
     /// above.

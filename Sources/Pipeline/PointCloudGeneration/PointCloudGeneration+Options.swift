@@ -9,7 +9,8 @@ extension PointCloudGeneration {
     var sourceSelection = SourceSelection.Options()
     /// Blurred photos with less than this share of a view's detail contribute no patches: their
     /// poses are as imprecise as their pixels, and their points spoil those of sharp photos.
-    /// Measured: on boot with six of 40 photos blurred (BENCHMARKS.md, Blur, concerns and sky).
+    /// Measured: on boot with six of 40 photos blurred (docs/experiments/2026-11-masks.md, Blur,
+    /// concerns and sky).
     var minimumDetail = 0.5
     /// Optimization of the patches, at all resolutions.
     package var patches = PatchStereo.Options()

@@ -10,7 +10,7 @@ import SceneModel
 package struct BlurDetection: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Photos below this fraction of the median sharpness are blurred. Measured: on boot with six
-    /// of 40 photos blurred (BENCHMARKS.md, Blur, concerns and sky).
+    /// of 40 photos blurred (docs/experiments/2026-11-masks.md, Blur, concerns and sky).
     package var minimumShareOfMedian = 0.5
     /// Photos with at least this sharpness are never blurred: see `RasterImage.sharpness()`.
     /// Chosen.

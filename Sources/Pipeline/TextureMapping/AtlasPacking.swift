@@ -20,7 +20,7 @@ struct AtlasPacking: Sendable {
     /// Upper bound of the linear magnification; more would only store interpolated values. Chosen.
     var maximumMagnification: Float = 4
     /// Share of a texture that charts are expected to fill. Chosen: textures are filled to 75 to 84
-    /// % (BENCHMARKS.md, Detail levels).
+    /// % (docs/experiments/2026-11-models.md, Detail levels).
     var expectedUsage: Float = 0.7
   }
 

@@ -26,7 +26,7 @@ class Neighborhood {
 
  private:
   /// Measured: without the reach of coarser levels, the guessed back of dtu_scan24 has spikes where
-  /// fine triangles meet coarse ones (BENCHMARKS.md, "Poisson surface").
+  /// fine triangles meet coarse ones (docs/experiments/2026-11-surface.md, "Poisson surface").
   static constexpr int kMaximumReach = 2;
 
   /// Number of parents on each side of a cell's parent.

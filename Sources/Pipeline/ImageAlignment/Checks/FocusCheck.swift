@@ -17,12 +17,13 @@ struct FocusCheck: Sendable {
     var minimumExpected = 50.0
     /// Minimum share of the features in the focus that are observations of points, relative to that
     /// of the surroundings. Measured: 0.03 and 0.09 for objects that were aligned by the table,
-    /// 0.70 or more in 21 other sets (BENCHMARKS.md, Blur, concerns and sky).
+    /// 0.70 or more in 21 other sets (docs/experiments/2026-11-masks.md, Blur, concerns and sky).
     var minimumRatio = 0.25
     /// Minimum angle between the directions from which the focus is seen, in degrees, as twice the
     /// deviation from their mean that nine of ten photos are within. From less, there is no model
     /// of an object: it was turned in front of a camera that stood still, or is seen from one side
-    /// only. Chosen: it is 60 to 285 in the ten real sets of BENCHMARKS.md in which nothing moves.
+    /// only. Chosen: it is 60 to 285 in the ten real sets in which nothing moves
+    /// (docs/experiments/2026-11-moving-objects.md).
     var minimumSpreadDegrees = 8.0
   }
 

@@ -27,8 +27,8 @@ extension SceneAmbiguityCheck {
     /// Photos with more pixels are reduced to this size. Chosen: as in `ObservationRefinement`.
     package var workingPixels = 6_500_000
     /// Correlation (ZNCC) from which on a point counts as present, and below which it counts as
-    /// absent. Measured: on fourteen rendered scenes and seven real sets (BENCHMARKS.md, Repeated
-    /// structure).
+    /// absent. Measured: on fourteen rendered scenes and seven real sets
+    /// (docs/experiments/2026-11-alignment.md, Repeated structure).
     package var presentCorrelation = 0.75
     package var absentCorrelation = 0.5
     /// Cells along the longer side of a photo. A cell contradicts if it has at least `cellPoints`
@@ -43,8 +43,8 @@ extension SceneAmbiguityCheck {
     package var minimumPoints = 12
     /// Minimum number of pairs in conflict, and minimum share of the pairs that show at least
     /// `minimumPoints` of each other's points, present or absent. Measured: the share on captures
-    /// of seed 61, where the axe laid on its other side was aligned by the table (BENCHMARKS.md,
-    /// Verdicts).
+    /// of seed 61, where the axe laid on its other side was aligned by the table
+    /// (docs/experiments/2026-11-moving-objects.md, Verdicts).
     package var minimumConflicts = 2
     package var minimumConflictShare = 0.1
     /// Maximum distance of a projected point from a match with it, as a fraction of the photo's
@@ -53,7 +53,8 @@ extension SceneAmbiguityCheck {
     /// Pairs with fewer matches that have a point are not evaluated. Chosen.
     package var minimumPairMatches = 30
     /// Fraction of agreeing matches below which a pair contradicts the reconstruction. Measured: on
-    /// fourteen rendered scenes and seven real sets (BENCHMARKS.md, Repeated structure).
+    /// fourteen rendered scenes and seven real sets (docs/experiments/2026-11-alignment.md,
+    /// Repeated structure).
     package var maximumAgreement = 0.2
     /// A pair contradicts the reconstruction if it has at least this share of the matches of the
     /// weakest pair in the strongest chain between its photos. Measured: 0.06 to 0.10 for six pairs

@@ -11,7 +11,7 @@ package struct CorrespondenceSearch {
     package var maximumFalseRejectionRatio = 0.03
     /// If an object moves, matches of its surroundings are dropped, provided that at least this
     /// share of the connected photos stays connected. Measured: found on captures of seed 7
-    /// (BENCHMARKS.md, Objects that move).
+    /// (docs/experiments/2026-11-moving-objects.md).
     package var minimumObjectShare = 0.4
     /// Whether two photos without masks are matched even if others have masks. If the masks exclude
     /// surroundings that moved, such a pair would match these.

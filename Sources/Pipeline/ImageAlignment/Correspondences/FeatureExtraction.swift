@@ -13,8 +13,8 @@ package struct FeatureExtraction {
     package var detection = FeatureDetection()
     /// Photos with at most this number of pixels are upsampled by two for the first octave, which
     /// finds the smallest features. Larger photos have enough features without it: color filter
-    /// mosaics and lenses resolve less than the pixel grid. Measured: tuned on the photo sets of
-    /// BENCHMARKS.md.
+    /// mosaics and lenses resolve less than the pixel grid. Measured: tuned on the sets marked so
+    /// in Benchmarks/sets.json.
     package var doubledPixels = 3_200_000
     /// Largest number of pixels that is searched; larger photos are reduced to it. Measured: as
     /// above.
@@ -28,7 +28,7 @@ package struct FeatureExtraction {
     package var pixelsPerFeature = 80
     /// Photos with fewer pixels get fewer features, in proportion to their side length: the cost of
     /// matching grows with the square of the number of features. Chosen: with preemptive matching,
-    /// AUC at 0.1° of boot fell from 0.846 to 0.821 (BENCHMARKS.md, Alignment).
+    /// AUC at 0.1° of boot fell from 0.846 to 0.821 (docs/experiments/2026-11-alignment.md).
     package var manyFeaturePixels = 2_000_000
     /// Distance beyond the mask up to which features are kept, as a fraction of the photo's longer
     /// side. Chosen.
@@ -60,7 +60,7 @@ package struct FeatureExtraction {
   /// edge-like features are kept.
   package struct HighSensitivity: Hashable, Codable, Sendable {
     /// Multiplies the contrast threshold. Chosen: with all changes, 1473 points of a faint statue
-    /// become 2541 (BENCHMARKS.md, Low texture).
+    /// become 2541 (docs/experiments/2026-11-alignment.md, Low texture).
     package var contrastFactor = 0.25
     /// Multiplies the limit on the ratio of principal curvatures. Chosen.
     package var edgeFactor = 1.6

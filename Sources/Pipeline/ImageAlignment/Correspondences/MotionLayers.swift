@@ -16,7 +16,7 @@ struct MotionLayers: Sendable {
     /// Number of times that all pairs are assigned again. Chosen.
     var sweeps = 3
     /// A track belongs to a body if at least this share of its motions does. Measured: found on
-    /// captures of seed 7 (BENCHMARKS.md, Objects that move).
+    /// captures of seed 7 (docs/experiments/2026-11-moving-objects.md).
     var minimumTrackShare = 0.75
     /// Minimum share of the tracks that must belong to one of the bodies, so that the two motions
     /// are those of bodies and not of repeated structure. Measured: as above.
@@ -28,14 +28,14 @@ struct MotionLayers: Sendable {
     /// Chosen.
     var neighborWindow = 60
     /// Minimum share of the photos that must show the object. Measured: found on captures of seed 7
-    /// (BENCHMARKS.md, Objects that move).
+    /// (docs/experiments/2026-11-moving-objects.md).
     var minimumPhotoShare = 0.5
     /// Minimum number of features of the object in a photo that shows it. Chosen.
     var minimumFeatures = 8
     /// Minimum rotation between the two motions of most pairs, in degrees. Chosen.
     var minimumDegrees = 3.0
     /// A camera was on a tripod if at least this share of the pairs say so. Measured: found on
-    /// captures of seed 7 (BENCHMARKS.md, Objects that move).
+    /// captures of seed 7 (docs/experiments/2026-11-moving-objects.md).
     var minimumStaticShare = 0.2
     /// If at least this share of the known tracks of a motion belong to the surroundings, all of
     /// its matches do. Measured: as above.

@@ -26,7 +26,7 @@ package struct PairSelection {
     package var positionPartners = 10
     /// Distances in the order of capture at which photos are paired. Chosen: a known order saves 67
     /// and 45 % of the matching time of boot and lund, and costs boot 0.024 of AUC at 0.1°
-    /// (BENCHMARKS.md, Order of capture).
+    /// (docs/experiments/2026-11-alignment.md, Order of capture).
     package var sequenceSteps = [1, 2, 3, 4]
     /// Number of partners of a photo of a sequence: the most similar ones outside its window of
     /// neighbors. Chosen.

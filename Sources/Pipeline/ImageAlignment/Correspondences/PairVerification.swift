@@ -14,13 +14,13 @@ package struct PairVerification {
     package var minimumInlierRatio = 0.15
     /// A weak pair has fewer inliers, but at least this number and this fraction: too few to rely
     /// on, and too many for chance. Measured: all 183 such pairs in ten captures of seed 23 agree
-    /// with the true geometry (BENCHMARKS.md, Objects that move).
+    /// with the true geometry (docs/experiments/2026-11-moving-objects.md).
     package var weakMinimumInliers = 12
     package var weakMinimumInlierRatio = 0.5
     /// Probability that RANSAC finds the best model. Chosen.
     package var confidence = 0.9999
     /// Maximum number of RANSAC iterations. Chosen: too few for 70 % outliers, where 2 to 6 % of
-    /// the pairs fail (docs/experiments, 2026-11-libraries).
+    /// the pairs fail (docs/experiments/2026-11-libraries.md).
     package var maximumIterations = 1000
     /// Fraction of inliers explained by a homography from which on the pair counts as planar.
     /// Chosen.

@@ -10,14 +10,14 @@ package struct SecondMotionSearch: Sendable {
     /// The pairs with the most unexplained matches are examined first, up to this number. If less
     /// than `minimumShare` of them show a second motion, the scene is considered rigid. Measured:
     /// the share was found on captures of seed 7; eleven real sets in which nothing moves have no
-    /// such pair (BENCHMARKS.md, Objects that move).
+    /// such pair (docs/experiments/2026-11-moving-objects.md).
     package var sampleSize = 40
     package var minimumShare = 0.15
     /// Minimum number of matches of each motion. Chosen: as many as a pair needs
     /// (`PairVerification`).
     package var minimumMatches = 20
     /// Minimum fraction of the unexplained matches that must agree with the second motion.
-    /// Measured: found on captures of seed 7 (BENCHMARKS.md, Objects that move).
+    /// Measured: found on captures of seed 7 (docs/experiments/2026-11-moving-objects.md).
     package var minimumShareOfRest = 0.4
     /// Minimum fraction of the matches of one motion that must contradict the other. Measured: as
     /// above.

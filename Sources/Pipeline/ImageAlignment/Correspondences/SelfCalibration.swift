@@ -12,7 +12,7 @@ import SceneModel
 package struct SelfCalibration {
   package struct Options: Hashable, Codable, Sendable {
     /// Candidates range from the assumed focal length divided by this to the one multiplied by it.
-    /// Measured: tuned on the photo sets of BENCHMARKS.md.
+    /// Measured: tuned on the sets marked so in Benchmarks/sets.json.
     package var range = 2.6
     /// Number of candidates, evenly spaced in their logarithms. Chosen: steps of 8 %.
     package var candidates = 25
@@ -20,7 +20,8 @@ package struct SelfCalibration {
     package var maximumPairs = 60
     /// Maximum number of matches used per pair. Chosen.
     package var maximumMatches = 400
-    /// Pairs with fewer matches aren't used. Measured: tuned on the photo sets of BENCHMARKS.md.
+    /// Pairs with fewer matches aren't used. Measured: tuned on the sets marked so in
+    /// Benchmarks/sets.json.
     package var minimumMatches = 50
     /// The weight of a pair is the rise of its cost this number of candidates away from the best.
     /// Measured: as above.

@@ -28,7 +28,8 @@ package struct PhotoPicture: Encodable, Sendable {
   /// together are those of 60 at the largest size, so that a page of a thousand photos can be
   /// opened.
   static func side(count: Int) -> Int {
-    // Measured: a page of 1000 photos has 34 MB and opens in 2.4 s (BENCHMARKS.md, Reports).
+    // Measured: a page of 1000 photos has 34 MB and opens in 2.4 s
+    // (docs/experiments/2026-11-reports.md).
     let (largest, smallest, full) = (576.0, 320.0, 60.0)
     return Int(max(smallest, min(largest, largest * (full / Double(max(1, count))).squareRoot())))
   }
