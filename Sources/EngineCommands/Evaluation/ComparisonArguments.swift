@@ -37,6 +37,13 @@ struct ComparisonArguments: ParsableArguments {
 
   @Option(
     name: .long,
+    help: ArgumentHelp(
+      "Largest angle to the surface's normal at which a camera counts as seeing it.",
+      valueName: "degrees"))
+  var viewAngle = SurfaceComparison.Options().maximumViewAngleDegrees
+
+  @Option(
+    name: .long,
     help: ArgumentHelp("Maximum width at which outlines are compared.", valueName: "pixels"))
   var outlineWidth = OutlineComparison.Options().maximumWidth
 
@@ -53,6 +60,9 @@ struct ComparisonArguments: ParsableArguments {
     if !(1...1000).contains(views) {
       throw ValidationError("--views must be from 1 to 1000.")
     }
+    if !(viewAngle > 0 && viewAngle <= 90) {
+      throw ValidationError("--view-angle must be above 0 and at most 90.")
+    }
     if !(16...10_000).contains(outlineWidth) {
       throw ValidationError("--outline-width must be from 16 to 10000.")
     }
@@ -64,6 +74,7 @@ struct ComparisonArguments: ParsableArguments {
     options.resultSamples = samples
     options.floor = floor
     options.minimumViews = views
+    options.maximumViewAngleDegrees = viewAngle
     options.threadCount = threadCount
     return options
   }

@@ -57,8 +57,7 @@ struct ResultComparison {
     try scoreSurfaces(alignment, &report)
     if let cloud = result.cloud {
       report.density = CloudDensity(
-        cloud, sparsePoints: result.reconstruction?.points.count, alignment,
-        reference: reference?.model?.mesh)
+        cloud, sparse: result.reconstruction, alignment, reference: reference?.model?.mesh)
     }
     if let model = result.model, !heldOut.isEmpty {
       let shaded = try ShadedModel(model, alignment, control)

@@ -16,6 +16,9 @@ extension SurfaceComparison {
     package var floor: Floor?
     /// Parts of the reference visible to fewer cameras are ignored. Chosen.
     package var minimumViews = 3
+    /// Maximum angle in degrees between the surface's normal and the direction to a camera that
+    /// sees it. Limit: 90. PMVS reconstructs within 60 (Furukawa and Ponce, PAMI 2010).
+    package var maximumViewAngleDegrees = 90.0
     /// Side of the voxels in which points of a cloud are averaged. Chosen: half a millimeter.
     package var voxel = 0.0005
     /// Number of threads; results are independent of it. Chosen.

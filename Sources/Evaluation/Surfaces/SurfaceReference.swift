@@ -13,16 +13,16 @@ package struct SurfaceReference: Sendable {
     }
     self.bounds = Bounds(min: bounds.min, max: bounds.max)
     tree = BoundingTree(mesh.triangles.map { FlatTriangle($0, of: mesh) })
-    var points = SurfaceSampling().run(mesh, count: options.referenceSamples)
-    if let floor = options.floor { points.removeAll { floor.isBelow($0) } }
+    var found = SurfaceSampling().samples(mesh, count: options.referenceSamples)
+    if let floor = options.floor { found.removeAll { floor.isBelow($0.position) } }
     if !cameras.isEmpty {
-      points = Visibility(
+      found = Visibility(
         cameras: cameras, tree: tree, minimumViews: options.minimumViews,
-        threadCount: options.threadCount
-      ).visible(points)
+        maximumAngleDegrees: options.maximumViewAngleDegrees, threadCount: options.threadCount
+      ).visible(found)
     }
-    guard !points.isEmpty else { throw EvaluationError.emptySurface }
-    samples = points
+    guard !found.isEmpty else { throw EvaluationError.emptySurface }
+    samples = found.map(\.position)
   }
 
   struct Bounds: Sendable {

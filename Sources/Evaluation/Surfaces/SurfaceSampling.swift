@@ -4,9 +4,14 @@ import SceneModel
 package struct SurfaceSampling: Sendable {
   package init() {}
 
-  /// Returns `count` points: one in each of `count` equal parts of the cumulative area, positioned
-  /// in its triangle by a low-discrepancy sequence.
+  /// The positions of `samples`.
   package func run(_ mesh: Mesh, count: Int) -> [SIMD3<Float>] {
+    samples(mesh, count: count).map(\.position)
+  }
+
+  /// Returns `count` samples: one in each of `count` equal parts of the cumulative area, positioned
+  /// in its triangle by a low-discrepancy sequence.
+  func samples(_ mesh: Mesh, count: Int) -> [SurfaceSample] {
     let triangles = mesh.triangles.map { FlatTriangle($0, of: mesh) }
     var areas: [Double] = []
     areas.reserveCapacity(triangles.count)
@@ -17,8 +22,8 @@ package struct SurfaceSampling: Sendable {
       areas.append(total)
     }
     guard total > 0, count > 0 else { return [] }
-    var points: [SIMD3<Float>] = []
-    points.reserveCapacity(count)
+    var samples: [SurfaceSample] = []
+    samples.reserveCapacity(count)
     var index = 0
     // Paper: Roberts 2018, the sequence of the plastic number, a generalization of the golden
     // ratio.
@@ -32,8 +37,10 @@ package struct SurfaceSampling: Sendable {
       let folded = uv.x + uv.y > 1 ? 1 - uv : uv
       let (u, v) = (Float(folded.x), Float(folded.y))
       let t = triangles[index]
-      points.append(t.a + u * (t.b - t.a) + v * (t.c - t.a))
+      let (first, second) = (t.b - t.a, t.c - t.a)
+      samples.append(
+        SurfaceSample(position: t.a + u * first + v * second, normal: first.cross(second)))
     }
-    return points
+    return samples
   }
 }

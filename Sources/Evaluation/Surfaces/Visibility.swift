@@ -1,3 +1,4 @@
+import Foundation
 import SceneModel
 
 /// Determines which points of a surface are visible to cameras.
@@ -10,40 +11,50 @@ struct Visibility: Sendable {
   let cameras: [NamedCamera]
   let tree: BoundingTree<FlatTriangle>
   let minimumViews: Int
+  /// Maximum angle between the normal of a point, of either sign, and the direction to a camera.
+  let maximumAngleDegrees: Double
   let threadCount: Int
 
-  /// The points visible to at least `minimumViews` cameras, in their order.
-  func visible(_ points: [SIMD3<Float>]) -> [SIMD3<Float>] {
-    parallelChunks(points.count, threads: threadCount) { range in
+  /// The samples visible to at least `minimumViews` cameras, in their order.
+  func visible(_ samples: [SurfaceSample]) -> [SurfaceSample] {
+    parallelChunks(samples.count, threads: threadCount) { range in
       var stack = BoundingTree<FlatTriangle>.Stack()
-      return range.map { points[$0] }.filter { isVisible($0, &stack) }
+      return range.map { samples[$0] }.filter { isVisible($0, &stack) }
     }
   }
 
   private func isVisible(
-    _ point: SIMD3<Float>, _ stack: inout BoundingTree<FlatTriangle>.Stack
+    _ sample: SurfaceSample, _ stack: inout BoundingTree<FlatTriangle>.Stack
   ) -> Bool {
     var views = 0
     for (index, camera) in cameras.enumerated() {
       // Stops as soon as the remaining cameras can't reach the minimum.
       guard views < minimumViews, views + cameras.count - index >= minimumViews else { break }
-      if sees(camera, point, &stack) { views += 1 }
+      if sees(camera, sample, &stack) { views += 1 }
     }
     return views >= minimumViews
   }
 
   private func sees(
-    _ camera: NamedCamera, _ point: SIMD3<Float>,
+    _ camera: NamedCamera, _ sample: SurfaceSample,
     _ stack: inout BoundingTree<FlatTriangle>.Stack
   ) -> Bool {
+    let point = sample.position
     let inCamera = camera.cameraFromWorld * SIMD3<Double>(point)
     guard inCamera.z > 0 else { return false }
     guard camera.camera.contains(camera.camera.project(inCamera)) else { return false }
     let center = SIMD3<Float>(camera.cameraFromWorld.center)
     let direction = center - point
+    guard isWithinAngle(direction, sample.normal) else { return false }
     let origin = point + direction * Self.margin
     return !tree.anyItem(from: origin, direction: direction, limit: Self.limit, &stack) {
       $0.isHit(from: origin, direction: direction, limit: Self.limit)
     }
+  }
+
+  private func isWithinAngle(_ direction: SIMD3<Float>, _ normal: SIMD3<Float>) -> Bool {
+    guard maximumAngleDegrees < 90 else { return true }
+    let cosine = abs(normal.dot(direction)) / (normal.length * direction.length)
+    return cosine >= Float(cos(maximumAngleDegrees * .pi / 180))
   }
 }

@@ -147,6 +147,24 @@ import Testing
     #expect(abs(all.thresholds[0].recall - 0.5) < 0.01)
   }
 
+  @Test func surfaceSeenAtAGlanceCanBeIgnored() throws {
+    // From 0.5 above the middle of a square, a circle of radius 0.5 is seen within 45 degrees.
+    let down = RigidTransform(
+      rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, 0.5])
+    let camera = NamedCamera(
+      name: "a", camera: Camera(width: 400, height: 400, focalLength: [100, 100]),
+      cameraFromWorld: down)
+    var options = Self.options
+    options.minimumViews = 1
+    let square = Self.square(side: 1)
+    func seen() throws -> Int {
+      try Self.compare(square, with: square, cameras: [camera], options: options).referenceSamples
+    }
+    #expect(try seen() == options.referenceSamples)
+    options.maximumViewAngleDegrees = 45
+    #expect(abs(Double(try seen()) / Double(options.referenceSamples) - .pi / 4) < 0.01)
+  }
+
   @Test func threadsDoNotMatter() throws {
     var options = Self.options
     options.resultSamples = 20_000
