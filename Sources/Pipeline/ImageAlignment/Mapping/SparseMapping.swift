@@ -12,9 +12,9 @@ package struct SparseMapping: Sendable {
     /// Minimum fraction of the triplets of pairs whose rotations must compose to the identity for
     /// the automatic method to use global mapping. Two photos of a plane, or of a small patch,
     /// don't determine their relative rotation; incremental mapping doesn't need it. Chosen: the
-    /// majority. On rendered vases on a bare table with pictures far behind, 0.36 (seed 11) and
-    /// 0.27 (seed 12) are consistent, and global mapping places 16 and 6 of 96 photos wrong; on the
-    /// other twins of seed 11 and the real sets it was right, from 0.13 on.
+    /// majority. On rendered vases on a bare table, 0.36 (seed 11) and 0.27 (seed 12) are
+    /// consistent, and global mapping is wrong by up to 19 and 92 degrees; on other sets it was
+    /// right, from 0.13 on (docs/experiments/2026-11-planes.md).
     package var minimumTripletConsistency = 0.5
 
     package init() {}

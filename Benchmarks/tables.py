@@ -1,0 +1,136 @@
+"""The tables of BENCHMARKS.md and of docs/results.ipynb, made from Benchmarks/results.json."""
+
+import json
+import statistics
+from pathlib import Path
+
+FOLDER = Path(__file__).resolve().parent
+SETS = {each["name"]: each for each in json.loads((FOLDER / "sets.json").read_text())}
+TWINS = [name for name, each in SETS.items() if each.get("twin")]
+
+
+class Results:
+    """The measurements of one commit on one machine."""
+
+    def __init__(self, content=None):
+        content = content or json.loads((FOLDER / "results.json").read_text())
+        self.machine = content["machine"]
+        self.measurements = content["measurements"]
+
+    def find(self, **key):
+        return next((each for each in self.measurements if all(each.get(k) == v for k, v in key.items())), None)
+
+    def all(self, **key):
+        return [each for each in self.measurements if all(each.get(k) == v for k, v in key.items())]
+
+
+def number(value, digits=3):
+    return "–" if value is None else f"{value:.{digits}f}"
+
+
+def cost(measurement, key, digits=1):
+    """Median of the runs, with the range if there are several."""
+    if not measurement:
+        return "–"
+    values = sorted(run[key] for run in measurement["runs"])
+    text = f"{statistics.median(values):.{digits}f}"
+    return text if len(values) == 1 else f"{text} ({values[0]:.{digits}f}–{values[-1]:.{digits}f})"
+
+
+def table(header, rows):
+    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def percent(share):
+    return "–" if share is None else f"{100 * share:.1f} %"
+
+
+def triple(quality, name):
+    """The scores at all thresholds, ascending."""
+    keys = sorted((k for k in quality if k.startswith(name)), key=lambda k: float(k[len(name):]))
+    return ", ".join(number(quality[k]) for k in keys) or "–"
+
+
+def models(results):
+    rows = []
+    for each in results.all(part="models"):
+        q = each["quality"]
+        rows.append([each["set"], f"{q.get('posed', 0)} of {q.get('photos', 0)}", number(q.get("reprojection"), 2),
+                     cost(each, "seconds"), cost(each, "cpuSeconds"), cost(each, "peakGB", 2),
+                     f"{q.get('finalTriangles', 0):,}", str(q.get("verdict", "–")),
+                     "clean" if q.get("findings") == 0 else f"{q.get('findings', '–')} findings"])
+    return table(["set", "photos with a pose", "reprojection px", "wall s", "CPU s", "peak GB", "triangles", "verdict", "USDZ"], rows)
+
+
+def poses(results):
+    rows = []
+    for each in results.all(part="alignment"):
+        q = each["quality"] or {}
+        unit = " mm" if "--unit" not in SETS.get(each["set"], {}).get("evaluate", []) else ""
+        rows.append([each["set"], each["program"], f"{q.get('registered', q.get('posed', '–'))}",
+                     "–" if "centers" not in q else number(q["centers"], 2) + unit, number(q.get("rotation")),
+                     number(q.get("auc0.1")), number(q.get("auc0.5")), number(q.get("reprojection"), 2),
+                     cost(each, "seconds"), cost(each, "cpuSeconds"), cost(each, "peakGB", 2)])
+    return table(["set", "program", "registered", "centers, RMSE", "rotation °", "AUC@0.1°", "AUC@0.5°", "reprojection px",
+                  "wall s", "CPU s", "peak GB"], rows)
+
+
+def surfaces(results):
+    rows = []
+    for each in results.all(part="models"):
+        q = each["quality"]
+        if any(k.startswith("mesh.F") for k in q):
+            rows.append([each["set"], triple(q, "mesh.F"), triple(q, "mesh.R"), triple(q, "cloud.F"),
+                         number(q.get("mesh.chamfer")), number(q.get("psnr"), 2), number(q.get("ssim")),
+                         number(q.get("denseRatio"), 0)])
+    return table(["set", "model, F", "model, recall", "points, F", "Chamfer mm", "PSNR dB", "SSIM", "dense / sparse"], rows)
+
+
+def outlines(results):
+    rows = [[each["set"], number(q["iou"]), f"{100 * q['outside']:.2f} %", f"{100 * q['missing']:.2f} %"]
+            for each in results.all(part="models") if "iou" in (q := each["quality"])]
+    return table(["set", "IoU", "outside", "missing"], rows)
+
+
+def paper(results):
+    """The projections of the paper, and what was measured on twins of its sets."""
+    rows = [["the paper, projected", "0.5 to 1.5", "70 to 95 %", "–", "–", "5 to 10 ×", "600 to 1800", "–"]]
+    for name in TWINS:
+        each = results.find(part="models", set=name)
+        if not each:
+            continue
+        q = each["quality"]
+        rows.append([name, number(q.get("reprojection"), 2), percent(q.get("cloud.R1")), percent(q.get("mesh.R1")),
+                     percent(q.get("anyAngle.cloud.R1")), number(q.get("denseRatio"), 0) + " ×",
+                     cost(each, "seconds", 0), cost(each, "cpuSeconds", 0)])
+    return table(["set", "reprojection px", "points", "model", "points, any angle", "dense / sparse", "wall s", "CPU s"], rows)
+
+
+def against_colmap(results):
+    """The whole run at reduced beside COLMAP's cameras alone, in CPU seconds."""
+    rows = []
+    for each in results.all(part="alignment", program="COLMAP"):
+        name = each["set"]
+        whole = results.find(part="parameters", set=name, variant="defaults, reduced")
+        if "reduced" in SETS.get(name, {}).get("options", []):
+            whole = results.find(part="models", set=name)
+        ours = results.find(part="alignment", set=name, program="photogrammetry-cli")
+        if whole and ours:
+            rows.append([name, cost(whole, "cpuSeconds"), cost(ours, "cpuSeconds"), cost(each, "cpuSeconds")])
+    return table(["set", "photos to reduced model", "of it to cameras (`align`)", "COLMAP, photos to cameras"], rows)
+
+
+def parameters(results):
+    sets = sorted({each["set"] for each in results.all(part="parameters")})
+    names = list(dict.fromkeys(each["variant"] for each in results.all(part="parameters")))
+    rows = []
+    for variant in names:
+        row = [variant]
+        for name in sets:
+            each = results.find(part="parameters", set=name, variant=variant)
+            q = (each or {}).get("quality") or {}
+            score = q.get("mesh.F1", q.get("auc0.5"))
+            row.append(f"{q.get('posed', '–')}; {number(q.get('rotation'))}; {number(score)}; {cost(each, 'cpuSeconds', 0)}")
+        rows.append(row)
+    return table(["changed"] + [f"{name}" for name in sets], rows)
