@@ -55,25 +55,33 @@ def triple(quality, name):
 def models(results):
     rows = []
     for each in results.all(part="models"):
-        q = each["quality"]
-        rows.append([each["set"], f"{q.get('posed', 0)} of {q.get('photos', 0)}", number(q.get("reprojection"), 2),
-                     cost(each, "seconds"), cost(each, "cpuSeconds"), cost(each, "peakGB", 2),
-                     f"{q.get('finalTriangles', 0):,}", str(q.get("verdict", "–")),
-                     "clean" if q.get("findings") == 0 else f"{q.get('findings', '–')} findings"])
-    return table(["set", "photos with a pose", "reprojection px", "wall s", "CPU s", "peak GB", "triangles", "verdict", "USDZ"], rows)
+        q, name = each["quality"], each["set"]
+        split = results.find(part="splits", set=name) or each
+        psnr = (split["quality"] or {}).get("psnr")
+        rows.append([name, f"{q.get('posed', 0)} of {q.get('photos', 0)}", number(q.get("reprojection"), 2),
+                     cost(each, "seconds"), cost(each, "cpuSeconds"),
+                     cost(results.find(part="alignment", set=name, program="COLMAP"), "cpuSeconds"),
+                     cost(each, "peakGB", 2), f"{q.get('finalTriangles', 0):,}", str(q.get("verdict", "–")),
+                     "clean" if q.get("findings") == 0 else f"{q.get('findings', '–')} findings", number(psnr, 1)])
+    return table(["set", "photos with a pose", "reprojection px", "wall s", "CPU s", "COLMAP's cameras, CPU s", "peak GB", "triangles",
+                  "verdict", "USDZ", "PSNR held out"], rows)
 
 
 def poses(results):
+    """One row for each set; each cell has this project's figure, and COLMAP's behind it."""
     rows = []
-    for each in results.all(part="alignment"):
-        q = each["quality"] or {}
-        unit = " mm" if "--unit" not in SETS.get(each["set"], {}).get("evaluate", []) else ""
-        rows.append([each["set"], each["program"], f"{q.get('registered', q.get('posed', '–'))}",
-                     "–" if "centers" not in q else number(q["centers"], 2) + unit, number(q.get("rotation")),
-                     number(q.get("auc0.1")), number(q.get("auc0.5")), number(q.get("reprojection"), 2),
-                     cost(each, "seconds"), cost(each, "cpuSeconds"), cost(each, "peakGB", 2)])
-    return table(["set", "program", "registered", "centers, RMSE", "rotation °", "AUC@0.1°", "AUC@0.5°", "reprojection px",
-                  "wall s", "CPU s", "peak GB"], rows)
+    for name in dict.fromkeys(each["set"] for each in results.all(part="alignment")):
+        both = [results.find(part="alignment", set=name, program=program) for program in ("photogrammetry-cli", "COLMAP")]
+        both = [each for each in both if each]
+        qualities = [each["quality"] or {} for each in both]
+
+        def pair(key, digits=3, instead=None):
+            return " / ".join(str(q.get(key, q.get(instead, "–"))) if digits == 0 else number(q.get(key), digits) for q in qualities)
+        unit = "" if "--unit" in SETS.get(name, {}).get("evaluate", []) else " mm"
+        centers = pair("centers", 2) + unit if any("centers" in q for q in qualities) else "–"
+        rows.append([name, pair("registered", 0, "posed"), centers, pair("rotation"), pair("auc0.1"), pair("auc0.5"),
+                     pair("reprojection", 2), " / ".join(cost(each, "cpuSeconds") for each in both)])
+    return table(["set", "registered", "centers, RMSE", "rotation °", "AUC@0.1°", "AUC@0.5°", "reprojection px", "CPU s"], rows)
 
 
 def surfaces(results):
@@ -107,18 +115,27 @@ def paper(results):
     return table(["set", "reprojection px", "points", "model", "points, any angle", "dense / sparse", "wall s", "CPU s"], rows)
 
 
+def seconds(measurement):
+    """CPU seconds, the median of the runs."""
+    return statistics.median(run["cpuSeconds"] for run in measurement["runs"])
+
+
+def level(name):
+    """The detail level of a set's default command."""
+    options = SETS.get(name, {}).get("options", ["-d", "reduced"])
+    return options[options.index("-d") + 1]
+
+
 def against_colmap(results):
-    """The whole run at reduced beside COLMAP's cameras alone, in CPU seconds."""
+    """The whole run beside COLMAP's cameras alone, in CPU seconds."""
     rows = []
     for each in results.all(part="alignment", program="COLMAP"):
         name = each["set"]
-        whole = results.find(part="parameters", set=name, variant="defaults, reduced")
-        if "reduced" in SETS.get(name, {}).get("options", []):
-            whole = results.find(part="models", set=name)
-        ours = results.find(part="alignment", set=name, program="photogrammetry-cli")
-        if whole and ours:
-            rows.append([name, cost(whole, "cpuSeconds"), cost(ours, "cpuSeconds"), cost(each, "cpuSeconds")])
-    return table(["set", "photos to reduced model", "of it to cameras (`align`)", "COLMAP, photos to cameras"], rows)
+        whole = results.find(part="models", set=name)
+        cameras = results.find(part="alignment", set=name, program="photogrammetry-cli")
+        if whole and cameras:
+            rows.append([name, level(name), cost(whole, "cpuSeconds"), cost(cameras, "cpuSeconds"), cost(each, "cpuSeconds")])
+    return table(["set", "detail", "photos to model", "of it to cameras (`align`)", "COLMAP, photos to cameras"], rows)
 
 
 def parameters(results):

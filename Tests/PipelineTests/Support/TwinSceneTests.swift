@@ -42,6 +42,15 @@ import Testing
     #expect(mesh.positions.map(\.y).min() == 0)
   }
 
+  /// The box in which it is sampled contains it.
+  @Test(arguments: TwinObject.allCases)
+  func theSurfaceIsClosedForManySeeds(_ object: TwinObject) throws {
+    for seed in UInt64(1)...12 {
+      let mesh = try Self.tiny(object, seed: seed, photoCount: 1).scene.object
+      #expect(mesh.volume > 0)
+    }
+  }
+
   @Test(arguments: zip(TwinObject.allCases, [0.15, 1, 0.12, 0.25, 0.08]))
   func objectsHaveTheSizeOfTheirKind(_ object: TwinObject, _ size: Double) throws {
     for seed in UInt64(1)...3 {

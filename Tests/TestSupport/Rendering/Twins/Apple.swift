@@ -37,7 +37,8 @@ struct Apple {
     return TwinObject.Model(
       solid: flesh.union(stem, rounding: 0.0015),
       texture: PaintedParts(parts: [.init(flesh, skin), .init(stem, wood)]),
-      low: [-reach, 0, -reach], high: [reach, 2.9 * radius, reach], cell: 0.0005)
+      // Lobes reach below the height that `center` supposes.
+      low: [-reach, -0.3 * radius, -reach], high: [reach, 2.9 * radius, reach], cell: 0.0005)
   }
 
   private var center: SIMD3<Float> { [0, 0.9 * radius * flatness, 0] }

@@ -83,7 +83,9 @@ struct Lattice: Sendable {
     for index in vertices.indices where vertices[index] >= 0 {
       for axis in 0..<3 where (values[index] < 0) != (values[index + steps[axis]] < 0) {
         let (u, v) = (steps[(axis + 1) % 3], steps[(axis + 2) % 3])
-        var corners = [index - u - v, index - v, index, index - u].map { UInt32(vertices[$0]) }
+        let cells = [index - u - v, index - v, index, index - u]
+        precondition(cells.allSatisfy { vertices[$0] >= 0 }, "The solid leaves the lattice.")
+        var corners = cells.map { UInt32(vertices[$0]) }
         if values[index] >= 0 { corners.reverse() }
         let p = corners.map { positions[Int($0)] }
         if (p[0] - p[2]).squaredLength <= (p[1] - p[3]).squaredLength {
