@@ -10,12 +10,11 @@ package struct SparseMapping: Sendable {
     /// start and in the end, for the automatic method to use it. Chosen.
     package var minimumShare = 0.8
     /// Minimum fraction of the triplets of pairs whose rotations must compose to the identity for
-    /// the automatic method to use global mapping. Two photos of a plane, or of a small patch,
-    /// don't determine their relative rotation; incremental mapping doesn't need it. Chosen: the
-    /// majority. On rendered vases on a bare table, 0.36 (seed 11) and 0.27 (seed 12) are
-    /// consistent, and global mapping is wrong by up to 19 and 92 degrees; on other sets it was
-    /// right, from 0.13 on (docs/experiments/2026-11-planes.md).
-    package var minimumTripletConsistency = 0.5
+    /// the automatic method to use global mapping. Chosen: 0, which always tries it. A majority
+    /// would leave photos of planes, whose relative rotations are not determined, to incremental
+    /// mapping, but it superimposes the identical sides of a box without a sign
+    /// (docs/experiments/2026-11-planes.md).
+    package var minimumTripletConsistency = 0.0
 
     package init() {}
   }
