@@ -1,4 +1,4 @@
-"""The tables of BENCHMARKS.md and of docs/results.ipynb, made from Benchmarks/results.json."""
+"""The tables of BENCHMARKS.md, made from Benchmarks/results.json."""
 
 import json
 import statistics
