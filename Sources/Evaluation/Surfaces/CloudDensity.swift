@@ -16,28 +16,14 @@ package struct CloudDensity: Codable, Hashable, Sendable {
     reference: Mesh?
   ) {
     points = cloud.count
-    let box = Box(cloud.positions)
-    sparsePoints = sparse.map { $0.points.count { box.contains(SIMD3<Float>($0.position)) } }
+    let box = Bounds(cloud.positions)
+    sparsePoints = sparse.map { sparse in
+      sparse.points.count { box?.contains(SIMD3<Float>($0.position)) ?? false }
+    }
     let positions = cloud.positions.map { SIMD3<Float>(alignment * SIMD3<Double>($0)) }
-    let bounds = Box(reference?.positions ?? positions)
-    let size = bounds.size
-    let inside = positions.count(where: bounds.contains)
-    let volume = size.x * size.y * size.z
+    let bounds = Bounds(reference?.positions ?? positions)
+    let inside = positions.count { bounds?.contains($0) ?? false }
+    let volume = bounds?.volume ?? 0
     pointsPerCubicUnit = volume > 0 ? Double(inside) / volume : 0
-  }
-}
-
-/// An axis-aligned box.
-private struct Box {
-  var (low, high) = (SIMD3<Float>.zero, SIMD3<Float>.zero)
-
-  init(_ positions: [SIMD3<Float>]) {
-    if let bounds = Mesh(positions: positions).bounds { (low, high) = bounds }
-  }
-
-  var size: SIMD3<Double> { SIMD3<Double>(high) - SIMD3<Double>(low) }
-
-  func contains(_ position: SIMD3<Float>) -> Bool {
-    pointwiseMin(pointwiseMax(position, low), high) == position
   }
 }

@@ -8,10 +8,10 @@ package struct SurfaceReference: Sendable {
   let samples: [SIMD3<Float>]
 
   init(_ mesh: Mesh, _ cameras: [NamedCamera], _ options: SurfaceComparison.Options) throws {
-    guard let bounds = mesh.bounds, !mesh.triangles.isEmpty else {
+    guard let bounds = Bounds(mesh.positions), !mesh.triangles.isEmpty else {
       throw EvaluationError.emptySurface
     }
-    self.bounds = Bounds(min: bounds.min, max: bounds.max)
+    self.bounds = bounds
     tree = BoundingTree(mesh.triangles.map { FlatTriangle($0, of: mesh) })
     var found = SurfaceSampling().samples(mesh, count: options.referenceSamples)
     if let floor = options.floor { found.removeAll { floor.isBelow($0.position) } }
@@ -23,14 +23,5 @@ package struct SurfaceReference: Sendable {
     }
     guard !found.isEmpty else { throw EvaluationError.emptySurface }
     samples = found.map(\.position)
-  }
-
-  struct Bounds: Sendable {
-    let min: SIMD3<Float>
-    let max: SIMD3<Float>
-
-    func contains(_ point: SIMD3<Float>, margin: SIMD3<Float>) -> Bool {
-      pointwiseMin(pointwiseMax(point, min - margin), max + margin) == point
-    }
   }
 }

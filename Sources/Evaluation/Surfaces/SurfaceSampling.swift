@@ -37,9 +37,8 @@ package struct SurfaceSampling: Sendable {
       let folded = uv.x + uv.y > 1 ? 1 - uv : uv
       let (u, v) = (Float(folded.x), Float(folded.y))
       let t = triangles[index]
-      let (first, second) = (t.b - t.a, t.c - t.a)
       samples.append(
-        SurfaceSample(position: t.a + u * first + v * second, normal: first.cross(second)))
+        SurfaceSample(position: t.a + u * (t.b - t.a) + v * (t.c - t.a), normal: t.normal))
     }
     return samples
   }

@@ -11,7 +11,8 @@ struct Visibility: Sendable {
   let cameras: [NamedCamera]
   let tree: BoundingTree<FlatTriangle>
   let minimumViews: Int
-  /// Maximum angle between the normal of a point, of either sign, and the direction to a camera.
+  /// Maximum angle in degrees between the normal of a point, of either sign, and the direction to a
+  /// camera.
   let maximumAngleDegrees: Double
   let threadCount: Int
 
@@ -52,9 +53,9 @@ struct Visibility: Sendable {
     }
   }
 
-  private func isWithinAngle(_ direction: SIMD3<Float>, _ normal: SIMD3<Float>) -> Bool {
+  private func isWithinAngle(_ direction: SIMD3<Float>, _ normal: SIMD3<Double>) -> Bool {
     guard maximumAngleDegrees < 90 else { return true }
-    let cosine = abs(normal.dot(direction)) / (normal.length * direction.length)
-    return cosine >= Float(cos(maximumAngleDegrees * .pi / 180))
+    let cosine = abs(normal.dot(SIMD3<Double>(direction).normalized))
+    return cosine >= cos(maximumAngleDegrees * .pi / 180)
   }
 }

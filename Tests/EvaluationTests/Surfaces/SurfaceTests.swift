@@ -128,15 +128,20 @@ import Testing
     #expect(scores.resultSamples < 100)
   }
 
+  /// A camera that looks down at the middle of the unit square from a height; photos have `side`
+  /// pixels per side.
+  private static func camera(above height: Double, side: Int) -> NamedCamera {
+    NamedCamera(
+      name: "a", camera: Camera(width: side, height: side, focalLength: [100, 100]),
+      cameraFromWorld: RigidTransform(
+        rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, height]))
+  }
+
   @Test func invisiblePartsOfTheReferenceAreIgnored() throws {
     var reference = Self.square(side: 1)
     let below = Self.square(side: 1, z: -0.4)
     Self.append(below, to: &reference)
-    let down = RigidTransform(
-      rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, 5])
-    let camera = NamedCamera(
-      name: "a", camera: Camera(width: 100, height: 100, focalLength: [100, 100]),
-      cameraFromWorld: down)
+    let camera = Self.camera(above: 5, side: 100)
     var options = Self.options
     options.minimumViews = 1
     let seen = try Self.compare(
@@ -149,11 +154,7 @@ import Testing
 
   @Test func surfaceSeenAtAGlanceCanBeIgnored() throws {
     // From 0.5 above the middle of a square, a circle of radius 0.5 is seen within 45 degrees.
-    let down = RigidTransform(
-      rotation: Quaternion(angle: .pi, axis: [1, 0, 0]), translation: [-0.5, 0.5, 0.5])
-    let camera = NamedCamera(
-      name: "a", camera: Camera(width: 400, height: 400, focalLength: [100, 100]),
-      cameraFromWorld: down)
+    let camera = Self.camera(above: 0.5, side: 400)
     var options = Self.options
     options.minimumViews = 1
     let square = Self.square(side: 1)

@@ -46,14 +46,12 @@ extension GlobalMapping {
   }
 
   /// `cameraFromWorld` rotations of the photos that are well constrained by the pairs, nil for the
-  /// others; nil as a whole for fewer than three photos, or if less than `minimumConsistency` of
-  /// the triplets is consistent.
+  /// others; nil as a whole for fewer than three photos.
   func rotations(
-    _ relative: RotationGraph, minimumConsistency: Double, _ context: StageContext
+    _ relative: RotationGraph, _ context: StageContext
   ) throws -> [Quaternion?]? {
     let triplets = relative.tripletCounts(limit: options.tripletErrorDegrees * .pi / 180)
     context.notes.record("consistentTripletShare", triplets.consistentShare)
-    guard triplets.consistentShare >= minimumConsistency else { return nil }
     var graph = relative.consistent(triplets, minimumShare: options.tripletShare)
     for round in 1...max(1, options.rotationRounds) {
       let photos = graph.largestTwoConnectedPart()

@@ -63,19 +63,16 @@ package struct GlobalMapping: Sendable {
   }
 
   /// Returns an initial map of all photos whose rotations and positions the pairs determine; nil
-  /// for fewer than three photos, or if less than `minimumConsistency` of the triplets of pairs
-  /// agree in their rotations. `empty` holds the tracks.
+  /// for fewer than three photos. `empty` holds the tracks.
   func start(
-    _ graph: ViewGraph, features: [FeatureSet], _ empty: SparseMap, minimumConsistency: Double = 0,
-    _ context: StageContext
+    _ graph: ViewGraph, features: [FeatureSet], _ empty: SparseMap, _ context: StageContext
   ) throws -> SparseMap? {
     do {
       let relative = try relativeRotations(
         graph, features, empty.photos, context.part(from: 0, to: 0.1))
-      guard
-        let rotations = try rotations(
-          relative, minimumConsistency: minimumConsistency, context.part(from: 0.1, to: 0.2))
-      else { return nil }
+      guard let rotations = try rotations(relative, context.part(from: 0.1, to: 0.2)) else {
+        return nil
+      }
       var map = empty
       guard try position(&map, rotations, context.part(from: 0.2, to: 0.6)) else { return nil }
       fixGauge(&map, graph)

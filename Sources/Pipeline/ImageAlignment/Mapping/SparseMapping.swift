@@ -9,12 +9,6 @@ package struct SparseMapping: Sendable {
     /// Minimum fraction of the largest connected group that global mapping must register, at its
     /// start and in the end, for the automatic method to use it. Chosen.
     package var minimumShare = 0.8
-    /// Minimum fraction of the triplets of pairs whose rotations must compose to the identity for
-    /// the automatic method to use global mapping. Chosen: 0, which always tries it. A majority
-    /// would leave photos of planes, whose relative rotations are not determined, to incremental
-    /// mapping, but it superimposes the identical sides of a box without a sign
-    /// (docs/experiments/2026-11-planes.md).
-    package var minimumTripletConsistency = 0.0
 
     package init() {}
   }
@@ -43,10 +37,7 @@ package struct SparseMapping: Sendable {
       options.method == .incremental
       ? nil
       : try GlobalMapping(options.global, growth: options.incremental)
-        .start(
-          graph, features: features, empty,
-          minimumConsistency: options.method == .automatic ? options.minimumTripletConsistency : 0,
-          context.part(from: 0.1, to: 0.4))
+        .start(graph, features: features, empty, context.part(from: 0.1, to: 0.4))
     func grown(from start: SparseMap?) throws -> (
       reconstruction: Reconstruction, method: MappingMethod
     ) {

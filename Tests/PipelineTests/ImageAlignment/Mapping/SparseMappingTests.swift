@@ -54,28 +54,6 @@ import Testing
     #expect(scene.comparison(result).maximumCenterError < 0.03)
   }
 
-  /// As with pairs of planes, whose relative rotations the matches don't determine.
-  @Test func contradictingRotationsCanBeLeftOut() throws {
-    var options = SyntheticScene.Options()
-    options.pixelNoise = 0.3
-    let scene = SyntheticScene(options)
-    var graph = scene.viewGraph
-    for index in graph.pairs.indices where index % 2 == 0 {
-      guard let pose = graph.pairs[index].secondFromFirst else { continue }
-      graph.pairs[index].secondFromFirst?.rotation =
-        Quaternion(angle: 0.3, axis: [1, Double(index % 5) - 2, 0.2]) * pose.rotation
-    }
-    let notes = StageNotes()
-    let result = try scene.mapped(
-      .automatic, graph: graph, tripletConsistency: 0.5, notes: notes)
-    #expect(try #require(notes.counts["consistentTripletShare"]) < 0.5)
-    #expect(notes.counts["globalPhotos"] == 0)
-    #expect(scene.comparison(result).maximumCenterError < 0.03)
-    // On request, they are used.
-    _ = try scene.mapped(.global, graph: graph, notes: notes)
-    #expect(try #require(notes.counts["globalPhotos"]) > 0)
-  }
-
   @Test func pairsOfUnknownFocalLengthGetARotation() throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.3

@@ -7,12 +7,10 @@ extension SyntheticScene {
   /// Maps the scene from all its pairs or the given ones, starting with cameras without distortion.
   func mapped(
     _ method: MappingMethod, graph: ViewGraph? = nil, focalFactor: Double = 1,
-    tripletConsistency: Double = 0,
     notes: StageNotes = StageNotes(), control: KernelControl = KernelControl()
   ) throws -> Reconstruction {
     var options = SparseMapping.Options()
     options.method = method
-    options.minimumTripletConsistency = tripletConsistency
     var camera = camera
     camera.focalLength *= focalFactor
     camera.distortion = .zero
