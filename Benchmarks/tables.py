@@ -12,8 +12,8 @@ TWINS = [name for name, each in SETS.items() if each.get("twin")]
 class Results:
     """The measurements of one commit on one machine."""
 
-    def __init__(self, content=None):
-        content = content or json.loads((FOLDER / "results.json").read_text())
+    def __init__(self):
+        content = json.loads((FOLDER / "results.json").read_text())
         self.machine = content["machine"]
         self.measurements = content["measurements"]
 
