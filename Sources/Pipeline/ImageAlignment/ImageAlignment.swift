@@ -135,9 +135,10 @@ package struct ImageAlignment: Sendable {
   /// Maps matched photos, and checks the map. Throws `PipelineError.alignmentFailed` if there is no
   /// map, but not if parts of it are superimposed.
   ///
-  /// If nothing was moved and the matches contradict a map that was made of all photos at once,
-  /// they are mapped one at a time: two groups with few links between them may have been joined in
-  /// the wrong place.
+  /// Global mapping is the first choice, and incremental mapping the other, unless the relative
+  /// rotations that global mapping starts from contradict each other: then it is the reverse. The
+  /// other is tried if nothing was moved and the matches contradict the first: two groups with few
+  /// links between them may have been joined in the wrong place.
   func map(
     _ matched: MatchedPhotos, images: ImageStore, _ context: StageContext
   ) throws -> Map {
@@ -147,19 +148,42 @@ package struct ImageAlignment: Sendable {
       throw PipelineError.alignmentFailed(
         reason: "all photos were taken from one place; walk around the object between photos.")
     }
-    let (map, method) = try map(
-      matched, by: options.mapping.method, images, context.part(from: 0, to: 0.8))
-    guard options.mapping.method == .automatic, method == .global, map.mayBeWrong,
-      !map.hasSeveralPlacements
-    else { return map }
-    let attempt = StageContext(control: context.control.part(from: 0.8, to: 1))
+    let first = context.part(from: 0, to: 0.8)
+    let second = context.part(from: 0.8, to: 1)
+    guard options.mapping.method == .automatic else {
+      return try map(matched, by: options.mapping.method, images, first).map
+    }
+    let mapping = SparseMapping(options.mapping)
+    let isGlobalFirst = try context.notes.step("mapping") {
+      try mapping.rotationsAgree(
+        matched.graph, features: matched.features, photos: matched.photos,
+        cameras: matched.cameras, first)
+    }
+    guard isGlobalFirst else {
+      return try incrementalMap(matched, images, first) {
+        !$0.mayBeWrong && mapping.isLarge($0.reconstruction, of: matched.graph)
+      } ?? map(matched, by: .automatic, images, second).map
+    }
+    let (map, method) = try map(matched, by: .automatic, images, first)
+    guard method == .global, map.mayBeWrong, !map.hasSeveralPlacements else { return map }
+    return try incrementalMap(matched, images, second) {
+      $0.replaces(map, minimumShare: options.replacingShare)
+    } ?? map
+  }
+
+  /// A map of photos for which a global map may be wrong; nil if there is none that is accepted.
+  private func incrementalMap(
+    _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext,
+    isAccepted: (Map) -> Bool
+  ) throws -> Map? {
+    let attempt = StageContext(control: context.control)
     do {
-      let (other, _) = try forAlternatives.map(matched, by: .incremental, images, attempt)
-      guard other.replaces(map, minimumShare: options.replacingShare) else { return map }
+      let (map, _) = try forAlternatives.map(matched, by: .incremental, images, attempt)
+      guard isAccepted(map) else { return nil }
       context.notes.add(attempt.notes)
-      return other
-    } catch is PipelineError {
       return map
+    } catch is PipelineError {
+      return nil
     }
   }
 

@@ -3,6 +3,17 @@ import SceneModel
 
 /// Rotation averaging, and the relative rotations that it starts from.
 extension GlobalMapping {
+  /// The maximum rotation of a consistent triplet's loop, in radians.
+  private var tripletLimit: Double { options.tripletErrorDegrees * .pi / 180 }
+
+  /// The fraction of the triplets of pairs whose relative rotations compose to the identity.
+  func consistentTripletShare(
+    _ graph: ViewGraph, _ features: [FeatureSet], _ photos: PosedPhotos, _ context: StageContext
+  ) throws -> Double {
+    try relativeRotations(graph, features, photos, context)
+      .tripletCounts(limit: tripletLimit).consistentShare
+  }
+
   /// The relative rotations of the pairs; re-estimated for pairs that were verified without focal
   /// lengths.
   func relativeRotations(
@@ -50,9 +61,8 @@ extension GlobalMapping {
   func rotations(
     _ relative: RotationGraph, _ context: StageContext
   ) throws -> [Quaternion?]? {
-    let triplets = relative.tripletCounts(limit: options.tripletErrorDegrees * .pi / 180)
-    context.notes.record("consistentTripletShare", triplets.consistentShare)
-    var graph = relative.consistent(triplets, minimumShare: options.tripletShare)
+    var graph = relative.consistent(
+      relative.tripletCounts(limit: tripletLimit), minimumShare: options.tripletShare)
     for round in 1...max(1, options.rotationRounds) {
       let photos = graph.largestTwoConnectedPart()
       guard photos.count >= 3 else { return nil }

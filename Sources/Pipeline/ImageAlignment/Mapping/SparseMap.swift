@@ -18,9 +18,7 @@ struct SparseMap: Sendable {
   private var isChanged: [Bool]
 
   init(cameras: [Camera], photos: [Photo], tracks: FeatureTracks) {
-    self.photos = PosedPhotos(
-      cameras: cameras, poses: photos.map { _ in nil },
-      cameraOfPhoto: photos.map { $0.camera.rawValue })
+    self.photos = PosedPhotos(cameras: cameras, unposed: photos)
     self.tracks = tracks
     positions = Array(repeating: .zero, count: tracks.count)
     isTriangulated = Array(repeating: false, count: tracks.count)
@@ -148,5 +146,14 @@ struct SparseMap: Sendable {
     (tracks, positions, isTriangulated, isActive) = (
       result, newPositions, newTriangulated, newActive
     )
+  }
+}
+
+extension PosedPhotos {
+  /// Photos without poses.
+  init(cameras: [Camera], unposed photos: [Photo]) {
+    self.init(
+      cameras: cameras, poses: photos.map { _ in nil },
+      cameraOfPhoto: photos.map { $0.camera.rawValue })
   }
 }

@@ -1,3 +1,4 @@
+import Kernels
 import SceneModel
 
 /// From verified pairs to cameras, poses and points.
@@ -9,6 +10,11 @@ package struct SparseMapping: Sendable {
     /// Minimum fraction of the largest connected group that global mapping must register, at its
     /// start and in the end, for the automatic method to use it. Chosen.
     package var minimumShare = 0.8
+    /// Minimum fraction of the triplets of pairs whose rotations must compose to the identity for
+    /// global mapping to be the first choice. Two photos of a plane, or of a small patch, don't
+    /// determine their relative rotation; incremental mapping doesn't need it. Chosen: the
+    /// majority (docs/experiments/2026-11-planes.md).
+    package var minimumConsistentShare = 0.5
 
     package init() {}
   }
@@ -26,7 +32,30 @@ package struct SparseMapping: Sendable {
     try map(graph, features: features, photos: photos, cameras: cameras, context).reconstruction
   }
 
-  /// The same, with the method that it was made by, `global` or `incremental`.
+  /// Whether the relative rotations of the pairs agree well enough for global mapping to be the
+  /// first choice.
+  func rotationsAgree(
+    _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
+    _ context: StageContext
+  ) throws -> Bool {
+    let share = try GlobalMapping(options.global, growth: options.incremental)
+      .consistentTripletShare(
+        graph, features, PosedPhotos(cameras: cameras, unposed: photos),
+        context.part(from: 0, to: 0))
+    context.notes.record("consistentTripletShare", share)
+    return share >= options.minimumConsistentShare
+  }
+
+  /// Whether a reconstruction has most photos of the largest connected group.
+  func isLarge(_ reconstruction: Reconstruction, of graph: ViewGraph) -> Bool {
+    Double(reconstruction.registered.count) >= neededPhotos(graph)
+  }
+
+  private func neededPhotos(_ graph: ViewGraph) -> Double {
+    options.minimumShare * Double(graph.connectedGroups.first?.count ?? 0)
+  }
+
+  /// The same as `run`, with the method that it was made by, `global` or `incremental`.
   func map(
     _ graph: ViewGraph, features: [FeatureSet], photos: [Photo], cameras: [Camera],
     _ context: StageContext
@@ -49,7 +78,7 @@ package struct SparseMapping: Sendable {
     }
     guard options.method == .automatic, let start else { return try grown(from: start) }
 
-    let needed = options.minimumShare * Double(graph.connectedGroups.first?.count ?? 0)
+    let needed = neededPhotos(graph)
     guard Double(start.registered.count) >= needed else { return try grown(from: nil) }
     let result = try grown(from: start)
     let count = result.reconstruction.registered.count

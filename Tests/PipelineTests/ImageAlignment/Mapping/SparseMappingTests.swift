@@ -54,6 +54,23 @@ import Testing
     #expect(scene.comparison(result).maximumCenterError < 0.03)
   }
 
+  /// As with pairs of planes, whose relative rotations the matches don't determine.
+  @Test func contradictingRotationsAreNoticed() throws {
+    var options = SyntheticScene.Options()
+    options.pixelNoise = 0.3
+    let scene = SyntheticScene(options)
+    var graph = scene.viewGraph
+    #expect(try scene.rotationsAgree(graph))
+    for index in graph.pairs.indices where index % 3 != 0 {
+      guard let pose = graph.pairs[index].secondFromFirst else { continue }
+      graph.pairs[index].secondFromFirst?.rotation =
+        Quaternion(angle: 0.3, axis: [1, Double(index % 5) - 2, 0.2]) * pose.rotation
+    }
+    let notes = StageNotes()
+    #expect(try !scene.rotationsAgree(graph, notes: notes))
+    #expect(try #require(notes.counts["consistentTripletShare"]) < 0.5)
+  }
+
   @Test func pairsOfUnknownFocalLengthGetARotation() throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.3

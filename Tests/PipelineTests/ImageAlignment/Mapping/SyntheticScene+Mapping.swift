@@ -1,5 +1,5 @@
 import Kernels
-import Pipeline
+@testable import Pipeline
 import SceneModel
 import TestSupport
 
@@ -17,6 +17,12 @@ extension SyntheticScene {
     return try SparseMapping(options).run(
       graph ?? viewGraph, features: features, photos: photos, cameras: [camera],
       StageContext(control: control, notes: notes))
+  }
+
+  /// Whether global mapping is the first choice for the given pairs.
+  func rotationsAgree(_ graph: ViewGraph, notes: StageNotes = StageNotes()) throws -> Bool {
+    try SparseMapping().rotationsAgree(
+      graph, features: features, photos: photos, cameras: [camera], StageContext(notes: notes))
   }
 
   /// The pairs that don't contain the given photo.
