@@ -30,7 +30,7 @@ def number(value, digits=3):
 
 def cost(measurement, key, digits=1):
     """Median of the runs, with the range if there are several."""
-    if not measurement:
+    if not measurement or not measurement["runs"]:
         return "–"
     values = sorted(run[key] for run in measurement["runs"])
     text = f"{statistics.median(values):.{digits}f}"
@@ -103,16 +103,16 @@ def outlines(results):
 
 def paper(results):
     """The projections of the paper, and what was measured on twins of its sets."""
-    rows = [["the paper, projected", "0.5 to 1.5", "70 to 95 %", "–", "–", "5 to 10 ×", "600 to 1800", "–"]]
+    rows = [["the paper, projected", "0.5 to 1.5", "1 mm", "70 to 95 %", "–", "–", "5 to 10 ×", "600 to 1800", "–"]]
     for name in TWINS:
         each = results.find(part="models", set=name)
         if not each:
             continue
-        q = each["quality"]
-        rows.append([name, number(q.get("reprojection"), 2), percent(q.get("cloud.R1")), percent(q.get("mesh.R1")),
-                     percent(q.get("anyAngle.cloud.R1")), number(q.get("denseRatio"), 0) + " ×",
+        q, at = each["quality"], SETS[name].get("completenessAt", 1)
+        rows.append([name, number(q.get("reprojection"), 2), f"{at} mm", percent(q.get(f"cloud.R{at}")),
+                     percent(q.get(f"mesh.R{at}")), percent(q.get(f"anyAngle.cloud.R{at}")), number(q.get("denseRatio"), 0) + " ×",
                      cost(each, "seconds", 0), cost(each, "cpuSeconds", 0)])
-    return table(["set", "reprojection px", "points", "model", "points, any angle", "dense / sparse", "wall s", "CPU s"], rows)
+    return table(["set", "reprojection px", "within", "points", "model", "points, any angle", "dense / sparse", "wall s", "CPU s"], rows)
 
 
 def parameters(results):

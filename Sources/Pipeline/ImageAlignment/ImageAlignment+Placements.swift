@@ -65,7 +65,7 @@ extension ImageAlignment {
       return 2 * onObject > features.count
     }
     // What was taken for the object may be the surroundings.
-    checkFocus(of: result, matched, context.notes)
+    checkFocus(of: result, matched, context.notes) { nil }
     return result
   }
 }

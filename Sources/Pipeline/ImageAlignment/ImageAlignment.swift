@@ -54,22 +54,29 @@ package struct ImageAlignment: Sendable {
       rigid: mapped.map, mapped.matched, images, rest ?? context.part(from: 0.87, to: 1))
   }
 
-  /// Finishes the map of a scene that may be rigid, and checks it.
+  /// Finishes the map of a scene that may be rigid, and checks it. `denseCloud` makes a cloud that
+  /// the check may need.
   func finish(
-    rigid map: Map, _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext
+    rigid map: Map, _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext,
+    denseCloud: (Reconstruction, StageContext) throws -> PointCloud? = { _, _ in nil }
   ) throws -> Reconstruction {
     try throwOrWarn(map, context.notes)
-    let result = try finish(map.reconstruction, matched, images, context)
-    checkFocus(of: result, matched, context.notes)
+    let result = try finish(
+      map.reconstruction, matched, images, context.part(from: 0, to: 0.9))
+    try checkFocus(of: result, matched, context.notes) {
+      try denseCloud(result, context.part(from: 0.9, to: 1))
+    }
     return result
   }
 
   /// Records a concern if the photos were aligned by something else than what they are aimed at.
   func checkFocus(
-    of reconstruction: Reconstruction, _ matched: MatchedPhotos, _ notes: StageNotes
-  ) {
+    of reconstruction: Reconstruction, _ matched: MatchedPhotos, _ notes: StageNotes,
+    denseCloud: () throws -> PointCloud?
+  ) rethrows {
     guard let focus = options.focus else { return }
-    FocusCheck(options: focus).run(reconstruction, matched.features, notes)
+    try FocusCheck(options: focus).run(
+      reconstruction, matched.features, notes, denseCloud: denseCloud)
   }
 
   /// Photos with their features and verified pairs.

@@ -50,7 +50,9 @@ struct MovedObjectAlignment {
       }
       joiningContext = joiningContext.part(from: 0.9, to: 1)
     }
-    let rigid = try alignment.finish(rigid: try map.get(), matched, photos.images, joiningContext)
+    let rigid = try alignment.finish(
+      rigid: try map.get(), matched, photos.images, joiningContext
+    ) { try masking.coarseCloud($0, photos.images, $1) }
     if placements.count > 1 {
       context.notes.flagAsSuspect(
         "The object was moved between photos (\(placements.count) groups), but its sides could not "

@@ -74,14 +74,7 @@ struct ObjectMasking {
     _ reconstruction: Reconstruction, images: ImageStore,
     prior: MaskPrior = MaskPrior(), _ context: StageContext
   ) throws -> Result? {
-    let cloud: PointCloud
-    do {
-      cloud = try context.notes.step("coarseCloud") {
-        try PointCloudGeneration(options: options.coarse)
-          .coarseCloud(reconstruction, images: images, context.part(from: 0, to: 0.6))
-      }
-    } catch is PipelineError {
-      // The dense stage at full resolution reports why.
+    guard let cloud = try coarseCloud(reconstruction, images, context.part(from: 0, to: 0.6)) else {
       return nil
     }
     let (photos, backdrop) = try context.notes.step("backdrop") {
@@ -111,6 +104,21 @@ struct ObjectMasking {
     result.support = isolated?.support
     result.points = points
     return add(estimated, of: views, to: &result, context.notes) ? result : nil
+  }
+
+  /// The coarse cloud; nil if the photos show no surface. The dense stage at full resolution
+  /// reports why.
+  func coarseCloud(
+    _ reconstruction: Reconstruction, _ images: ImageStore, _ context: StageContext
+  ) throws -> PointCloud? {
+    do {
+      return try context.notes.step("coarseCloud") {
+        try PointCloudGeneration(options: options.coarse)
+          .coarseCloud(reconstruction, images: images, context)
+      }
+    } catch is PipelineError {
+      return nil
+    }
   }
 
   /// The registered photos at the size of their masks, and the color of their backdrop.

@@ -5,7 +5,8 @@ import SceneModel
 ///
 /// Where an object moves in front of surroundings with more texture, photos may be aligned by
 /// these: their features are then observations of points, but hardly any of those around the point
-/// that the optical axes meet at.
+/// that the optical axes meet at. So it is with an object that stands still, but has too little
+/// texture for features; then patches of a dense cloud agree across photos in both.
 struct FocusCheck: Sendable {
   struct Options: Hashable, Codable, Sendable {
     /// Radius of the focus, as a share of a photo's longer side, and the factor by which that of
@@ -19,6 +20,13 @@ struct FocusCheck: Sendable {
     /// of the surroundings. Measured: 0.03 and 0.09 for objects that were aligned by the table,
     /// 0.70 or more in 21 other sets (docs/experiments/2026-11-masks.md, Blur, concerns and sky).
     var minimumRatio = 0.25
+    /// The same for the cells of a dense cloud. Measured: 0.16 and 0.25 for a vase and a statue
+    /// that were turned by hand and aligned by the table (captures of seed 61), 0.98 for a vase
+    /// that stands still and has hardly any features (docs/experiments/2026-11-planes.md).
+    var minimumDenseRatio = 0.5
+    /// Number of cells along the radius of the focus in which points of a dense cloud are searched
+    /// for. Chosen: about five pixels of the coarse cloud.
+    var cellsPerRadius = 6
     /// Minimum angle between the directions from which the focus is seen, in degrees, as twice the
     /// deviation from their mean that nine of ten photos are within. From less, there is no model
     /// of an object: it was turned in front of a camera that stood still, or is seen from one side
@@ -47,15 +55,27 @@ struct FocusCheck: Sendable {
   var options = Options()
 
   /// Records the findings, and a concern if the photos are aligned by the surroundings.
-  func run(_ reconstruction: Reconstruction, _ features: [FeatureSet], _ notes: StageNotes) {
+  /// `denseCloud` is asked for only if the features are a sign that they are.
+  func run(
+    _ reconstruction: Reconstruction, _ features: [FeatureSet], _ notes: StageNotes,
+    denseCloud: () throws -> PointCloud?
+  ) rethrows {
     guard let findings = findings(reconstruction, features) else { return }
     notes.record("focusFeatures", findings.features)
     notes.record("focusShare", findings.focusShare)
     notes.record("surroundingsShare", findings.surroundingsShare)
     notes.record("viewSpreadDegrees", findings.spreadDegrees)
-    if findings.expected >= options.minimumExpected,
-      findings.focusShare < options.minimumRatio * findings.surroundingsShare
+    var isAlignedByFocus =
+      findings.expected < options.minimumExpected
+      || findings.focusShare >= options.minimumRatio * findings.surroundingsShare
+    if !isAlignedByFocus, let cloud = try denseCloud(),
+      let dense = denseShares(of: cloud, reconstruction)
     {
+      notes.record("denseFocusShare", dense.focus)
+      notes.record("denseSurroundingsShare", dense.surroundings)
+      isAlignedByFocus = dense.focus >= options.minimumDenseRatio * dense.surroundings
+    }
+    if !isAlignedByFocus {
       notes.flagAsSuspect(
         "The photos were aligned by the surroundings of what they are aimed at, which hardly "
           + "matches between photos: it moves, is shiny or transparent. Cover what is around it "
@@ -115,6 +135,41 @@ struct FocusCheck: Sendable {
     return Findings(
       features: Double(inner.count), focusShare: inner.share, surroundingsShare: outer.share,
       spreadDegrees: spreadDegrees(of: focus))
+  }
+
+  /// The shares of the cells of the focus and of its surroundings, in all photos together, in which
+  /// a photo agrees with others on a point of a dense cloud; nil if the optical axes don't
+  /// determine a focus.
+  func denseShares(
+    of cloud: PointCloud, _ reconstruction: Reconstruction
+  ) -> (focus: Double, surroundings: Double)? {
+    let depths = reconstruction.medianDepths(of: cloud)
+    guard let focus = ViewFocus(reconstruction, depths: depths) else { return nil }
+    var pointsOfPhoto = reconstruction.photos.map { _ in [Int]() }
+    for point in cloud.positions.indices {
+      for photo in cloud.visiblePhotos(of: point) where Int(photo) < pointsOfPhoto.count {
+        pointsOfPhoto[Int(photo)].append(point)
+      }
+    }
+    var (inner, outer) = (Tally(), Tally())
+    for photo in reconstruction.registered {
+      guard let pose = reconstruction.poses[photo.index], (pose * focus.point).z > 0 else {
+        continue
+      }
+      let camera = reconstruction.camera(of: photo)
+      var cells = FocusCells(
+        center: camera.project(pose * focus.point),
+        radius: options.radius * Double(max(camera.width, camera.height)),
+        factor: options.surroundingsFactor, cellsPerRadius: options.cellsPerRadius)
+      for point in pointsOfPhoto[photo.index] {
+        let position = pose * SIMD3<Double>(cloud.positions[point])
+        if position.z > 0 { cells.mark(camera.project(position)) }
+      }
+      cells.forEach(in: camera) { distance, isMarked in
+        if distance < 1 { inner.add(isMarked) } else { outer.add(isMarked) }
+      }
+    }
+    return (inner.share, outer.share)
   }
 
   /// Features, and how many of them are observations.

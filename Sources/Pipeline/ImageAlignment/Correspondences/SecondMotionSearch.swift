@@ -147,26 +147,64 @@ package struct SecondMotionSearch: Sendable {
         pair, candidate.rest, points: points, cameras: cameras),
       let pose = other.secondFromFirst
     else { return nil }
-    let limit = options.distinctFactor * verification.maximumError(cameras)
-    func areDistinct(
-      _ matches: [FeatureMatch], from pose: RigidTransform, _ minimumShare: Double
-    ) -> Bool {
-      let matrix = pose.essentialMatrix
-      let outside = matches.count {
-        matrix.sampsonError(points.0[Int($0.first)], points.1[Int($0.second)]) > limit
+    let judge = MotionComparison(
+      points: points, limit: options.distinctFactor * verification.maximumError(cameras),
+      minimumShare: candidate.isStatic
+        ? options.minimumStaticDistinctShare : options.minimumDistinctShare)
+    guard judge.areDistinct(candidate.first.matches, from: pose) else { return nil }
+    if let first = candidate.first.secondFromFirst {
+      guard judge.areDistinct(other.matches, from: first) else { return nil }
+      let seed = second.options.seed &+ UInt64(pair.first.index) << 32 &+ UInt64(pair.second.index)
+      guard try !judge.areOne(candidate.first.matches, other.matches, seed: seed) else {
+        return nil
       }
-      return Double(outside) >= minimumShare * Double(matches.count)
-    }
-    let share =
-      candidate.isStatic ? options.minimumStaticDistinctShare : options.minimumDistinctShare
-    guard areDistinct(candidate.first.matches, from: pose, share) else { return nil }
-    if let first = candidate.first.secondFromFirst,
-      !areDistinct(other.matches, from: first, share)
-    {
-      return nil
     }
     return TwoMotions(
       pair: pair, bodies: [candidate.first, other], isFirstStatic: candidate.isStatic)
+  }
+}
+
+/// Compares the matches of two motions of a pair of photos.
+private struct MotionComparison {
+  /// The features of both photos at depth 1.
+  let points: ([SIMD2<Double>], [SIMD2<Double>])
+  /// The distance from an epipolar line beyond which a match contradicts a motion, at depth 1.
+  let limit: Double
+  /// Minimum fraction of the matches of one motion that must contradict the other.
+  let minimumShare: Double
+
+  /// Whether the matches are of another motion than a pose.
+  func areDistinct(_ matches: [FeatureMatch], from pose: RigidTransform) -> Bool {
+    contradictingShare(matches, pose) >= minimumShare
+  }
+
+  /// Whether one motion explains as much of both as each of two is to explain of its own.
+  ///
+  /// The motion that was estimated from the matches of a plane may be wrong, and contradict
+  /// everything that is not on the plane. The same number of matches of both is taken, so that the
+  /// larger motion does not decide.
+  func areOne(
+    _ first: [FeatureMatch], _ second: [FeatureMatch], seed: UInt64
+  ) throws -> Bool {
+    let count = min(first.count, second.count)
+    let both = (0..<count).flatMap { index in
+      [first, second].map { $0[index * $0.count / count] }
+    }
+    var estimation = TwoViewEstimation()
+    estimation.maximumError = limit
+    estimation.seed = seed
+    let geometry = try estimation.geometry(
+      both.map { points.0[Int($0.first)] }, both.map { points.1[Int($0.second)] }, KernelControl())
+    guard let pose = geometry?.secondFromFirst else { return false }
+    return [first, second].allSatisfy { contradictingShare($0, pose) <= 1 - minimumShare }
+  }
+
+  private func contradictingShare(_ matches: [FeatureMatch], _ pose: RigidTransform) -> Double {
+    let matrix = pose.essentialMatrix
+    let outside = matches.count {
+      matrix.sampsonError(points.0[Int($0.first)], points.1[Int($0.second)]) > limit
+    }
+    return Double(outside) / Double(max(1, matches.count))
   }
 }
 

@@ -34,7 +34,7 @@ import Testing
 
   private func concerns(_ scene: (Reconstruction, [FeatureSet])) -> Int {
     let notes = StageNotes()
-    FocusCheck().run(scene.0, scene.1, notes)
+    FocusCheck().run(scene.0, scene.1, notes) { nil }
     return notes.concerns.count
   }
 
@@ -46,6 +46,32 @@ import Testing
   /// The middle of the photos has many features, but none of a point.
   @Test func featuresWithoutPointsInTheMiddleAreAConcern() {
     #expect(concerns(scene(others: 2000)) == 1)
+  }
+
+  /// A dense cloud shows whether the middle stands still, but has no texture for features; `hole`
+  /// is the radius around the middle without a point, as a share of the photos' longer sides.
+  @Test(arguments: [(0.0, 0), (0.14, 1)])
+  func denseCloudDecidesOverFeaturesWithoutPoints(hole: Double, concernCount: Int) throws {
+    let (scene, features) = scene(others: 2000)
+    var random = SeededGenerator(seed: 5)
+    var cloud = PointCloud()
+    for _ in 0..<20_000 {
+      let offset = SIMD3(random.uniform(), random.uniform(), random.uniform()) - 0.5
+      let point = 1.5 * offset.normalized
+      let photos = try scene.registered.filter { photo in
+        let (camera, pose) = (scene.camera(of: photo), try #require(scene.poses[photo.index]))
+        let distance = (camera.project(pose * point) - camera.project(pose * .zero)).length
+        return distance >= hole * Double(max(camera.width, camera.height))
+      }
+      cloud.positions.append(SIMD3<Float>(point))
+      cloud.photoIndices += photos.map { UInt16($0.index) }
+      cloud.photoOffsets.append(UInt32(cloud.photoIndices.count))
+    }
+    let notes = StageNotes()
+    FocusCheck().run(scene, features, notes) { cloud }
+    #expect(notes.concerns.count == concernCount)
+    let share = try #require(notes.counts["denseFocusShare"])
+    #expect(concernCount == 0 ? share > 0.9 : share < 0.1)
   }
 
   @Test func fewFeaturesAreNotInformative() {

@@ -35,6 +35,28 @@ import Testing
     #expect(try scene.motions(graph: graph).isEmpty)
   }
 
+  /// The geometries of pairs of a plane are ambiguous: some are wrong, and contradict what stands
+  /// in front of the plane.
+  @Test func wrongMotionsOfAPlaneAreNoSecondMotions() throws {
+    let scene = MovingScene(
+      cameras: (0..<5).map(MovingScene.movedCamera),
+      objects: (0..<5).map { _ in .identity }, areSurroundingsPlanar: true)
+    let ofPlane = scene.pairs.map { scene.matches(of: 0, $0) }
+    let graph = try scene.firstMotions(of: ofPlane)
+    // By the limit for matches of another motion, twice 0.0012 of the longer side.
+    let contradicted = graph.pairs.filter { pair in
+      let matrix = (pair.secondFromFirst ?? .identity).essentialMatrix
+      let object = scene.matches(of: 1, pair.pair)
+      let far = object.count { match in
+        let points = scene.normalizedPositions(of: match, pair.pair)
+        return matrix.sampsonError(points.first, points.second) > 0.0024 * 1600 / 1400
+      }
+      return Double(far) >= 0.7 * Double(object.count)
+    }
+    #expect(!contradicted.isEmpty)
+    #expect(try scene.motions(graph: graph).isEmpty)
+  }
+
   /// The object moves before the last of five photos: four of ten pairs show two motions.
   @Test func sceneIsRigidIfFewPairsHaveTwoMotions() throws {
     let last = MovingScene.turned(0.25, about: [1, 0.3, 0])
@@ -128,11 +150,15 @@ private struct MovingScene {
   private let poses: [[RigidTransform]]
 
   /// `cameras` has `cameraFromWorld`, `objects` has `worldFromObject` of each photo.
-  init(cameras: [RigidTransform], objects: [RigidTransform], outlierRatio: Double = 0) {
+  init(
+    cameras: [RigidTransform], objects: [RigidTransform], outlierRatio: Double = 0,
+    areSurroundingsPlanar: Bool = false
+  ) {
     var random = SeededGenerator(seed: 1)
     let count = cameras.count
     let surroundings = Self.points(
-      Self.surroundingsCount, center: [0, 0, 8], size: [3, 2, 1.5], &random)
+      Self.surroundingsCount, center: [0, 0, 8], size: [3, 2, areSurroundingsPlanar ? 0 : 1.5],
+      &random)
     let object = Self.points(
       Self.pointCount - Self.surroundingsCount, center: [0.3, 0, 4], size: [0.7, 0.7, 0.7], &random)
     let points = surroundings + object
@@ -187,14 +213,25 @@ private struct MovingScene {
       .map { Self.match($0, $0, pair) }.sorted { $0.first < $1.first }
   }
 
+  /// The two features of a match at depth 1.
+  func normalizedPositions(
+    of match: FeatureMatch, _ pair: PhotoPair
+  ) -> (first: SIMD2<Double>, second: SIMD2<Double>) {
+    (
+      Self.camera.normalizedPositions(of: [match], in: features[pair.first.index], \.first)[0],
+      Self.camera.normalizedPositions(of: [match], in: features[pair.second.index], \.second)[0]
+    )
+  }
+
   /// `secondFromFirst` of a body.
   func relativePose(of body: Int, _ pair: PhotoPair) -> RigidTransform {
     poses[pair.second.index][body] * poses[pair.first.index][body].inverse
   }
 
-  func firstMotions() throws -> ViewGraph {
+  /// The motions of all matches, or of given ones of each pair.
+  func firstMotions(of given: [[FeatureMatch]]? = nil) throws -> ViewGraph {
     try PairVerification().run(
-      pairs, matches: matches, features: features, photos: photos, cameras: [Self.camera],
+      pairs, matches: given ?? matches, features: features, photos: photos, cameras: [Self.camera],
       StageContext())
   }
 
