@@ -109,10 +109,16 @@ def paper(results):
         if not each:
             continue
         q, at = each["quality"], SETS[name].get("completenessAt", 1)
-        rows.append([name, number(q.get("reprojection"), 2), f"{at} mm", percent(q.get(f"cloud.R{at}")),
-                     percent(q.get(f"mesh.R{at}")), percent(q.get(f"anyAngle.cloud.R{at}")), number(q.get("denseRatio"), 0) + " ×",
+        shares = [percent(completeness(results, name, what)) for what in ("cloud", "mesh", "anyAngle.cloud")]
+        rows.append([name, number(q.get("reprojection"), 2), f"{at} mm", *shares, number(q.get("denseRatio"), 0) + " ×",
                      cost(each, "seconds", 0), cost(each, "cpuSeconds", 0)])
     return table(["set", "reprojection px", "within", "points", "model", "points, any angle", "dense / sparse", "wall s", "CPU s"], rows)
+
+
+def completeness(results, name, what):
+    """The share of a twin's surface within the distance that its pixels resolve; `what` is `cloud`, `mesh` or
+    `anyAngle.cloud`."""
+    return results.find(part="models", set=name)["quality"].get(f"{what}.R{SETS[name].get('completenessAt', 1)}")
 
 
 def parameters(results):
