@@ -97,7 +97,8 @@ void BundleLayout::sort_observations(const ck_bundle& bundle) {
   for (const int32_t index : by_point.values) {
     const ck_observation& o = bundle.observations[index];
     const int32_t camera = bundle.photo_cameras[o.photo];
-    observations.push_back({Vector2(o.x, o.y), o.photo, camera, o.point,
+    const Eigen::Matrix2d whitening{{o.xx, o.xy}, {0, o.yy}};
+    observations.push_back({Vector2(o.x, o.y), whitening, o.photo, camera, o.point,
                             pose_blocks[size_t(o.photo)], camera_blocks[size_t(camera)]});
     poses.push_back(observations.back().pose_block);
     camera_keys.push_back(observations.back().camera_block);

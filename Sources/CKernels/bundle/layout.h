@@ -41,6 +41,8 @@ struct BundleLayout {
   /// An observation; the blocks are −1 for what is constant.
   struct Observation {
     Vector2 pixel;
+    /// What residuals are multiplied by.
+    Eigen::Matrix2d whitening;
     int32_t photo, camera, point, pose_block, camera_block;
   };
 

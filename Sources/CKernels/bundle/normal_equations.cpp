@@ -88,8 +88,9 @@ double NormalEquations::cost(const BundleParameters& parameters) const {
     double sum = 0;
     for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
       const auto& o = layout_.observations[k];
-      const double r = reprojection_error(parameters.cameras[size_t(o.camera)],
-                                          poses[size_t(o.photo)], parameters.points[point], o.pixel)
+      const double r = (o.whitening * reprojection_error(parameters.cameras[size_t(o.camera)],
+                                                         poses[size_t(o.photo)],
+                                                         parameters.points[point], o.pixel))
                            .norm();
       sum += r <= huber_width_ ? r * r : huber_width_ * (2 * r - huber_width_);
     }
@@ -112,12 +113,13 @@ void NormalEquations::linearize(const BundleParameters& parameters) {
                        parameters.points[point], o.pixel);
       // Iteratively reweighted least squares: the weight is the derivative of the loss by the
       // squared error.
-      const double r = term.residual.norm();
-      const double weight = r <= huber_width_ ? 1 : std::sqrt(huber_width_ / r);
-      term.residual *= weight;
-      term.by_pose *= weight;
-      term.by_point *= weight;
-      term.by_camera *= weight;
+      const double r = (o.whitening * term.residual).norm();
+      const Eigen::Matrix2d weight =
+          (r <= huber_width_ ? 1 : std::sqrt(huber_width_ / r)) * o.whitening;
+      term.residual = weight * term.residual;
+      term.by_pose = weight * term.by_pose;
+      term.by_point = weight * term.by_point;
+      term.by_camera = weight * term.by_camera;
       if (o.pose_block >= 0 && layout_.fixed_axes[size_t(o.pose_block)] >= 0) {
         term.by_pose.col(3 + layout_.fixed_axes[size_t(o.pose_block)]).setZero();
       }

@@ -38,6 +38,10 @@ typedef struct {
   int32_t photo;
   int32_t point;
   double x, y;
+  /// The upper triangle of the square root of its information matrix, relative to the others: a
+  /// residual (u, v) counts as (xx u + xy v, yy v). The identity has 1, 0, 1. Only bundle
+  /// adjustment uses it.
+  double xx, xy, yy;
 } ck_observation;
 
 /// Cameras, and photos with poses.

@@ -39,6 +39,9 @@ typedef struct {
   double x, y;
   /// Zero-mean normalized cross-correlation at the center, −1…1; −1 if the search failed.
   double zncc;
+  /// The covariance of the center, in square pixels: what the texture and the noise make of least
+  /// squares (Gruen 1985).
+  double xx, xy, yy;
 } ck_template_match;
 
 /// Extracts templates from a photo with 1, 3 (RGB) or 4 channels.

@@ -29,6 +29,14 @@ constexpr float kMinimumIsotropy = 0.03f;
 
 using Window = std::array<float, kCount>;
 
+/// The number of samples without weights that determine a position as well. Independent samples are
+/// assumed; neighbors are not quite.
+float effective_count(const Window& weights) {
+  float sum = 0;
+  for (const float weight : weights) sum += weight * weight;
+  return 1 / sum;
+}
+
 /// Gaussian weights of the window, with a sum of one.
 Window window_weights() {
   Window weights;
@@ -43,6 +51,7 @@ Window window_weights() {
 }
 
 const Window kWeights = window_weights();
+const float kEffectiveCount = effective_count(kWeights);
 
 float weighted_dot(const Window& a, const Window& b) {
   float sum = 0;
@@ -101,7 +110,7 @@ struct Template {
 /// Locates one template; a ZNCC of −1 means that the search failed.
 ck_template_match search(const LumaPyramid& image, const Template& model,
                          const ck_template_search& s, double maximum_shift) {
-  const ck_template_match nothing{s.x, s.y, -1};
+  const ck_template_match nothing{s.x, s.y, -1, 0, 0, 0};
   const double a = s.step * s.warp[0], b = s.step * s.warp[1], c = s.step * s.warp[2],
                d = s.step * s.warp[3];
   const double determinant = double(model.xx) * model.yy - double(model.xy) * model.xy;
@@ -125,7 +134,16 @@ ck_template_match search(const LumaPyramid& image, const Template& model,
     x -= step_x, y -= step_y;
     if (!(std::hypot(x - s.x, y - s.y) <= maximum_shift)) return nothing;
     if (std::hypot(step_x, step_y) < kConvergedStep) {
-      return {x, y, double(weighted_dot(values, model.unit))};
+      const double zncc = weighted_dot(values, model.unit);
+      // The residuals of two normalized windows have the variance 2 (1 − ZNCC).
+      const double noise = 2 * std::max(0.0, 1 - zncc) / (kEffectiveCount * determinant);
+      const double uu = noise * model.yy, uv = -noise * model.xy, vv = noise * model.xx;
+      return {x,
+              y,
+              zncc,
+              a * a * uu + 2 * a * b * uv + b * b * vv,
+              a * c * uu + (a * d + b * c) * uv + b * d * vv,
+              c * c * uu + 2 * c * d * uv + d * d * vv};
     }
   }
   return nothing;

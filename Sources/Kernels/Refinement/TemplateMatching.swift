@@ -73,6 +73,8 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     package var center: SIMD2<Double>
     /// Zero-mean normalized cross-correlation, at most 1.
     package var zncc: Double
+    /// The covariance of the center in square pixels: xx, xy, yy.
+    package var covariance: SIMD3<Double>
   }
 
   /// Maximum distance in pixels from the expected center. Chosen.
@@ -114,6 +116,9 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
           $0, templates.samples, templates.isValid.count, raw, raw.count, maximumShift, &matches)
       }
     }
-    return matches.map { $0.zncc > -1 ? Match(center: [$0.x, $0.y], zncc: $0.zncc) : nil }
+    return matches.map {
+      $0.zncc > -1
+        ? Match(center: [$0.x, $0.y], zncc: $0.zncc, covariance: [$0.xx, $0.xy, $0.yy]) : nil
+    }
   }
 }

@@ -1,6 +1,7 @@
 import Foundation
 import Kernels
 import SceneModel
+import TestSupport
 import Testing
 
 /// Images of one smooth texture under known transformations.
@@ -88,5 +89,39 @@ import Testing
         [.init(template: 5, step: 1, warp: [1, 0, 0, 1], expected: center)], of: templates,
         in: picture())
     }
+  }
+
+  /// The texture varies little along y, as the grain of wood does: the position is uncertain there.
+  @Test func covarianceIsThatOfRepeatedMeasurements() throws {
+    var random = SeededGenerator(seed: 9)
+    func picture(noise: Double) -> RasterImage {
+      var image = RasterImage(width: 80, height: 80, channels: 1)
+      for y in 0..<image.height {
+        for x in 0..<image.width {
+          let value = 120 + 55 * sin(0.6 * Double(x)) + 20 * sin(0.35 * Double(y) + 0.4)
+          image.pixels[y * image.width + x] = UInt8(
+            min(255, max(0, (value + noise * random.normal3().x).rounded())))
+        }
+      }
+      return image
+    }
+    let center = SIMD2(40.0, 38.0)
+    let templates = try TemplateMatching.templates(
+      of: [.init(center: center, step: 1)], in: picture(noise: 0))
+    let search = TemplateMatching.Search(
+      template: 0, step: 1, warp: [1, 0, 0, 1], expected: center)
+    var (measured, predicted) = (SIMD3<Double>.zero, SIMD3<Double>.zero)
+    let count = 300.0
+    for _ in 0..<Int(count) {
+      let match = try #require(
+        TemplateMatching().matches([search], of: templates, in: picture(noise: 4))[0])
+      let error = match.center - center
+      measured += SIMD3(error.x * error.x, error.x * error.y, error.y * error.y) / count
+      predicted += match.covariance / count
+    }
+    #expect(predicted.z > 10 * predicted.x)
+    // The weights of the window are those of neither extreme of the theory.
+    for axis in [0, 2] { #expect(abs(log2(measured[axis] / predicted[axis])) < 1) }
+    #expect(abs(predicted.y) < 0.1 * (predicted.x * predicted.z).squareRoot())
   }
 }

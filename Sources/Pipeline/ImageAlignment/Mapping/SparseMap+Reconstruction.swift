@@ -8,6 +8,7 @@ extension SparseMap {
     var track: Int
     var photo: Int
     var pixel: SIMD2<Double>
+    var whitening: Whitening
   }
 
   /// The feature index of an observation without a feature.
@@ -88,13 +89,17 @@ extension SparseMap {
   mutating func add(_ additions: [NewObservation]) {
     var added = [[NewObservation]](repeating: [], count: tracks.count)
     for addition in additions { added[addition.track].append(addition) }
-    var members: [[(photo: Int32, feature: Int32, pixel: SIMD2<Double>, isActive: Bool)]] = []
+    var members: [[Member]] = []
     for track in 0..<tracks.count {
       let new = Set(added[track].map { Int32($0.photo) })
       let known = tracks.observations(of: track).filter { !new.contains(tracks.photos[$0]) }
-        .map { (tracks.photos[$0], tracks.features[$0], tracks.pixels[$0], isActive[$0]) }
-      let found = added[track].map { (Int32($0.photo), Self.noFeature, $0.pixel, true) }
-      members.append((known + found).sorted { $0.0 < $1.0 })
+        .map(member)
+      let found = added[track].map {
+        Member(
+          photo: Int32($0.photo), feature: Self.noFeature, pixel: $0.pixel,
+          whitening: $0.whitening, isActive: true)
+      }
+      members.append((known + found).sorted { $0.photo < $1.photo })
     }
     replaceTracks(members)
   }

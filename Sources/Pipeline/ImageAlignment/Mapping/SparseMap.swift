@@ -11,6 +11,8 @@ struct SparseMap: Sendable {
   private(set) var pointCount = 0
   /// Whether each observation of the tracks supports its track's point.
   var isActive: [Bool]
+  /// How precise each observation of the tracks is.
+  private var whitenings: [Whitening]
   /// Photos in the order of registration.
   var registered: [Int] = []
   /// Photos that observe a point that was added or removed since `takeChangedPhotos`, each once.
@@ -23,6 +25,7 @@ struct SparseMap: Sendable {
     positions = Array(repeating: .zero, count: tracks.count)
     isTriangulated = Array(repeating: false, count: tracks.count)
     isActive = Array(repeating: false, count: tracks.photos.count)
+    whitenings = Array(repeating: .identity, count: tracks.photos.count)
     isChanged = photos.map { _ in false }
   }
 
@@ -92,23 +95,39 @@ struct SparseMap: Sendable {
   }
 
   /// Moves an observation within its photo.
-  mutating func moveObservation(_ index: Int, to pixel: SIMD2<Double>) {
+  mutating func moveObservation(_ index: Int, to pixel: SIMD2<Double>, _ whitening: Whitening) {
     tracks.movePixel(of: index, to: pixel)
+    whitenings[index] = whitening
+  }
+
+  /// An observation of a track.
+  struct Member {
+    var photo: Int32
+    var feature: Int32
+    var pixel: SIMD2<Double>
+    var whitening: Whitening
+    var isActive: Bool
+  }
+
+  func member(_ index: Int) -> Member {
+    Member(
+      photo: tracks.photos[index], feature: tracks.features[index], pixel: tracks.pixels[index],
+      whitening: whitenings[index], isActive: isActive[index])
   }
 
   /// Replaces the observations of all tracks; their points stay.
-  mutating func replaceTracks(
-    _ members: [[(photo: Int32, feature: Int32, pixel: SIMD2<Double>, isActive: Bool)]]
-  ) {
+  mutating func replaceTracks(_ members: [[Member]]) {
     tracks = FeatureTracks(photoCount: photos.poses.count)
     for track in members { tracks.append(track.map { ($0.photo, $0.feature, $0.pixel) }) }
     isActive = members.flatMap { $0.map(\.isActive) }
+    whitenings = members.flatMap { $0.map(\.whitening) }
   }
 
   /// An observation for the kernels; `point` is the index of its point in their arrays.
   func pointObservation(_ index: Int, point: Int) -> PointObservation {
     PointObservation(
-      photo: tracks.photos[index], point: Int32(point), pixel: tracks.pixels[index])
+      photo: tracks.photos[index], point: Int32(point), pixel: tracks.pixels[index],
+      whitening: whitenings[index])
   }
 
   /// The tracks that `photo` observes, triangulated or not, in ascending order.
@@ -119,33 +138,26 @@ struct SparseMap: Sendable {
   /// Moves the observations of registered photos that contradict their track's point to a new
   /// track, if there are at least two of them.
   mutating func splitTracks() {
-    var result = FeatureTracks(photoCount: photos.poses.count)
+    var members: [[Member]] = []
     var newPositions: [SIMD3<Double>] = []
     var newTriangulated: [Bool] = []
-    var newActive: [Bool] = []
-    func member(_ index: Int) -> (photo: Int32, feature: Int32, pixel: SIMD2<Double>) {
-      (tracks.photos[index], tracks.features[index], tracks.pixels[index])
-    }
     for track in 0..<tracks.count {
       let all = Array(tracks.observations(of: track))
       let outliers =
         isTriangulated[track]
         ? all.filter { !isActive[$0] && isRegistered(Int(tracks.photos[$0])) } : []
       let kept = outliers.count >= 2 ? all.filter { !outliers.contains($0) } : all
-      result.append(kept.map(member))
+      members.append(kept.map(member))
       newPositions.append(positions[track])
       newTriangulated.append(isTriangulated[track])
-      newActive += kept.map { isActive[$0] }
       if outliers.count >= 2 {
-        result.append(outliers.map(member))
+        members.append(outliers.map(member))
         newPositions.append(.zero)
         newTriangulated.append(false)
-        newActive += outliers.map { _ in false }
       }
     }
-    (tracks, positions, isTriangulated, isActive) = (
-      result, newPositions, newTriangulated, newActive
-    )
+    replaceTracks(members)
+    (positions, isTriangulated) = (newPositions, newTriangulated)
   }
 }
 

@@ -11,6 +11,10 @@ extension ObservationRefinement {
     /// expected position. Chosen.
     package var maximumShift = 3.0
     package var maximumNewShift = 1.0
+    /// Standard deviation of observations in working pixels that has other causes than noise, such
+    /// as the curvature of the surface. Measured: rendered sets prefer less, dtu_scan24 more
+    /// (docs/experiments/2026-11-precision.md).
+    package var positionFloor = 0.05
     /// A photo with a smaller fraction of confirmed observations keeps the unconfirmed ones
     /// unchanged. Chosen.
     package var minimumConfirmedShare = 0.25

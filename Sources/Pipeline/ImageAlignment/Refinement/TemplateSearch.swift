@@ -20,6 +20,18 @@ struct TemplateSearch: Sendable {
     var warp: SIMD4<Double>
   }
 
+  /// Where a template is in a photo, in pixels of the full-size photo.
+  private struct Find: Sendable {
+    var pixel: SIMD2<Double>
+    /// The covariance of `pixel`: xx, xy, yy.
+    var covariance: SIMD3<Double>
+
+    /// The geometric mean of the standard deviations along its axes.
+    var deviation: Double {
+      (covariance.x * covariance.z - covariance.y * covariance.y).squareRoot().squareRoot()
+    }
+  }
+
   /// Reads the templates of all tracks.
   init(
     _ map: SparseMap, features: [FeatureSet], photos: [Photo], images: ImageStore,
@@ -58,13 +70,16 @@ struct TemplateSearch: Sendable {
     }
     let finds = try finds(
       candidates, shift: options.maximumShift, correlation: options.minimumCorrelation, context)
+    let deviation = Self.typicalDeviation(finds)
     for (photo, found) in finds.enumerated() {
       let confirmed = found.count { $0 != nil }
       let share = Double(confirmed) / Double(max(1, map.activeCount(ofPhoto: photo)))
-      for (candidate, pixel) in zip(candidates[photo], found) {
+      for (candidate, find) in zip(candidates[photo], found) {
         guard let index = candidate.observation else { continue }
-        if let pixel {
-          map.moveObservation(index, to: pixel)
+        if let find {
+          map.moveObservation(
+            index, to: find.pixel,
+            Whitening(covariance: find.covariance, deviation: deviation))
         } else if share >= options.minimumConfirmedShare {
           map.isActive[index] = false
         }
@@ -87,10 +102,14 @@ struct TemplateSearch: Sendable {
     let finds = try finds(
       candidates, shift: options.maximumNewShift, correlation: options.minimumNewCorrelation,
       context)
+    let deviation = Self.typicalDeviation(finds)
     var additions: [SparseMap.NewObservation] = []
     for (photo, found) in finds.enumerated() {
-      for (candidate, pixel) in zip(candidates[photo], found) {
-        if let pixel { additions.append(.init(track: candidate.track, photo: photo, pixel: pixel)) }
+      for case (let candidate, let find?) in zip(candidates[photo], found) {
+        additions.append(
+          .init(
+            track: candidate.track, photo: photo, pixel: find.pixel,
+            whitening: Whitening(covariance: find.covariance, deviation: deviation)))
       }
     }
     map.add(additions)
@@ -133,11 +152,15 @@ struct TemplateSearch: Sendable {
     }
   }
 
-  /// The found positions of the candidates of each photo, in pixels of the full-size photo; nil if
-  /// not found.
+  /// The median deviation; residuals are relative to it.
+  private static func typicalDeviation(_ finds: [[Find?]]) -> Double {
+    finds.joined().compactMap { $0?.deviation }.upperMedian ?? 1
+  }
+
+  /// The found positions of the candidates of each photo; nil if not found.
   private func finds(
     _ candidates: [[Candidate]], shift: Double, correlation: Double, _ context: StageContext
-  ) throws -> [[SIMD2<Double>?]] {
+  ) throws -> [[Find?]] {
     var matching = TemplateMatching()
     matching.maximumShift = shift
     return try context.control.parallelMap(candidates.count) { [self, matching] photo in
@@ -157,7 +180,11 @@ struct TemplateSearch: Sendable {
         guard let find, find.zncc >= correlation,
           candidate.observation != nil || isOnObject(find.center)
         else { return nil }
-        return find.center / factor
+        let floor = options.positionFloor * options.positionFloor
+        let noise = find.covariance + SIMD3(floor, 0, floor)
+        return Find(
+          pixel: find.center / factor,
+          covariance: noise / SIMD3(factor.x * factor.x, factor.x * factor.y, factor.y * factor.y))
       }
     }
   }
