@@ -40,8 +40,13 @@ import TestSupport
 // is not part of the surface. Those of captures and twins are z-up as
 // well.
 
-let folder = URL(
-  fileURLWithPath: CommandLine.arguments.dropFirst().first ?? "Fixtures", isDirectory: true)
+let target = CommandLine.arguments.dropFirst().first ?? "Fixtures"
+guard !target.hasPrefix("-") else {
+  FileHandle.standardError.write(
+    Data("render-fixtures: '\(target)' is no folder; see Tests/FixtureRenderer/main.swift\n".utf8))
+  exit(2)
+}
+let folder = URL(fileURLWithPath: target, isDirectory: true)
 let words = Array(CommandLine.arguments.dropFirst(2))
 let control = KernelControl(threadCount: 2)
 

@@ -39,8 +39,8 @@ typedef struct {
   double x, y;
   /// Zero-mean normalized cross-correlation at the center, −1…1; −1 if the search failed.
   double zncc;
-  /// The covariance of the center, in square pixels: what the texture and the noise make of least
-  /// squares (Gruen 1985).
+  /// The covariance of the center in square pixels, which least squares give from the texture of
+  /// the template and the residuals (Gruen 1985).
   double xx, xy, yy;
 } ck_template_match;
 

@@ -29,8 +29,9 @@ constexpr float kMinimumIsotropy = 0.03f;
 
 using Window = std::array<float, kCount>;
 
-/// The number of samples without weights that determine a position as well. Independent samples are
-/// assumed; neighbors are not quite.
+/// The effective sample size: the number of samples without weights that would determine a position
+/// as well (Kish, "Survey sampling", 1965). The noise of neighboring samples is taken as
+/// independent.
 float effective_count(const Window& weights) {
   float sum = 0;
   for (const float weight : weights) sum += weight * weight;

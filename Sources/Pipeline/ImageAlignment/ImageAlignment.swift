@@ -183,7 +183,8 @@ package struct ImageAlignment: Sendable {
     _ matched: MatchedPhotos, _ images: ImageStore, _ context: StageContext,
     isAccepted: (Map) -> Bool
   ) throws -> Map? {
-    let attempt = StageContext(control: context.control)
+    let attempt = StageContext(
+      control: context.control, notes: StageNotes(meter: context.notes.meter))
     do {
       let (map, _) = try forAlternatives.map(matched, by: .incremental, images, attempt)
       guard isAccepted(map) else { return nil }

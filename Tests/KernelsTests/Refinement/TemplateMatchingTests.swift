@@ -120,7 +120,7 @@ import Testing
       predicted += match.covariance / count
     }
     #expect(predicted.z > 10 * predicted.x)
-    // The weights of the window are those of neither extreme of the theory.
+    // Rounding to gray levels and interpolation between pixels are not part of the prediction.
     for axis in [0, 2] { #expect(abs(log2(measured[axis] / predicted[axis])) < 1) }
     #expect(abs(predicted.y) < 0.1 * (predicted.x * predicted.z).squareRoot())
   }

@@ -116,15 +116,9 @@ struct FocusCheck: Sendable {
       return nil
     }
     var (inner, outer) = (Tally(), Tally())
-    for photo in reconstruction.registered {
-      guard let pose = reconstruction.poses[photo.index], (pose * focus.point).z > 0 else {
-        continue
-      }
-      let camera = reconstruction.camera(of: photo)
-      let center = camera.project(pose * focus.point)
-      let radius = options.radius * Double(max(camera.width, camera.height))
-      for (position, isUsed) in zip(features[photo.index].positions, isObservation[photo.index]) {
-        let distance = (SIMD2<Double>(position) - center).length / radius
+    for view in views(of: focus, reconstruction) {
+      for (position, isUsed) in zip(features[view.photo].positions, isObservation[view.photo]) {
+        let distance = (SIMD2<Double>(position) - view.center).length / view.radius
         if distance < 1 {
           inner.add(isUsed)
         } else if distance < options.surroundingsFactor {
@@ -152,24 +146,42 @@ struct FocusCheck: Sendable {
       }
     }
     var (inner, outer) = (Tally(), Tally())
-    for photo in reconstruction.registered {
-      guard let pose = reconstruction.poses[photo.index], (pose * focus.point).z > 0 else {
-        continue
-      }
-      let camera = reconstruction.camera(of: photo)
+    for view in views(of: focus, reconstruction) {
       var cells = FocusCells(
-        center: camera.project(pose * focus.point),
-        radius: options.radius * Double(max(camera.width, camera.height)),
-        factor: options.surroundingsFactor, cellsPerRadius: options.cellsPerRadius)
-      for point in pointsOfPhoto[photo.index] {
-        let position = pose * SIMD3<Double>(cloud.positions[point])
-        if position.z > 0 { cells.mark(camera.project(position)) }
+        center: view.center, radius: view.radius, factor: options.surroundingsFactor,
+        cellsPerRadius: options.cellsPerRadius)
+      for point in pointsOfPhoto[view.photo] {
+        let position = view.pose * SIMD3<Double>(cloud.positions[point])
+        if position.z > 0 { cells.mark(view.camera.project(position)) }
       }
-      cells.forEach(in: camera) { distance, isMarked in
+      cells.forEach(in: view.camera) { distance, isMarked in
         if distance < 1 { inner.add(isMarked) } else { outer.add(isMarked) }
       }
     }
     return (inner.share, outer.share)
+  }
+
+  /// A photo, with the focus in front of its camera.
+  private struct View {
+    var photo: Int
+    /// `cameraFromWorld`.
+    var pose: RigidTransform
+    var camera: Camera
+    /// The projection of the focus, and its radius, in pixels.
+    var center: SIMD2<Double>
+    var radius: Double
+  }
+
+  private func views(of focus: ViewFocus, _ reconstruction: Reconstruction) -> [View] {
+    reconstruction.registered.compactMap { photo in
+      guard let pose = reconstruction.poses[photo.index], (pose * focus.point).z > 0 else {
+        return nil
+      }
+      let camera = reconstruction.camera(of: photo)
+      return View(
+        photo: photo.index, pose: pose, camera: camera, center: camera.project(pose * focus.point),
+        radius: options.radius * Double(max(camera.width, camera.height)))
+    }
   }
 
   /// Features, and how many of them are observations.
