@@ -37,10 +37,10 @@ package struct Machine: Hashable, Sendable {
     #else
       let processor = ""
     #endif
+    let group = MemoryGroup.tightest(read("/proc/self/cgroup"), read: read)
     return Machine(
-      memory: read("/proc/meminfo"), processor: processor,
-      containerLimit: Int(read("/sys/fs/cgroup/memory.max").trimmed),
-      containerUse: Int(read("/sys/fs/cgroup/memory.current").trimmed))
+      memory: read("/proc/meminfo"), processor: processor, containerLimit: group?.limit,
+      containerUse: group?.use)
   }
 
   /// Parses the texts of `/proc/meminfo` and `/proc/cpuinfo`; the container's limit and use are in
@@ -102,8 +102,4 @@ extension Machine {
       imageMemory: min(1 << 30, max(256 << 20, totalMemoryBytes / 8)),
       surfaceMemory: totalMemoryBytes / 2)
   }
-}
-
-extension String {
-  fileprivate var trimmed: String { trimmingCharacters(in: .whitespacesAndNewlines) }
 }
