@@ -12,6 +12,7 @@ import SceneModel
 /// dense/views/                            patches of each view, to resume the dense stage
 /// mesh/surface.ply                        before simplification
 /// mesh/surface.json                       the inputs of the surface
+/// units/                                  features and matches that several processes share
 /// report.json
 /// ```
 /// Every file is written atomically.
@@ -35,6 +36,16 @@ package struct Checkpoint {
 
   /// The folder of `PatchWorkspace`.
   var views: URL { directory.appendingPathComponent("dense/views", isDirectory: true) }
+
+  /// Parts of stages that several processes make for each other. Nil if they are not to be written,
+  /// and there are none.
+  func units(isWritten: Bool) -> UnitStore? {
+    let folder = directory.appendingPathComponent("units", isDirectory: true)
+    if isWritten {
+      try? FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
+    }
+    return folder.isExistingFolder ? UnitStore(folder: folder, isWritten: isWritten) : nil
+  }
 
   /// The folder of COLMAP's text files.
   var sparse: URL { directory.appendingPathComponent("sparse", isDirectory: true) }

@@ -37,6 +37,8 @@ package struct ImageAlignment: Sendable {
   }
 
   package var options: Options
+  /// Features, pairs and matches that other processes have made.
+  var units: UnitStore?
 
   package init(_ options: Options = Options()) { self.options = options }
 
@@ -126,12 +128,18 @@ package struct ImageAlignment: Sendable {
   func viewGraph(
     photos: [Photo], cameras: [Camera], images: ImageStore, _ context: StageContext
   ) throws -> MatchedPhotos {
+    var extraction = FeatureExtraction(options.features)
+    extraction.units = units
     let features = try context.notes.step("features") {
-      try FeatureExtraction(options.features).run(
+      try extraction.run(
         photos, images: decodingOnce(images), context.part(from: 0, to: 0.55))
     }
+    var search = CorrespondenceSearch(options.search)
+    search.units = try units.map {
+      try correspondenceUnits($0, photos: photos, images: images)
+    }
     let (graph, calibrated) = try context.notes.step("matching") {
-      try CorrespondenceSearch(options.search).run(
+      try search.run(
         photos: photos, cameras: cameras, features: features, ordering: options.ordering,
         context.part(from: 0.55, to: 1))
     }

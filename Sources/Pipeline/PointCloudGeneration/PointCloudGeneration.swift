@@ -74,6 +74,22 @@ package struct PointCloudGeneration {
     ).run(reconstruction, images, context)
   }
 
+  /// Computes the results of a step for a block of the views, with whatever they require and is
+  /// missing, and leaves all in `folder`.
+  func make(
+    _ step: PatchWorkspace.Step, _ block: Block, of reconstruction: Reconstruction,
+    images: ImageStore, folder: URL, _ context: StageContext
+  ) throws {
+    let views = try DenseViews(reconstruction, images: images, options: options)
+    let workspace = try PatchWorkspace(folder: folder)
+    let own = Array(views.indices)[block.range(of: views.views.count)]
+    let plan = try DensePlan(
+      step, of: Array(own), views, workspace, context.part(from: 0, to: 0).control)
+    try workspace.checkSpace(plan.byteCount(views))
+    try DenseSteps(views, workspace, plan, masks(of: views, reconstruction, images), options)
+      .run(reconstruction, images, context)
+  }
+
   /// Computes a cloud from the patches at half the resolution of the views, in the reconstruction's
   /// frame, at a fifth of the cost. Throws like `run`.
   func coarseCloud(

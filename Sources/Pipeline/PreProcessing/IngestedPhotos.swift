@@ -3,7 +3,7 @@ import SceneModel
 
 /// The contents of an input folder: the usable photos, their cameras, and every rejected file with
 /// the reason.
-package struct IngestedPhotos: Sendable {
+package struct IngestedPhotos: Codable, Sendable {
   /// IDs are dense, in the order of the files.
   package var photos: [Photo]
   /// Initial cameras from the metadata.

@@ -3,4 +3,6 @@ package enum CheckpointAccess: Sendable {
   case exclusive
   /// Shared with other jobs of the same dense stage.
   case shared
+  /// Shared with other parts of the same run.
+  case parts
 }

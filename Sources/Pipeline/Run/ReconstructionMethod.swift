@@ -33,7 +33,9 @@ struct ReconstructionMethod {
   func ingest() throws -> PhotoSet {
     try recorder.recordingErrors { try cache.lockDirectory() }
     return try cache.photos {
-      let ingested = try recorder.run(.preProcessing) { try source.ingest(configuration, $0) }
+      let ingested = try recorder.run(.preProcessing) {
+        try source.ingest(configuration, cache.units, $0)
+      }
       collector?.add(ingested)
       try recorder.record(
         ingested, folder: source.photoFolder,
@@ -48,7 +50,7 @@ struct ReconstructionMethod {
       let result = try source.cameras(of: photos, configuration, cache, recorder)
       recorder.record(result.reconstruction)
       // Given cameras may have been read from the checkpoint.
-      if source.isPhotosOnly { try cache.checkpoint?.write(result.reconstruction) }
+      if source.isPhotosOnly { try cache.write(result.reconstruction) }
       return result
     }.reconstruction
   }

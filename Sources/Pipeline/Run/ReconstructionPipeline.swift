@@ -104,6 +104,12 @@ package final class ReconstructionPipeline {
     }
   }
 
+  /// Makes a part of the work for a model of `specification`, from the parts before it. The
+  /// checkpoint directory, which is required, holds the results; access is `.parts`.
+  package func make(_ part: RunPart, for specification: DetailSpecification) throws {
+    try method(for: specification).make(part)
+  }
+
   /// Makes the unsimplified surface of the object, or of the whole scene if masking is off.
   package func surface(for specification: DetailSpecification) throws -> Mesh {
     let method = method(for: specification)

@@ -10,14 +10,27 @@ extension RunSource {
     if case .photos(_, let readings) = self { readings } else { [:] }
   }
 
-  /// Reads and validates the photos.
+  /// Reads and validates the photos, unless another process did.
   func ingest(
-    _ configuration: PipelineConfiguration, _ context: StageContext
+    _ configuration: PipelineConfiguration, _ units: UnitStore?, _ context: StageContext
   ) throws -> IngestedPhotos {
     switch self {
-    case .photos(let folder, _), .photosWithCameras(let folder, _):
-      try PhotoIngestion(configuration.ingestion).run(folder: folder, context)
-    case .savedRun(let saved): try SavedPhotos().run(saved, context)
+    case .photos(let folder, _):
+      guard let units else {
+        return try PhotoIngestion(configuration.ingestion).run(folder: folder, context)
+      }
+      let key = try IngestedRecord.key(of: folder, configuration.ingestion)
+      let notes = StageNotes(meter: context.notes.meter)
+      let record = try units.value(.photos, madeFrom: key) {
+        IngestedRecord(
+          try PhotoIngestion(configuration.ingestion)
+            .run(folder: folder, StageContext(control: context.control, notes: notes)), notes)
+      }
+      record.replayNotes(to: context.notes)
+      return record.ingested
+    case .photosWithCameras(let folder, _):
+      return try PhotoIngestion(configuration.ingestion).run(folder: folder, context)
+    case .savedRun(let saved): return try SavedPhotos().run(saved, context)
     }
   }
 
@@ -30,7 +43,8 @@ extension RunSource {
     case .photos:
       return try recorder.run(.imageAlignment, images: photos.images) { context in
         try cache.sealedAlignment(of: photos, configuration, context.notes) {
-          try Self.align(photos, configuration, maskFolder: cache.maskFolder(), context)
+          try Self.align(
+            photos, configuration, cache.units, maskFolder: cache.maskFolder(), context)
         }
       }
     case .photosWithCameras(_, let known):
@@ -46,10 +60,11 @@ extension RunSource {
 
   /// Structure from motion.
   private static func align(
-    _ photos: PhotoSet, _ configuration: PipelineConfiguration, maskFolder: URL,
-    _ context: StageContext
+    _ photos: PhotoSet, _ configuration: PipelineConfiguration, _ units: UnitStore?,
+    maskFolder: URL, _ context: StageContext
   ) throws -> AlignedPhotos {
     var alignment = ImageAlignment(configuration.alignmentOptions(for: photos.images))
+    alignment.units = units
     alignment.options.worldAlignment.readings = photos.readings
     guard configuration.findsObject(in: photos.images) else {
       return AlignedPhotos(

@@ -15,6 +15,8 @@ final class StageCache {
   }
 
   let checkpoint: Checkpoint?
+  /// Parts of stages that several processes make for each other; nil if none do.
+  let units: UnitStore?
   private let access: CheckpointAccess
   /// Whether alignment and surface depend on the photos and options alone, so that another run may
   /// reuse them.
@@ -34,6 +36,7 @@ final class StageCache {
     directory: URL?, access: CheckpointAccess, sealsStages: Bool, recorder: RunRecorder
   ) {
     checkpoint = directory.map(Checkpoint.init)
+    units = checkpoint?.units(isWritten: access == .parts)
     self.access = access
     self.sealsStages = sealsStages
     self.recorder = recorder
@@ -44,16 +47,18 @@ final class StageCache {
   /// Locks the checkpoint directory until `unlock()`; throws `CheckpointError`.
   func lockDirectory() throws {
     guard lock == nil, let checkpoint else { return }
-    lock = try DirectoryLock(checkpoint.directory, isShared: access == .shared)
-    checkpoint.removeRemains()
+    lock = try DirectoryLock(checkpoint.directory, isShared: access != .exclusive)
+    // Others may be writing theirs.
+    if access == .exclusive { checkpoint.removeRemains() }
   }
 
   /// Unlocks the checkpoint directory for other runs until this one continues.
   func unlock() { lock = nil }
 
-  /// Writes the report, unless the directory is not locked and may be in use by another run.
+  /// Writes the report, unless it is that of a part of a run, or the directory is not locked and
+  /// may be in use by another run.
   func writeReport() throws {
-    guard lock != nil else { return }
+    guard lock != nil, access != .parts else { return }
     try checkpoint?.write(recorder.report)
   }
 
@@ -64,6 +69,11 @@ final class StageCache {
     cloud = nil
     photos = photos?.emptied
     if let emptied = scene?.photos.emptied { scene?.photos = emptied }
+  }
+
+  /// Writes the reconstruction for other tools, unless this is one of several parts of a run.
+  func write(_ reconstruction: Reconstruction) throws {
+    if access != .parts { try checkpoint?.write(reconstruction) }
   }
 
   /// The photos so far, with masks if there are any; nil before they are read.

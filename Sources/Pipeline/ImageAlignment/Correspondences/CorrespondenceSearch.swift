@@ -29,8 +29,21 @@ package struct CorrespondenceSearch {
   }
 
   package var options: Options
+  /// Pairs and matches that other processes have made or will need.
+  var units: CorrespondenceUnits?
 
   package init(_ options: Options = Options()) { self.options = options }
+
+  /// The pairs to match first.
+  func choice(
+    _ features: [FeatureSet], photos: [Photo], ordering: SampleOrdering, _ context: StageContext
+  ) throws -> PairSelection.Choice {
+    func make() throws -> PairSelection.Choice {
+      try PairSelection(options.selection)
+        .run(features, positions: photos.map(\.position), ordering: ordering, context)
+    }
+    return try units?.choice(make) ?? make()
+  }
 
   /// Returns the verified pairs, and the cameras. A camera whose focal length was only assumed gets
   /// an improved initial value if the matches determine one.
@@ -40,11 +53,9 @@ package struct CorrespondenceSearch {
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
     var matchedPairs = MatchedPairs(
       options: options, photos: photos, cameras: cameras, features: features)
-    var choice = try PairSelection(options.selection)
-      .run(
-        features, positions: photos.map(\.position), ordering: ordering,
-        context.part(from: 0, to: 0.1))
-    try matchedPairs.add(choice.pairs, context.part(from: 0.1, to: 0.5))
+    var choice = try choice(
+      features, photos: photos, ordering: ordering, context.part(from: 0, to: 0.1))
+    try matchedPairs.add(choice.pairs, units: units, context.part(from: 0.1, to: 0.5))
     if isPreemptiveMatchingUnreliable(choice, matchedPairs.graph) {
       let known = Set(choice.pairs)
       try matchedPairs.add(
@@ -104,14 +115,18 @@ private struct MatchedPairs {
   }
 
   /// Matches and verifies more pairs.
-  mutating func add(_ candidates: [PhotoPair], _ context: StageContext) throws {
+  mutating func add(
+    _ candidates: [PhotoPair], units: CorrespondenceUnits? = nil, _ context: StageContext
+  ) throws {
     let more = candidates.filter { pair in
       options.matchesUnmaskedPairs || photos[pair.first.index].mask != nil
         || photos[pair.second.index].mask != nil
     }
     guard !more.isEmpty else { return }
-    let found = try FeatureMatching(options.matching)
-      .run(more, features: features, context.part(from: 0, to: 0.85))
+    let (matching, part) = (FeatureMatching(options.matching), context.part(from: 0, to: 0.85))
+    let found =
+      try units.map { try matching.run(more, features: features, units: $0, part) }
+      ?? matching.run(more, features: features, part)
     let verified = try PairVerification(verification)
       .run(
         more, matches: found, features: features, photos: photos, cameras: cameras,

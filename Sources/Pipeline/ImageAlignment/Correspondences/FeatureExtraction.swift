@@ -6,7 +6,7 @@ import SceneModel
 /// If a photo has a mask, features outside the object are discarded, because the masked-out area
 /// may move relative to the object. On a turntable, for example, the background would indicate that
 /// the camera never moved.
-package struct FeatureExtraction {
+package struct FeatureExtraction: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// Sensitivity of the detector.
     package var sensitivity = FeatureSensitivity.normal
@@ -77,6 +77,8 @@ package struct FeatureExtraction {
   static let fewFeatures = 100
 
   package var options: Options
+  /// Features that other processes have extracted or will need.
+  var units: UnitStore?
 
   package init(_ options: Options = Options()) { self.options = options }
 
@@ -85,8 +87,11 @@ package struct FeatureExtraction {
   package func run(
     _ photos: [Photo], images: ImageStore, _ context: StageContext
   ) throws -> [FeatureSet] {
-    let sets = try context.control.parallelMap(photos.count) { [options] index in
-      try Self.features(of: photos[index], images, options)
+    let sets = try context.control.parallelMap(photos.count) { [self] index in
+      guard let units else { return try Self.features(of: photos[index], images, options) }
+      return try units.value(.features, madeFrom: try key(of: photos[index], images)) {
+        try Self.features(of: photos[index], images, options)
+      }
     }
     context.notes.record("features", Double(sets.reduce(0) { $0 + $1.count }))
     for (photo, set) in zip(photos, sets) where set.count < Self.fewFeatures {
@@ -96,6 +101,15 @@ package struct FeatureExtraction {
       )
     }
     return sets
+  }
+
+  /// A number that changes with everything that the features of a photo depend on.
+  func key(of photo: Photo, _ images: ImageStore) throws -> UInt64 {
+    var key = Fingerprint()
+    key.add(try images.fingerprint(of: photo.id))
+    key.add(images.hasMasks ? 1 : 0)
+    key.add(try Fingerprint.content(of: options))
+    return key.value
   }
 
   private static func features(

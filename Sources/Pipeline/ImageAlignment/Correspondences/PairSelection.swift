@@ -54,7 +54,7 @@ package struct PairSelection {
   }
 
   /// The selected pairs, sorted, and the candidates that they were selected from.
-  package struct Choice: Sendable {
+  package struct Choice: Codable, Sendable, UnitValue {
     package var pairs: [PhotoPair]
     /// Considered pairs, sorted; those that aren't in `pairs` are unpromising.
     package var candidates: [PhotoPair]

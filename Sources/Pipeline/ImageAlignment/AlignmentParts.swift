@@ -1,0 +1,87 @@
+import Kernels
+import SceneModel
+
+/// Parts of an alignment that processes of their own make: features, pairs and matches. What they
+/// leave in the store of units is what `ImageAlignment` finds there.
+struct AlignmentParts {
+  let alignment: ImageAlignment
+  let store: UnitStore
+  let photos: [Photo]
+  let images: ImageStore
+
+  private var extraction: FeatureExtraction {
+    var extraction = FeatureExtraction(alignment.options.features)
+    extraction.units = store
+    return extraction
+  }
+
+  /// Extracts the features of a block of the photos.
+  func makeFeatures(of block: Block, _ context: StageContext) throws {
+    _ = try extraction.run(
+      Array(photos[block.range(of: photos.count)]), images: images, context)
+  }
+
+  /// Chooses the pairs.
+  func selectPairs(_ context: StageContext) throws {
+    _ = try choice(context)
+  }
+
+  private func choice(_ context: StageContext) throws -> PairSelection.Choice {
+    try units().choice {
+      let features = try extraction.run(photos, images: images, context.part(from: 0, to: 0.5))
+      return try CorrespondenceSearch(alignment.options.search).choice(
+        features, photos: photos, ordering: alignment.options.ordering,
+        context.part(from: 0.5, to: 1))
+    }
+  }
+
+  private func units() throws -> CorrespondenceUnits {
+    try alignment.correspondenceUnits(store, photos: photos, images: images)
+  }
+
+  /// Matches a block of the pairs. Reads the features of a part of the photos at a time.
+  func match(_ block: Block, _ context: StageContext) throws {
+    let units = try units()
+    let pairs = try choice(context.part(from: 0, to: 0.1)).pairs
+    let ranges = MatchBlock.ranges(of: pairs)
+    let own = block.range(of: ranges.count)
+    let matching = FeatureMatching(alignment.options.search.matching)
+    for (number, range) in ranges[own].enumerated() {
+      let part = context.part(from: 0.1, to: 1)
+        .part(
+          from: Double(number) / Double(own.count), to: Double(number + 1) / Double(own.count))
+      _ = try units.block(pairs[range], matching.options) {
+        let features = try features(of: pairs[range], part.part(from: 0, to: 0.2))
+        return MatchBlock(
+          matches: try matching.run(
+            Array(pairs[range]), features: features, part.part(from: 0.2, to: 1)))
+      }
+    }
+  }
+
+  /// The features of the photos of some pairs, by photo; empty for the others.
+  private func features(
+    of pairs: ArraySlice<PhotoPair>, _ context: StageContext
+  ) throws -> [FeatureSet] {
+    let needed = Set(pairs.flatMap { [$0.first, $0.second] }).sorted()
+    let sets = try extraction.run(
+      needed.map { photos[$0.index] }, images: images,
+      StageContext(control: context.control))
+    var features = [FeatureSet](repeating: FeatureSet(), count: photos.count)
+    for (photo, set) in zip(needed, sets) { features[photo.index] = set }
+    return features
+  }
+}
+
+extension ImageAlignment {
+  /// The units of the search for correspondences between some photos.
+  func correspondenceUnits(
+    _ store: UnitStore, photos: [Photo], images: ImageStore
+  ) throws -> CorrespondenceUnits {
+    let extraction = FeatureExtraction(options.features)
+    return try CorrespondenceUnits(
+      store, featureKeys: photos.map { try extraction.key(of: $0, images) },
+      options.search.selection,
+      ordering: options.ordering, positions: photos.map(\.position))
+  }
+}

@@ -1,0 +1,43 @@
+import Kernels
+import SceneModel
+
+/// Pairs and matches that other processes have made or will need, for the features of some photos.
+struct CorrespondenceUnits: Sendable {
+  let store: UnitStore
+  /// By photo, what its features were made from.
+  let featureKeys: [UInt64]
+  /// Of the options that pairs depend on besides the features.
+  private let selectionKey: UInt64
+
+  init(
+    _ store: UnitStore, featureKeys: [UInt64], _ selection: PairSelection.Options,
+    ordering: SampleOrdering, positions: [GeographicPosition?]
+  ) throws {
+    (self.store, self.featureKeys) = (store, featureKeys)
+    var key = Fingerprint()
+    key.add(try Fingerprint.content(of: selection))
+    key.add(ordering.rawValue.utf8)
+    key.add(try Fingerprint.content(of: positions))
+    featureKeys.forEach { key.add($0) }
+    selectionKey = key.value
+  }
+
+  /// The choice of pairs.
+  func choice(_ make: () throws -> PairSelection.Choice) throws -> PairSelection.Choice {
+    try store.value(.pairs, madeFrom: selectionKey, make)
+  }
+
+  /// The matches of a block of pairs by some options.
+  func block(
+    _ pairs: ArraySlice<PhotoPair>, _ options: some Encodable,
+    _ make: () throws -> MatchBlock
+  ) throws -> MatchBlock {
+    var key = Fingerprint()
+    key.add(try Fingerprint.content(of: options))
+    for pair in pairs {
+      key.add(featureKeys[pair.first.index])
+      key.add(featureKeys[pair.second.index])
+    }
+    return try store.value(.matches, madeFrom: key.value, make)
+  }
+}

@@ -1,0 +1,18 @@
+/// A part of a run that a process of its own makes from the parts before it, for those after it.
+///
+/// All results are in the checkpoint directory. An ordinary run with the same directory finds them,
+/// and makes what is missing: the result is the same.
+package enum RunPart: Hashable, Sendable {
+  /// The list of usable photos.
+  case photos
+  /// The features of a block of the photos.
+  case features(Block)
+  /// Which pairs to match.
+  case pairs
+  /// The matches of a block of the pairs.
+  case matches(Block)
+  /// Cameras, poses, sparse points and estimated masks.
+  case cameras
+  /// A step of the dense stage for a block of the views.
+  case views(DensePart, Block)
+}
