@@ -11,6 +11,7 @@ import TestSupport
 //   render-fixtures <folder> ring [count]      a large set of photos, 160 by default
 //   render-fixtures <folder> captures [seed] [object,…|all] [capture,…|all] [surroundings,…|all]
 //   render-fixtures <folder> twins [seed] [name,…|all] [width]
+//   render-fixtures <folder> town [count] [seed] [width]
 //   render-fixtures <folder> loudspeaker [seed] [still|hand]
 //   render-fixtures <folder> wallpaper [seed]
 //   render-fixtures <folder> video [seed] [frames]
@@ -25,6 +26,9 @@ import TestSupport
 // kind; it is 1 by default, and photos are 1000 pixels wide. Every fifth photo is held out: it is
 // in `holdout`, with its mask beside it, instead of in `images`; `gt/cameras.json` marks it. The
 // photos of `toy-car` are one continuous walk, those of the others several rings.
+//
+// `town` writes `town-<count>-<seed>`: that number of photos, 100 by default, of a town that a car
+// drives through, with GPS positions that are wrong by some meters. The town grows with the number.
 //
 // `loudspeaker` writes sets `loudspeaker-<motion>-<seed>` in the same format: a black object with
 // hardly any texture on a wooden table, whose grain connects the photos although the object is
@@ -77,6 +81,12 @@ case "twins":
     try TwinSet(twin: twin).write(
       to: folder.appendingPathComponent(name, isDirectory: true), control)
   }
+case "town":
+  let count = words.dropFirst().first.flatMap { Int($0) } ?? 100
+  let seed = try CaptureSelection.seed(words.dropFirst(2).first)
+  let width = words.dropFirst(3).first.flatMap { Int($0) } ?? 1200
+  try TownSet(town: TownScene(photoCount: count, seed: seed, width: width)).write(
+    to: folder.appendingPathComponent("town-\(count)-\(seed)", isDirectory: true), control)
 case "loudspeaker":
   let seed = try CaptureSelection.seed(words.dropFirst().first)
   for motion in try CaptureSelection.cases(words.dropFirst(2).first, of: LoudspeakerMotion.self) {
