@@ -30,9 +30,32 @@ package struct PipelineArguments: EngineArguments {
   @Flag(
     name: .customLong("dry-run"),
     help: "Check photos, masks, output and machine, print what a run would do, and exit.")
-  package var isDryRun = false
+  var isDryRun = false
+
+  @OptionGroup var slurm: SlurmArguments
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "With --slurm or --plan: the photos, or views, of a chunk.", valueName: "count"))
+  var photosPerChunk = PipelineArguments.usualPhotosPerChunk
+
+  /// Some minutes of work, so that little is lost with a machine, and starting a process costs
+  /// little. Chosen.
+  private static let usualPhotosPerChunk = 25
+
+  @Option(
+    name: .long,
+    help: ArgumentHelp(
+      "Make only a part of the run, for other processes.", valueName: "part",
+      visibility: .hidden))
+  var part: PartArgument?
 
   package init() {}
+
+  package func validate() throws {
+    if photosPerChunk < 1 { throw ValidationError("--photos-per-chunk must be 1 or more.") }
+  }
 
   package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {
     try compression.check(output.format, detail)

@@ -31,6 +31,8 @@ struct Batch: AsyncParsableCommand {
             A page about each run, also if it fails: open models/index.html.
         photogrammetry-cli batch sets/ new/ --baseline models/batch.json
             What got worse since an earlier batch, for continuous integration.
+        photogrammetry-cli batch sets/ models/ --slurm --partition short
+            On the machines of a Slurm cluster.
 
       JOBS
         Each dataset is processed in a separate process. One job runs per processor,
@@ -48,6 +50,7 @@ struct Batch: AsyncParsableCommand {
                   message
 
       \(DetailArguments.help)
+      \(SlurmArguments.help)
       Exit codes: 0 all datasets have a model, 1 some have none, 2 invalid arguments or paths, \
       3 with --baseline: all have a model, but some got worse, 130 interrupted.
       """)
@@ -125,6 +128,8 @@ struct Batch: AsyncParsableCommand {
       "Number of threads per job. (default: processors divided by jobs)", valueName: "count"))
   var threads: Int?
 
+  @OptionGroup var slurm: SlurmArguments
+
   @Flag(name: .long, help: "Report progress and results as JSON Lines on stdout.")
   var json = false
 
@@ -143,12 +148,7 @@ struct Batch: AsyncParsableCommand {
     let reporter = RunReporter(logging.style(json: json))
     let failure: CommandFailure?
     do {
-      let baseline = try baseline.map { try BatchBaseline($0) }
-      let runner = try makeRunner(reporter.style)
-      let interrupts = InterruptHandler { runner.stop() }
-      try await runner.run()
-      failure = conclude(
-        runner.summary, baseline, wasInterrupted: interrupts.wasInterrupted, reporter)
+      failure = try await slurm.isUsed ? runChunks(reporter) : runHere(reporter)
     } catch {
       let failure = CommandFailure(engineError: error)
       reporter.failed(failure)
@@ -161,7 +161,24 @@ struct Batch: AsyncParsableCommand {
 extension ModelFormat: ExpressibleByArgument {}
 
 extension Batch {
-  private func makeRunner(_ style: RunReporter.Style) throws -> BatchRunner {
+  /// Runs in processes on this machine.
+  private func runHere(_ reporter: RunReporter) async throws -> CommandFailure? {
+    let baseline = try baseline.map { try BatchBaseline($0) }
+    let (datasets, folder) = try datasetsAndFolder()
+    let runner = BatchRunner(
+      datasets, in: folder, modelArguments: modelArguments, companions: companions,
+      reporter.style, options: options)
+    let interrupts = InterruptHandler { runner.stop() }
+    try await runner.run()
+    return BatchConclusion(
+      summary: runner.summary, baseline: baseline,
+      models: URL(fileURLWithPath: models, isDirectory: true),
+      wasInterrupted: interrupts.wasInterrupted
+    ).report(reporter)
+  }
+
+  /// Checks all paths; throws a `CommandFailure`.
+  func datasetsAndFolder() throws -> ([BatchDataset], BatchFolder) {
     let input = try PhotoFolderArgument(folders).url
     let output = URL(fileURLWithPath: models, isDirectory: true)
     try ModelOutput.checkWritable(output)
@@ -182,11 +199,9 @@ extension Batch {
           + "object; to reconstruct a single object omit 'batch'.")
     }
     try checkNames(of: datasets)
-    return BatchRunner(
-      datasets,
-      in: try BatchFolder(output, format: format, coarserLevels: detail.coarserLevels),
-      modelArguments: modelArguments,
-      companions: companions, style, options: options)
+    return (
+      datasets, try BatchFolder(output, format: format, coarserLevels: detail.coarserLevels)
+    )
   }
 
   /// Throws a `CommandFailure` if a model of a dataset has the name of another dataset's.
@@ -206,7 +221,7 @@ extension Batch {
     }
   }
 
-  private var companions: [BatchCompanion] {
+  var companions: [BatchCompanion] {
     (previews ? [.preview] : []) + (reports ? [.report] : []) + (poses ? [.poses] : [])
       + (pointClouds ? [.pointCloud] : [])
   }
@@ -232,40 +247,5 @@ extension Batch {
     return BatchRunner.Options(
       plan: plan, retries: retries, keepsCheckpoints: keepCheckpoints,
       arguments: modelArguments + (logging.verbose ? ["--verbose"] : []), companions: companions)
-  }
-
-  /// Prints the summary; returns a failure unless all datasets have a model.
-  private func conclude(
-    _ summary: BatchSummary, _ baseline: BatchBaseline?, wasInterrupted: Bool,
-    _ reporter: RunReporter
-  ) -> CommandFailure? {
-    let regressions = baseline?.regressions(in: summary)
-    if !json {
-      summary.lines.forEach(Terminal.shared.result)
-      regressions?.map(\.sentence).forEach(Terminal.shared.result)
-      if regressions?.isEmpty == true { Terminal.shared.result("Nothing got worse.") }
-    }
-    let failed = summary.count(.failed)
-    let cancelled = summary.count(.cancelled)
-    var failure: CommandFailure?
-    if wasInterrupted, cancelled > 0 {
-      failure = .interrupted(BatchSummary.resumeHint)
-    } else if failed + cancelled > 0 {
-      let reasons = URL(fileURLWithPath: models).appendingPathComponent("batch.csv").relativePath
-      failure = .run(
-        "\(failed + cancelled) of \(summary.datasets.count) datasets have no model. The reasons "
-          + "are in \(reasons).")
-    } else if let regressions, !regressions.isEmpty {
-      failure = .regression(regressions.map(\.sentence).joined(separator: " "))
-    }
-    reporter.event(
-      RunEvent(failure == nil ? "complete" : wasInterrupted ? "cancelled" : "failed") { event in
-        event.message = failure?.sentence
-        event.seconds = reporter.elapsed
-        (event.datasets, event.done) = (summary.datasets.count, summary.count(.done))
-        (event.skipped, event.failed) = (summary.count(.skipped), failed)
-        (event.cancelled, event.worse) = (cancelled, regressions?.count)
-      })
-    return failure
   }
 }

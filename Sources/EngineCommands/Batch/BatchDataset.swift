@@ -54,26 +54,13 @@ struct BatchDataset: Equatable, Sendable {
   /// Number of files that may be photos.
   var photoCount: Int { Self.files(in: photos).count }
 
-  /// A hash, as 16 hexadecimal digits, of the photos, masks, measurements and `options`.
-  ///
-  /// Files are identified by name, size and modification time; hashing their contents would make
-  /// skipping finished datasets slow.
+  /// A hash of the photos, masks, measurements and `options`: see `InputFingerprint`.
   func fingerprint(options: [String]) -> String {
-    var fingerprint = Fingerprint()
-    for option in options { fingerprint.add(Array(option.utf8)) }
     let folders =
       [photos] + PhotoFolder.maskFolderNames.map { photos.appendingPathComponent($0) }
       + (masks.map { [$0] } ?? [])
-    for file in folders.flatMap(Self.files) + (measurements.map { [$0] } ?? []) {
-      let attributes = try? FileManager.default.attributesOfItem(
-        atPath: file.resolvingSymlinksInPath().path)
-      fingerprint.add(Array(file.lastPathComponent.utf8))
-      fingerprint.add((attributes?[.size] as? NSNumber)?.intValue ?? -1)
-      let time = attributes?[.modificationDate] as? Date
-      fingerprint.add(time?.timeIntervalSinceReferenceDate ?? 0)
-    }
-    let digits = String(fingerprint.value, radix: 16)
-    return String(repeating: "0", count: 16 - digits.count) + digits
+    return InputFingerprint.text(
+      of: folders.flatMap(Self.files) + (measurements.map { [$0] } ?? []), options: options)
   }
 
   private static func files(in folder: URL) -> [URL] {

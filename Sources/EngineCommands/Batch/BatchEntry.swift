@@ -21,3 +21,18 @@ struct BatchEntry: Codable, Equatable, Sendable {
   /// Identifies the input of the model, see `BatchDataset.fingerprint(options:)`.
   var fingerprint: String
 }
+
+extension BatchEntry {
+  /// Records the result of an attempt.
+  mutating func record(_ result: ChildResult, seconds: Double) {
+    status = result.status
+    attempts += 1
+    self.seconds += seconds
+    error = result.error
+    if let counts = result.counts {
+      photos = counts.photos ?? photos
+      (registered, triangles) = (counts.registered, counts.triangles)
+      quality = counts.quality
+    }
+  }
+}

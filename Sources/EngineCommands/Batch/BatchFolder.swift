@@ -6,7 +6,7 @@ import SharedCommands
 /// The output folder of a batch: models, `batch.json`, `batch.csv` and, in the hidden `.work`,
 /// unfinished runs.
 final class BatchFolder: Sendable {
-  let url: URL
+  let files: BatchFiles
   let format: ModelFormat
   /// The levels that are written besides the model's.
   let coarserLevels: [DetailArgument]
@@ -16,7 +16,7 @@ final class BatchFolder: Sendable {
   /// Creates the folder if it is missing; throws a `CommandFailure` if that fails or if another
   /// batch is writing to it.
   init(_ url: URL, format: ModelFormat, coarserLevels: [DetailArgument] = []) throws {
-    self.url = url
+    files = BatchFiles(url: url)
     self.format = format
     self.coarserLevels = coarserLevels
     do {
@@ -33,6 +33,8 @@ final class BatchFolder: Sendable {
       )
     }
   }
+
+  private var url: URL { files.url }
 
   private static func work(in folder: URL) -> URL {
     folder.appendingPathComponent(".work", isDirectory: true)
@@ -55,11 +57,16 @@ final class BatchFolder: Sendable {
 
   /// Whether the model and the files next to it exist.
   func hasModel(of dataset: BatchDataset, with companions: [BatchCompanion]) -> Bool {
+    results(of: dataset, with: companions)
+      .allSatisfy { FileManager.default.fileExists(atPath: $0) }
+  }
+
+  /// The paths of a dataset's models and of the files next to them.
+  func results(of dataset: BatchDataset, with companions: [BatchCompanion]) -> [String] {
     let coarser = coarserLevels.map {
       url.appendingPathComponent("\(dataset.name)-\($0.rawValue).\(format.rawValue)").path
     }
-    return ([modelPath(of: dataset)] + coarser + companions.map { path(of: $0, of: dataset) })
-      .allSatisfy { FileManager.default.fileExists(atPath: $0) }
+    return [modelPath(of: dataset)] + coarser + companions.map { path(of: $0, of: dataset) }
   }
 
   /// The checkpoint directory of a dataset's run.
@@ -79,25 +86,36 @@ final class BatchFolder: Sendable {
     }
   }
 
-  /// Entries of earlier batches by name; empty if batch.json is missing or can't be parsed.
-  func earlierEntries() -> [String: BatchEntry] {
-    guard let data = FileManager.default.contents(atPath: summaryFile.path),
-      let summary = try? JSONDecoder().decode(BatchSummary.self, from: data)
-    else { return [:] }
-    return Dictionary(summary.datasets.map { ($0.name, $0) }) { first, _ in first }
+  /// The arguments of `reconstruct` for a dataset, without the number of threads. `companions` are
+  /// written next to the model; `options` are those that all datasets share.
+  func arguments(
+    for dataset: BatchDataset, _ companions: [BatchCompanion], options: [String]
+  ) -> [String] {
+    let files = companions.flatMap { [$0.option, path(of: $0, of: dataset)] }
+    return [
+      "reconstruct", dataset.photos.path, modelPath(of: dataset), "--json", "--until-input-ends",
+      "--checkpoint-directory", checkpoint(of: dataset).path,
+    ] + files + dataset.arguments + options
   }
 
-  /// Writes batch.csv and batch.json.
-  func write(_ summary: BatchSummary) throws {
-    try AtomicFile.write(Data(summary.csv.utf8), to: url.appendingPathComponent("batch.csv"))
-    try AtomicFile.write(try summary.json(), to: summaryFile)
+  /// The entries of datasets: skipped are those with a model from the same photos and options.
+  func entries(
+    of datasets: [BatchDataset], _ companions: [BatchCompanion], options: [String]
+  ) -> [BatchEntry] {
+    let earlier = files.earlierEntries()
+    return datasets.map { dataset in
+      let fingerprint = dataset.fingerprint(options: options)
+      let model = modelName(of: dataset)
+      if var entry = earlier[dataset.name], [.done, .skipped].contains(entry.status),
+        entry.fingerprint == fingerprint, entry.model == model,
+        hasModel(of: dataset, with: companions)
+      {
+        entry.status = .skipped
+        return entry
+      }
+      return BatchEntry(
+        name: dataset.name, status: .cancelled, photos: dataset.photoCount, model: model,
+        fingerprint: fingerprint)
+    }
   }
-
-  /// Writes the page that lists the reports.
-  func writeIndex(of summary: BatchSummary) throws {
-    try AtomicFile.write(
-      summary.index(in: url).encoded, to: url.appendingPathComponent("index.html"))
-  }
-
-  private var summaryFile: URL { url.appendingPathComponent("batch.json") }
 }

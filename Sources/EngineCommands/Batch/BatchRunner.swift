@@ -38,36 +38,13 @@ final class BatchRunner: Sendable {
     companions: [BatchCompanion], _ style: RunReporter.Style,
     options: (_ open: Int) -> Options
   ) {
-    let earlier = folder.earlierEntries()
-    let entries = datasets.map { dataset in
-      Self.entry(
-        of: dataset, fingerprint: dataset.fingerprint(options: modelArguments),
-        earlier[dataset.name],
-        model: folder.modelName(of: dataset),
-        exists: folder.hasModel(of: dataset, with: companions))
-    }
+    let entries = folder.entries(of: datasets, companions, options: modelArguments)
     let open = entries.indices.filter { entries[$0].status != .skipped }
     self.datasets = datasets
     self.folder = folder
     self.options = options(open.count)
     progress = BatchProgress(style, count: open.count)
     state = Locked(State(entries: entries, open: open.reversed()))
-  }
-
-  private static func entry(
-    of dataset: BatchDataset, fingerprint: String, _ earlier: BatchEntry?, model: String,
-    exists: Bool
-  ) -> BatchEntry {
-    if var entry = earlier, [.done, .skipped].contains(entry.status),
-      entry.fingerprint == fingerprint,
-      entry.model == model, exists
-    {
-      entry.status = .skipped
-      return entry
-    }
-    return BatchEntry(
-      name: dataset.name, status: .cancelled, photos: dataset.photoCount, model: model,
-      fingerprint: fingerprint)
   }
 
   var summary: BatchSummary { BatchSummary(datasets: state.withLock { $0.entries }) }
@@ -128,7 +105,7 @@ final class BatchRunner: Sendable {
     let start = ProcessInfo.processInfo.systemUptime
     progress.began(dataset.name)
     let outcome = await run.run { self.progress.forward($0, of: dataset.name) }
-    let result = BatchResult(outcome, log: folder.log(of: dataset))
+    let result = ChildResult(outcome, log: folder.log(of: dataset))
     let entry = state.withLock { state in
       state.running[index] = nil
       state.entries[index].record(
@@ -146,23 +123,15 @@ final class BatchRunner: Sendable {
   }
 
   private func arguments(for dataset: BatchDataset) -> [String] {
-    var arguments = [
-      "reconstruct", dataset.photos.path, folder.modelPath(of: dataset), "--json",
-      "--until-input-ends", "--checkpoint-directory", folder.checkpoint(of: dataset).path,
-      "--threads", "\(options.plan.threads)",
-    ]
-    for companion in options.companions {
-      arguments += [companion.option, folder.path(of: companion, of: dataset)]
-    }
-    return arguments + dataset.arguments + options.arguments
+    folder.arguments(for: dataset, options.companions, options: options.arguments)
+      + ["--threads", "\(options.plan.threads)"]
   }
 
   /// Writes the current summary, under the lock so that an older one never overwrites a newer one.
   private func save() throws {
     try state.withLock { state in
-      let summary = BatchSummary(datasets: state.entries)
-      try folder.write(summary)
-      if options.companions.contains(.report) { try folder.writeIndex(of: summary) }
+      try folder.files.write(
+        BatchSummary(datasets: state.entries), hasReports: options.companions.contains(.report))
     }
   }
 }

@@ -6,9 +6,6 @@ struct BatchSummary: Codable, Equatable {
   /// In the order of the folders.
   var datasets: [BatchEntry]
 
-  /// The remedy of an interrupted dataset or batch.
-  static let resumeHint = "Interrupted; run the same command again to resume."
-
   /// Number of datasets with a status.
   func count(_ status: DatasetStatus) -> Int { datasets.count { $0.status == status } }
 

@@ -77,7 +77,7 @@ struct Densify: ParsableCommand {
       source: .photosWithCameras(in: folder, cameras),
       stages: [.preProcessing, .imageAlignment, .pointCloudGeneration], limits: limits,
       alignment: cameras.reconstruction.points.isEmpty ? .triangulation : .none,
-      job: job?.share, logsDetails: true)
+      job: job?.share, access: job == nil ? .exclusive : .shared, logsDetails: true)
     let run = try EngineRun(
       plan, try configuration(target), runArguments, RunReporter(logging.style()))
     try run.perform(missing: "no points were written") { pipeline in

@@ -12,7 +12,7 @@ extension Check {
     return Check(
       .scheduler, .note,
       "Slurm is installed: what is checked here is not the nodes that jobs run on.",
-      remedy: "Check a node with 'srun photogrammetry-cli doctor'. 'photogrammetry-cli densify "
-        + "--help' explains how to share a large set among jobs (--job).")
+      remedy: "Check a node with 'srun photogrammetry-cli doctor'. With --slurm, 'batch' and "
+        + "'reconstruct' do their work on the cluster.")
   }
 }

@@ -14,6 +14,7 @@ package enum PipelineEngine: EngineSupport {
     [
       Batch.self, Align.self, Densify.self, Export.self, View.self, Inspect.self,
       Evaluate.self, CheckModel.self, Doctor.self, Frames.self, Demo<Self>.self,
+      MakeChunk.self, JoinChunks.self, WatchPlan.self,
     ]
   }
   package static let modelFormats = ModelFormat.files
@@ -62,21 +63,6 @@ package enum PipelineEngine: EngineSupport {
   package static func concerns(about session: PhotogrammetrySession) -> [String] {
     session.report?.concerns ?? []
   }
-
-  package static func dryRun(
-    _ arguments: ReconstructArguments<PipelineArguments>, photos: URL, output: ModelOutput,
-    _ reporter: RunReporter
-  ) throws {
-    let plan = try DryRun(arguments, photos: photos, output: output)
-    if reporter.style == .json {
-      plan.events.forEach(reporter.event)
-    } else {
-      plan.lines.forEach(Terminal.shared.result)
-    }
-    guard plan.faults.isEmpty else {
-      throw CommandFailure.run(plan.faults.joined(separator: " "))
-    }
-  }
 }
 
 extension PipelineEngine {
@@ -103,6 +89,7 @@ extension PipelineEngine {
       """
     help.input = [
       VideoArguments.help, MaskOutputArguments.help, MaskArguments.help, ScaleArguments.help,
+      SlurmArguments.help,
     ]
     .joined(separator: "\n")
     help.events = """

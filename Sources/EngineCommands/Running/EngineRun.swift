@@ -27,6 +27,9 @@ struct EngineRun {
     var alignment = StageDurationModel.AlignmentWork.search
     /// The share of the views that the dense stage processes.
     var job: PointCloudGeneration.Share?
+    var access = CheckpointAccess.exclusive
+    /// Whether the end of standard input stops the run.
+    var untilInputEnds = false
     /// Whether details are logged without `--verbose`, too.
     var logsDetails = false
   }
@@ -50,7 +53,7 @@ struct EngineRun {
       logsDetails: plan.logsDetails)
     pipeline = ReconstructionPipeline(
       plan.source, configuration: configuration,
-      checkpointAccess: plan.job == nil ? .exclusive : .shared, flag: flag,
+      checkpointAccess: plan.access, flag: flag,
       onEvent: listener.receive)
     pipeline.plan(for: plan.coarserModels + [plan.limits])
   }
@@ -58,7 +61,9 @@ struct EngineRun {
   /// Calls `work` with the pipeline, and writes the report whether it fails or not. A failure after
   /// an interrupt becomes "Interrupted; " with the `missing` result.
   func perform(missing: String, _ work: (ReconstructionPipeline) throws -> Void) throws {
-    let interrupts = InterruptHandler { [flag] in flag.cancel() }
+    let interrupts = InterruptHandler(untilInputEnds: plan.untilInputEnds) { [flag] in
+      flag.cancel()
+    }
     let outcome = Result { try work(pipeline) }
     listener.finish()
     try writeReport()

@@ -17,8 +17,7 @@ final class ReconstructionEngine: SessionEngine {
   private init(
     _ task: EngineTask, _ flag: CancellationFlag, _ onEvent: @escaping SessionCore.EventHandler
   ) throws {
-    let configuration = try PipelineConfiguration(task.configuration, task.options)
-      .applying(task.options.overrides)
+    let configuration = try PipelineConfiguration(session: task.configuration, task.options)
     switch task.input {
     case .folder(let url):
       samples = nil
@@ -97,7 +96,15 @@ final class ReconstructionEngine: SessionEngine {
 }
 
 extension PipelineConfiguration {
-  /// The configuration of a session's run, within the limits of the machine.
+  /// The configuration of a session's run, within the limits of the machine. Throws
+  /// `OptionOverrideError`.
+  init(session configuration: PhotogrammetrySession.Configuration, _ options: EngineOptions) throws
+  {
+    self.init(configuration, options)
+    self = try applying(options.overrides)
+  }
+
+  /// The configuration without overrides.
   init(_ configuration: PhotogrammetrySession.Configuration, _ options: EngineOptions) {
     self.init()
     isObjectMaskingEnabled = configuration.isObjectMaskingEnabled

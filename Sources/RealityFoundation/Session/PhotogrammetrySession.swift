@@ -26,6 +26,11 @@ public class PhotogrammetrySession: @unchecked Sendable {
     set { options.withLock { $0 = newValue } }
   }
 
+  /// The configuration of the engine that processes requests. Throws if an override is not valid.
+  package var pipelineConfiguration: PipelineConfiguration {
+    get throws { try PipelineConfiguration(session: configuration, engineOptions) }
+  }
+
   private let options = Locked(EngineOptions())
   private let identity = UUID()
   private let worker: any SessionWorker

@@ -1,7 +1,8 @@
 import Foundation
 import Synchronization
 
-/// Turns the first SIGINT or SIGTERM into a request to stop; the second one ends the process.
+/// Turns the first SIGINT or SIGTERM into a request to stop; the second one ends the process,
+/// unless it means something else.
 package final class InterruptHandler: Sendable {
   private final class Requests: Sendable {
     let signals = Atomic<Int>(0)
@@ -17,15 +18,22 @@ package final class InterruptHandler: Sendable {
       || requests.hasInputEnded.load(ordering: .relaxed)
   }
 
-  /// Calls `onFirst` at the first signal, on another thread; it may be called more than once.
+  /// Calls `onFirst` at the first signal, on another thread; it may be called more than once. Each
+  /// further one calls `onSecond`, if given. `message` is printed at the first.
   ///
   /// With `untilInputEnds` the end of standard input requests a stop, too, and ends the process two
   /// seconds later: the process at the other end is gone. Both may arrive: a signal to the process
   /// group reaches parent and child.
-  package init(untilInputEnds: Bool = false, _ onFirst: @escaping @Sendable () -> Void) {
+  package init(
+    untilInputEnds: Bool = false,
+    message: String = "Stopping; press Ctrl-C again to quit immediately.",
+    onSecond: (@Sendable () -> Void)? = nil, _ onFirst: @escaping @Sendable () -> Void
+  ) {
     let requests = Requests()
     self.requests = requests
-    listener = SignalPipe.shared.add([SIGINT, SIGTERM]) { Self.received(requests, onFirst) }
+    listener = SignalPipe.shared.add([SIGINT, SIGTERM]) {
+      Self.received(requests, message, onFirst, onSecond)
+    }
     guard untilInputEnds else { return }
     Thread.detachNewThread {
       while !FileHandle.standardInput.availableData.isEmpty {}
@@ -39,10 +47,15 @@ package final class InterruptHandler: Sendable {
 
   deinit { SignalPipe.shared.remove(listener) }
 
-  private static func received(_ requests: Requests, _ onFirst: @Sendable () -> Void) {
+  private static func received(
+    _ requests: Requests, _ message: String, _ onFirst: @Sendable () -> Void,
+    _ onSecond: (@Sendable () -> Void)?
+  ) {
     if requests.signals.add(1, ordering: .relaxed).oldValue == 0 {
-      Terminal.shared.message("Stopping; press Ctrl-C again to quit immediately.")
+      Terminal.shared.message(message)
       onFirst()
+    } else if let onSecond {
+      onSecond()
     } else {
       Terminal.shared.show(status: "")
       // Not `exit`, which would wait for working threads.

@@ -60,6 +60,11 @@ package struct RunEvent: Codable, Equatable, Sendable {
     fill(&self)
   }
 
+  /// What an event `progress` says.
+  package var progress: RunProgress {
+    RunProgress(fraction: fraction ?? 0, stage: stage, remaining: remainingSeconds)
+  }
+
   static func progress(_ progress: RunProgress) -> RunEvent {
     RunEvent("progress") {
       $0.fraction = progress.fraction

@@ -5,8 +5,6 @@ import Foundation
 /// Apple's engine: nothing beyond the public API of RealityKit.
 package enum AppleEngine: EngineSupport {
   package struct Arguments: EngineArguments {
-    package var isDryRun: Bool { false }
-
     package init() {}
 
     package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {}
@@ -59,8 +57,8 @@ package enum AppleEngine: EngineSupport {
 
   package static func concerns(about session: PhotogrammetrySession) -> [String] { [] }
 
-  package static func dryRun(
+  package static func runInstead(
     _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,
     _ reporter: RunReporter
-  ) throws {}
+  ) async throws -> Bool { false }
 }

@@ -39,8 +39,10 @@ package protocol EngineSupport: Sendable {
   static func addCounts(of session: PhotogrammetrySession, to event: inout RunEvent)
   /// The reasons why the finished model may not show the object, as sentences.
   static func concerns(about session: PhotogrammetrySession) -> [String]
-  /// Prints what a run would do; throws a `CommandFailure` if it could not succeed.
-  static func dryRun(
+  /// Does what some arguments ask for instead of a run of the photos in `photos`; returns false if
+  /// there are none. Throws a `CommandFailure`.
+  static func runInstead(
     _ arguments: ReconstructArguments<Arguments>, photos: URL, output: ModelOutput,
-    _ reporter: RunReporter) throws
+    _ reporter: RunReporter
+  ) async throws -> Bool
 }

@@ -1,4 +1,5 @@
 import ArgumentParser
+import Foundation
 
 /// Arguments of `reconstruct`; `Engine` are those of one engine.
 package struct ReconstructArguments<Engine: EngineArguments>: ParsableArguments {
@@ -53,4 +54,19 @@ package struct ReconstructArguments<Engine: EngineArguments>: ParsableArguments 
   @OptionGroup package var logging: LoggingOptions
 
   package init() {}
+}
+
+extension ReconstructArguments {
+  /// The configuration of the session.
+  package var sessionConfiguration: PhotogrammetrySession.Configuration {
+    var configuration = PhotogrammetrySession.Configuration()
+    configuration.isObjectMaskingEnabled = !noObjectMasking
+    alignment.configure(&configuration)
+    configuration.checkpointDirectory = checkpointDirectory.map {
+      URL(fileURLWithPath: $0, isDirectory: true)
+    }
+    configuration.customDetailSpecification = detail.specification
+    configuration.meshPrimitive = shape.primitive
+    return configuration
+  }
 }

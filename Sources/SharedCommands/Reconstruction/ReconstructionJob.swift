@@ -21,11 +21,14 @@ struct ReconstructionJob<Engine: EngineSupport> {
   func run(_ reporter: RunReporter) async throws {
     guard PhotogrammetrySession.isSupported else { throw Engine.unsupportedMachine }
     let photos = try photoFolder(reporter)
-    if arguments.engine.isDryRun {
-      return try Engine.dryRun(arguments, photos: photos.url, output: files.output, reporter)
+    if try await Engine.runInstead(
+      arguments, photos: photos.url, output: files.output, reporter)
+    {
+      return
     }
     ConsoleLogHandler.hidesSessionErrors.store(true, ordering: .relaxed)
-    let session = try PhotogrammetrySession(input: photos.url, configuration: configuration)
+    let session = try PhotogrammetrySession(
+      input: photos.url, configuration: arguments.sessionConfiguration)
     try arguments.engine.configure(session, photos: photos.url)
     var run = SessionRun<Engine>(files: files, reporter: reporter)
     do {
@@ -84,16 +87,6 @@ struct ReconstructionJob<Engine: EngineSupport> {
     let rest = files.checkpoint.map { " Finished stages are in \($0.path)." } ?? ""
     let missing = files.coarserModels.isEmpty ? "no" : "not every"
     return .interrupted("Interrupted; \(missing) model was written.\(rest)")
-  }
-
-  private var configuration: PhotogrammetrySession.Configuration {
-    var configuration = PhotogrammetrySession.Configuration()
-    configuration.isObjectMaskingEnabled = !arguments.noObjectMasking
-    arguments.alignment.configure(&configuration)
-    configuration.checkpointDirectory = files.checkpoint
-    configuration.customDetailSpecification = arguments.detail.specification
-    configuration.meshPrimitive = arguments.shape.primitive
-    return configuration
   }
 
   private var requests: [PhotogrammetrySession.Request] {

@@ -7,6 +7,12 @@ struct CommandProcess {
   var output: String
   var errors: String
 
+  /// The program, which is built next to the bundle of the tests.
+  static var program: URL {
+    URL(fileURLWithPath: CommandLine.arguments[0]).deletingLastPathComponent()
+      .appendingPathComponent("photogrammetry-cli")
+  }
+
   /// Runs to the end, with empty standard input, and `environment` added to that of this process.
   /// Calls `interrupting` with the process once it has written to standard error.
   static func run(
@@ -15,9 +21,7 @@ struct CommandProcess {
   ) throws -> CommandProcess {
     let process = Process()
     process.environment = ProcessInfo.processInfo.environment.merging(environment) { $1 }
-    // The program is built next to the bundle of the tests.
-    let products = URL(fileURLWithPath: CommandLine.arguments[0]).deletingLastPathComponent()
-    process.executableURL = products.appendingPathComponent("photogrammetry-cli")
+    process.executableURL = program
     process.arguments = arguments
     process.currentDirectoryURL = folder
     let names = ["output", "errors"].map {

@@ -20,7 +20,7 @@ import Testing
 
   @Test(arguments: [
     "photogrammetry-cli", "reconstruct", "batch", "align", "densify", "export", "inspect",
-    "doctor", "demo", "evaluate", "check", "frames", "view",
+    "doctor", "demo", "evaluate", "check", "frames", "view", "chunk", "join", "watch",
   ])
   func helpMatchesItsSnapshot(_ name: String) throws {
     let commands: [String: any ParsableCommand.Type] = [
@@ -28,6 +28,7 @@ import Testing
       "densify": Densify.self, "export": Export.self, "inspect": Inspect.self,
       "doctor": Doctor.self, "demo": Demo<PipelineEngine>.self, "evaluate": Evaluate.self,
       "check": CheckModel.self, "frames": Frames.self, "view": View.self,
+      "chunk": MakeChunk.self, "join": JoinChunks.self, "watch": WatchPlan.self,
     ]
     let help =
       commands[name].map { PhotogrammetryCLI.helpMessage(for: $0, columns: 80) }

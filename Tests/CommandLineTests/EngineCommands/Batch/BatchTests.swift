@@ -158,7 +158,7 @@ import Testing
   }
 
   /// The child processes of a process, once there are `count`.
-  private static func children(of process: Process, count: Int) -> [Int32] {
+  static func children(of process: Process, count: Int) -> [Int32] {
     for _ in 0..<200 {
       let names = (try? FileManager.default.contentsOfDirectory(atPath: "/proc")) ?? []
       let children = names.compactMap { Int32($0) }.filter {

@@ -18,14 +18,15 @@ final class ChildRun: Sendable {
   private static let starting = Locked(())
 
   private let arguments: [String]
+  private let directory: URL?
   private let log: URL
   private let input = Locked<Pipe?>(nil)
   private let isStopped = Atomic<Bool>(false)
 
-  /// `arguments` follow the program's name; stderr goes to the file `log`.
-  init(_ arguments: [String], log: URL) {
-    self.arguments = arguments
-    self.log = log
+  /// `arguments` follow the program's name; stderr goes to the file `log`. Relative paths start
+  /// from `directory`, or from the current folder.
+  init(_ arguments: [String], in directory: URL? = nil, log: URL) {
+    (self.arguments, self.directory, self.log) = (arguments, directory, log)
   }
 
   /// Runs to the end and calls `onEvent` with each event, on a separate thread.
@@ -61,6 +62,7 @@ final class ChildRun: Sendable {
   private func start(_ process: Process) throws -> FileHandle {
     process.executableURL = URL(fileURLWithPath: "/proc/self/exe")
     process.arguments = arguments
+    if let directory { process.currentDirectoryURL = directory }
     try Data().write(to: log)
     process.standardError = try FileHandle(forWritingTo: log)
     return try Self.starting.withLock { _ in

@@ -1,14 +1,19 @@
 import Foundation
 import SharedCommands
 
-/// The result of one attempt at a dataset.
-struct BatchResult: Equatable {
+/// How a `reconstruct` in a separate process ended.
+struct ChildResult: Equatable {
+  /// What a user can do about an interrupted run or batch.
+  static let resumeHint = "Interrupted; run the same command again to resume."
+
   var status: DatasetStatus
   /// The event `complete`, with the number of photos and triangles.
   var counts: RunEvent?
   var error: String?
   /// Whether another attempt may succeed.
   var isTransient = false
+  /// Whether another attempt needs more memory.
+  var isShortOfMemory = false
 
   /// Reads the last line of the file `log` if a run ended without a final event.
   init(_ outcome: ChildRun.Outcome, log: URL) {
@@ -17,9 +22,11 @@ struct BatchResult: Equatable {
     case .ended(0, let last?) where last.event == "complete":
       (status, counts) = (.done, last)
     case .ended(CommandFailure.interruptedCode, _):
-      (status, error) = (.cancelled, BatchSummary.resumeHint)
+      (status, error) = (.cancelled, Self.resumeHint)
     case .ended(_, let last?) where last.event == "failed":
       (error, isTransient) = (last.message, last.isTransient ?? false)
+      // What passes by itself is nearly always a lack of memory.
+      isShortOfMemory = isTransient
     case .ended(let code, _):
       let reason = Self.lastLine(of: log).map { ": \($0)" } ?? "."
       error = "The run ended with code \(code); see \(log.path)\(reason)"
@@ -27,6 +34,7 @@ struct BatchResult: Equatable {
       isTransient = code != CommandFailure.usageCode
     case .killed(let signal):
       (error, isTransient) = (Self.sentence(forSignal: signal, log: log), true)
+      isShortOfMemory = signal == SIGKILL
     case .notStarted(let reason):
       (error, isTransient) = ("The run could not be started: \(reason)", true)
     }
@@ -44,20 +52,5 @@ struct BatchResult: Equatable {
     guard let data = FileManager.default.contents(atPath: file.path) else { return nil }
     return String(decoding: data, as: UTF8.self).split(whereSeparator: \.isNewline).last
       .map(String.init)
-  }
-}
-
-extension BatchEntry {
-  /// Records the result of an attempt.
-  mutating func record(_ result: BatchResult, seconds: Double) {
-    status = result.status
-    attempts += 1
-    self.seconds += seconds
-    error = result.error
-    if let counts = result.counts {
-      photos = counts.photos ?? photos
-      (registered, triangles) = (counts.registered, counts.triangles)
-      quality = counts.quality
-    }
   }
 }

@@ -1,0 +1,31 @@
+import ArgumentParser
+import Pipeline
+
+/// A part of a run, such as `pairs`, or `features:2/8` for the second of eight blocks.
+struct PartArgument: ExpressibleByArgument {
+  let part: RunPart
+
+  init?(argument: String) {
+    let words = argument.split(separator: ":", omittingEmptySubsequences: false).map(String.init)
+    let block = words.count == 2 ? JobArgument(argument: words[1])?.share : nil
+    let parts: [String: RunPart] = ["photos": .photos, "pairs": .pairs, "cameras": .cameras]
+    if words.count == 1, let part = parts[words[0]] {
+      self.part = part
+    } else if let block {
+      guard let part = Self.part(words[0], Block(index: block.index, of: block.count)) else {
+        return nil
+      }
+      self.part = part
+    } else {
+      return nil
+    }
+  }
+
+  private static func part(_ name: String, _ block: Block) -> RunPart? {
+    switch name {
+    case "features": .features(block)
+    case "matches": .matches(block)
+    default: DensePart(rawValue: name).map { .views($0, block) }
+    }
+  }
+}

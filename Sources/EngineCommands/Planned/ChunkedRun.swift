@@ -1,0 +1,147 @@
+import Foundation
+import Logging
+import Pipeline
+import SharedCommands
+
+/// A run as chunks: parts of the stages, made on a cluster or by other schedulers.
+struct ChunkedRun {
+  /// Chunks of the photos for one of the pairs: a photo has about forty partners, and matching a
+  /// pair takes a hundredth of the time of a photo's features. Chosen.
+  private static let chunksPerMatchChunk = 4
+  /// Memory per photo of the chunks that hold the features of all photos, or the whole cloud.
+  /// Measured: 2.4 GB for 1000 photos of synthetic features, with a reserve for real ones.
+  private static let bytesPerPhoto = 6 << 20
+
+  private let arguments: ReconstructArguments<PipelineArguments>
+  private let photos: URL
+  private let output: ModelOutput
+  private let count: Int
+  private let input: String
+  private let threads: Int
+  private let durations: StageDurationModel
+  private let url: URL
+
+  /// Throws a `CommandFailure` if the input can't be shared.
+  init(
+    _ arguments: ReconstructArguments<PipelineArguments>, photos: URL, output: ModelOutput
+  ) throws {
+    guard URL(fileURLWithPath: arguments.inputFolder).isExistingFolder else {
+      throw CommandFailure.usage(
+        "A video can't be divided among machines. Make photos of it with 'photogrammetry-cli "
+          + "frames', and name their folder.")
+    }
+    (self.arguments, self.photos, self.output) = (arguments, photos, output)
+    let files = try PhotoFolder.files(in: photos)
+    (count, input) = (files.count, InputFingerprint.text(of: files, options: []))
+    threads = arguments.engine.runArguments.threading.threads ?? Chunk.usualThreads
+    durations = StageDurationModel(
+      photos: PhotoTotals(count: count), finest: arguments.detail.limits, threadCount: threads,
+      masksObject: !arguments.noObjectMasking)
+    let name = output.url.lastPathComponent + ".plan"
+    url =
+      arguments.engine.slurm.planFolder.map { URL(fileURLWithPath: $0, isDirectory: true) }
+      ?? output.url.absoluteURL.deletingLastPathComponent()
+      .appendingPathComponent(name, isDirectory: true)
+  }
+
+  /// Writes the plan, and follows it on Slurm.
+  func run(_ reporter: RunReporter) async throws {
+    let slurm = arguments.engine.slurm
+    try slurm.check()
+    if slurm.slurm, let run = try SlurmRun.inProgress(url) {
+      Logger(label: "photogrammetry-cli").info("The jobs of an earlier call are not finished yet.")
+      return try await follow(run, reporter)
+    }
+    let folder = try PlanFolder(writing: plan, to: url.standardizedFileURL)
+    guard slurm.slurm else { return folder.describe() }
+    let settings = try SlurmSettings(slurm, retries: SlurmSettings.usualRetries)
+    try await follow(try SlurmRun(folder, settings: settings), reporter)
+  }
+
+  private func follow(_ run: SlurmRun, _ reporter: RunReporter) async throws {
+    _ = try await SlurmWatch(run: run, style: reporter.style).follow()
+    if let failure = run.folder.conclude(reporter) { throw failure }
+  }
+
+  // MARK: - Plan
+
+  private var plan: ChunkPlan {
+    let alignment = durations.seconds(of: [.imageAlignment])
+    let dense = durations.seconds(of: [.pointCloudGeneration])
+    let size = arguments.engine.photosPerChunk
+    let blocks = max(1, (count + size - 1) / size)
+    let matchBlocks = max(1, blocks / Self.chunksPerMatchChunk)
+    let views = DensePart.allCases.map { part in
+      stage(part.rawValue, blocks: blocks, seconds: part.cost * dense)
+    }
+    // Shares of alignment. Chosen: as measured in runs of 11, 32 and 40 photos.
+    return ChunkPlan(
+      stages: [
+        stage("photos", seconds: durations.seconds(of: [.preProcessing])),
+        stage("features", blocks: blocks, seconds: 0.4 * alignment),
+        stage("pairs", seconds: 0.05 * alignment, holdsAll: true),
+        stage("matches", blocks: matchBlocks, seconds: 0.15 * alignment),
+        stage(
+          "cameras", seconds: 0.4 * alignment + durations.seconds(of: [.objectMasking]),
+          holdsAll: true),
+      ] + views + [
+        ChunkStage(
+          name: "model",
+          chunks: [
+            chunk(
+              "model", part: nil,
+              seconds: durations.seconds(of: [.meshGeneration, .textureMapping, .optimization]),
+              holdsAll: true)
+          ])
+      ])
+  }
+
+  /// A stage of `blocks` chunks, which take `seconds` together; of a single chunk without a number
+  /// of blocks.
+  private func stage(
+    _ name: String, blocks: Int? = nil, seconds: Double, holdsAll: Bool = false
+  ) -> ChunkStage {
+    guard let blocks else {
+      return ChunkStage(
+        name: name, chunks: [chunk(name, part: name, seconds: seconds, holdsAll: holdsAll)])
+    }
+    return ChunkStage(
+      name: name,
+      chunks: (1...blocks).map { number in
+        chunk(
+          "\(name) \(number) of \(blocks)", part: "\(name):\(number)/\(blocks)",
+          seconds: seconds / Double(blocks), holdsAll: holdsAll)
+      })
+  }
+
+  private func chunk(
+    _ name: String, part: String?, seconds: Double, holdsAll: Bool
+  ) -> Chunk {
+    let work =
+      arguments.checkpointDirectory.map { URL(fileURLWithPath: $0).standardizedFileURL.path }
+      ?? url.appendingPathComponent("work").standardizedFileURL.path
+    let isKept = arguments.checkpointDirectory != nil
+    let words =
+      PlannedArguments.shared(CommandLine.arguments) + MachineLimits.arguments(photos: count)
+      + ["--json", "--until-input-ends", "--checkpoint-directory", work]
+      + (part.map { ["--part", $0] } ?? [])
+    let memory = arguments.detail.detail.expectedMemoryBytes + Chunk.spareMemory
+    return Chunk(
+      name: name, arguments: words, directory: FileManager.default.currentDirectoryPath,
+      reads: [photos.standardizedFileURL.path, work], writes: part == nil ? results : [work],
+      areSealed: part != nil, scratch: part == nil && !isKept ? work : nil,
+      fingerprint: InputFingerprint.text(of: [], options: words + [input]),
+      expectedSeconds: seconds, threads: threads,
+      memoryBytes: memory + (holdsAll ? count * Self.bytesPerPhoto : 0))
+  }
+
+  /// The paths of the files that the run writes.
+  private var results: [String] {
+    let coarser = (try? CoarserModel.all(arguments.detail, nextTo: output)) ?? []
+    let companions = [
+      arguments.poses, arguments.pointCloud, arguments.engine.preview.preview,
+      arguments.engine.runArguments.report,
+    ].compactMap(\.self).map { URL(fileURLWithPath: $0) }
+    return ([output.url] + coarser.map(\.output.url) + companions).map(\.standardizedFileURL.path)
+  }
+}

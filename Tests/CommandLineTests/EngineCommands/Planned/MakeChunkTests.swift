@@ -1,0 +1,130 @@
+import Foundation
+import TestLevels
+import TestSupport
+import Testing
+
+@testable import EngineCommands
+@testable import SharedCommands
+
+/// Plans whose chunks are made by processes on this machine.
+@Suite(.endToEnd) struct MakeChunkTests {
+  private let temporary: TemporaryFolder
+
+  init() throws { temporary = try TemporaryFolder() }
+
+  private var folder: URL { temporary.url }
+  private var photos: String { Fixtures.images(of: "orbit").path }
+
+  private func run(_ arguments: [String]) throws -> CommandProcess {
+    try CommandProcess.run(arguments, in: folder)
+  }
+
+  private func content(_ name: String) throws -> Data {
+    try Data(contentsOf: folder.appendingPathComponent(name))
+  }
+
+  @Test func chunksMakeTheBytesOfARun() throws {
+    let options = ["-d", "preview"]
+    #expect(try run(["reconstruct", photos, "whole.usdz", "--quiet"] + options).exitCode == 0)
+    let plan = try run(
+      ["reconstruct", photos, "parts.usdz", "--plan", "plan", "--photos-per-chunk", "3"] + options)
+    #expect(plan.exitCode == 0, "\(plan.errors)")
+    let early = try run(["join", "plan"])
+    #expect(early.exitCode == 1 && early.errors.contains("chunks are missing"), "\(early.errors)")
+    // Out of order: a chunk makes whatever it needs and does not find.
+    let late = try run(["chunk", "plan", "matches", "1"])
+    #expect(late.exitCode == 0, "\(late.errors)")
+    let all = try run(["join", "plan", "--jobs", "2"])
+    #expect(all.exitCode == 0, "\(all.errors)")
+    #expect(try content("whole.usdz") == content("parts.usdz"))
+    let work = folder.appendingPathComponent("plan/work").path
+    #expect(!FileManager.default.fileExists(atPath: work))
+  }
+
+  @Test func chunkOfAnotherProgramIsRefused() throws {
+    #expect(try run(["reconstruct", photos, "m.usdz", "--plan", "plan"]).exitCode == 0)
+    let url = folder.appendingPathComponent("plan", isDirectory: true)
+    var plan = try PlanFolder(reading: url).plan
+    plan.program = "1.0.0, build 0123456789abcdef"
+    _ = try PlanFolder(writing: plan, to: url)
+    try CommandProcess.expectFailure(
+      ["chunk", "plan", "photos", "1"], in: folder, code: 2,
+      mentioning: ["build 0123456789abcdef", "Install the same program"])
+    try CommandProcess.expectFailure(
+      ["chunk", "plan", "photos", "2"], in: folder, code: 2, mentioning: ["no chunk photos-0002"])
+    try CommandProcess.expectFailure(
+      ["chunk", "plan", "photos"], in: folder, code: 2, mentioning: ["Name the number"])
+  }
+
+  @Test func killedChunkMayBeMadeAgain() throws {
+    #expect(
+      try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
+    let chunk = try BackgroundProcess(["chunk", "plan", "features", "1"], in: folder)
+    #expect(
+      BackgroundProcess.wait(60) {
+        !BatchTests.children(of: chunk.process, count: 1).isEmpty
+      })
+    for child in BatchTests.children(of: chunk.process, count: 1) { kill(child, SIGKILL) }
+    #expect(chunk.wait() == MakeChunk.transientCode, "\(chunk.errors)")
+    let planned = try PlanFolder(reading: folder.appendingPathComponent("plan"))
+    let id = ChunkID(stage: "features", number: 1)
+    let killed = try #require(planned.status(of: id))
+    #expect(killed.isTransient && killed.isShortOfMemory && killed.attempts == 1)
+    #expect(try run(["chunk", "plan", "features", "1"]).exitCode == 0)
+    #expect(planned.doneStatus(of: id)?.attempts == 2)
+  }
+
+  @Test func interruptedChunkEndsAtOnce() throws {
+    #expect(
+      try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
+    let chunk = try BackgroundProcess(["chunk", "plan", "features", "1"], in: folder)
+    _ = BatchTests.children(of: chunk.process, count: 1)
+    chunk.signal(SIGTERM)
+    #expect(chunk.wait() == 130, "\(chunk.errors)")
+  }
+
+  /// A shared folder that is read-only for a while: the chunk waits.
+  @Test func chunkWaitsForItsFolder() throws {
+    #expect(
+      try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
+    let plan = folder.appendingPathComponent("plan").path
+    guard Self.mount(["--bind", plan, plan]) else { return }
+    defer { _ = Self.tool("umount", ["-l", plan]) }
+    #expect(Self.mount(["-o", "remount,bind,ro", plan]))
+    let chunk = try BackgroundProcess(["chunk", "plan", "photos", "1"], in: folder)
+    #expect(BackgroundProcess.wait(60) { chunk.errors.contains("can't be written to; waiting") })
+    #expect(chunk.process.isRunning)
+    #expect(Self.mount(["-o", "remount,bind,rw", plan]))
+    #expect(chunk.wait() == 0, "\(chunk.errors)")
+  }
+
+  /// The machines' clocks may differ: no times are compared.
+  @Test(.enabled(if: FileManager.default.isExecutableFile(atPath: "/usr/bin/faketime")))
+  func clocksMayDiffer() throws {
+    #expect(
+      try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
+    for (stage, offset) in [("photos", "+1h"), ("features", "-1h"), ("pairs", "+1h")] {
+      let words = ["-f", offset, CommandProcess.program.path, "chunk", "plan", stage, "1"]
+      #expect(Self.tool("/usr/bin/faketime", words, in: folder) == 0, "\(stage)")
+    }
+    let all = try run(["join", "plan", "--jobs", "1"])
+    #expect(all.exitCode == 0, "\(all.errors)")
+    let folder = try PlanFolder(reading: folder.appendingPathComponent("plan"))
+    #expect(folder.status(of: ChunkID(stage: "features", number: 1))?.attempts == 1)
+  }
+
+  private static func mount(_ arguments: [String]) -> Bool { tool("mount", arguments) == 0 }
+
+  private static func tool(_ name: String, _ arguments: [String], in folder: URL? = nil) -> Int32 {
+    let process = Process()
+    process.executableURL = URL(fileURLWithPath: "/usr/bin/env")
+    process.arguments = [name] + arguments
+    process.currentDirectoryURL = folder
+    process.standardInput = FileHandle.nullDevice
+    process.standardOutput = FileHandle.nullDevice
+    process.standardError = FileHandle.nullDevice
+    guard (try? process.run()) != nil else { return -1 }
+    process.waitUntilExit()
+    return process.terminationStatus
+  }
+}
