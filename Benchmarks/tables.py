@@ -67,6 +67,29 @@ def models(results):
                   "verdict", "USDZ", "PSNR held out"], rows)
 
 
+def seconds(measurement):
+    """CPU seconds, the median of the runs."""
+    return statistics.median(run["cpuSeconds"] for run in measurement["runs"])
+
+
+def level(name):
+    """The detail level of a set's default command."""
+    options = SETS.get(name, {}).get("options", ["-d", "reduced"])
+    return options[options.index("-d") + 1]
+
+
+def against_colmap(results):
+    """The whole run beside COLMAP's cameras alone, in CPU seconds."""
+    rows = []
+    for each in results.all(part="alignment", program="COLMAP"):
+        name = each["set"]
+        whole = results.find(part="models", set=name)
+        cameras = results.find(part="alignment", set=name, program="photogrammetry-cli")
+        if whole and cameras:
+            rows.append([name, level(name), cost(whole, "cpuSeconds"), cost(cameras, "cpuSeconds"), cost(each, "cpuSeconds")])
+    return table(["set", "detail", "photos to model", "of it to cameras (`align`)", "COLMAP, photos to cameras"], rows)
+
+
 def poses(results):
     """One row for each set; each cell has this project's figure, and COLMAP's behind it."""
     rows = []

@@ -6,12 +6,19 @@ final class SlurmCluster {
   let folder: TemporaryFolder
 
   /// Why there can be no cluster here; nil if there can.
-  static var shortfall: String? {
+  static let shortfall: String? = {
     guard geteuid() == 0 else { return "needs root" }
     let programs = ["/usr/sbin/slurmctld", "/usr/sbin/slurmd", "/usr/sbin/munged"]
-    let isInstalled = programs.allSatisfy { FileManager.default.isExecutableFile(atPath: $0) }
-    return isInstalled ? nil : "the packages slurm-wlm and munge are not installed"
-  }
+    guard programs.allSatisfy({ FileManager.default.isExecutableFile(atPath: $0) }) else {
+      return "the packages slurm-wlm and munge are not installed"
+    }
+    do {
+      _ = try SlurmCluster()
+      return nil
+    } catch {
+      return "no cluster can be started here: \(error.localizedDescription)"
+    }
+  }()
 
   init() throws {
     folder = try TemporaryFolder()
