@@ -18,9 +18,8 @@ struct ChunkOutput: Codable, Equatable, Sendable {
     guard
       let content = try? Data(contentsOf: URL(fileURLWithPath: path), options: .alwaysMapped)
     else { return nil }
-    let digits = String(content.withUnsafeBytes { XXHash64.hash($0) }, radix: 16)
     (self.path, bytes) = (path, content.count)
-    hash = String(repeating: "0", count: 16 - digits.count) + digits
+    hash = content.withUnsafeBytes { XXHash64.hash($0) }.hexadecimalDigits
   }
 
   private static func files(at path: String) -> [String] {

@@ -1,4 +1,4 @@
-import Foundation
+import Kernels
 import Pipeline
 import SceneModel
 
@@ -8,6 +8,7 @@ import SceneModel
 /// The content of `plan.json`. A chunk is a command of this program with all its arguments; it may
 /// be made several times, or at the same time in several places, with the same result.
 struct ChunkPlan: Codable, Equatable, Sendable {
+  /// Grows when readers of older plans would misunderstand newer ones.
   static let currentFormat = 1
 
   var format = Self.currentFormat
@@ -18,9 +19,7 @@ struct ChunkPlan: Codable, Equatable, Sendable {
 
   /// The build of this process.
   static var thisProgram: String {
-    let digits = String(ProgramIdentity.fingerprint, radix: 16)
-    let zeros = String(repeating: "0", count: 16 - digits.count)
-    return "\(ProgramVersion.current), build \(zeros)\(digits)"
+    "\(ProgramVersion.current), build \(ProgramIdentity.fingerprint.hexadecimalDigits)"
   }
 
   /// The stage of a name.
@@ -36,7 +35,4 @@ struct ChunkPlan: Codable, Equatable, Sendable {
 
   /// The number of chunks of all stages.
   var count: Int { stages.reduce(0) { $0 + $1.chunks.count } }
-
-  /// The expected time that the chunks take together, in seconds.
-  var expectedSeconds: Double { stages.reduce(0) { $0 + $1.expectedSeconds } }
 }

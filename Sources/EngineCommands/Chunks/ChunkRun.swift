@@ -81,7 +81,7 @@ struct ChunkRun: Sendable {
       (earlier?.seconds ?? 0) + ProcessInfo.processInfo.systemUptime - start
     status.attempts = (earlier?.attempts ?? 0) + 1
     (status.error, status.result) = (result.error, result.counts)
-    status.warnings = writer.warnings
+    (status.warnings, status.written) = (writer.warnings, writer.written)
     (status.isTransient, status.isShortOfMemory) = (result.isTransient, result.isShortOfMemory)
     if result.status == .done, !chunk.areSealed {
       status.outputs = ChunkOutput.all(at: chunk.writes)
@@ -137,6 +137,7 @@ private final class ProgressWriter: Sendable {
     var writtenAt = 0.0
     var hasFailed = false
     var warnings: [String] = []
+    var written: [RunEvent] = []
   }
 
   private let folder: PlanFolder
@@ -155,7 +156,11 @@ private final class ProgressWriter: Sendable {
   /// The warnings of the run, each once.
   var warnings: [String] { state.withLock { $0.warnings } }
 
+  /// The events about files that were written.
+  var written: [RunEvent] { state.withLock { $0.written } }
+
   func received(_ event: RunEvent) {
+    if event.event == "written" { state.withLock { $0.written.append(event) } }
     if event.event == "warning", let message = event.message {
       state.withLock { state in
         if !state.warnings.contains(message) { state.warnings.append(message) }
@@ -166,7 +171,7 @@ private final class ProgressWriter: Sendable {
       (state.progress.fraction, state.progress.stage) = (fraction, event.stage)
       let now = ProcessInfo.processInfo.systemUptime
       guard now - state.writtenAt >= interval else { return }
-      (state.progress.count, state.writtenAt) = (state.progress.count + 1, now)
+      state.writtenAt = now
       do {
         try folder.record(state.progress, of: id)
       } catch {

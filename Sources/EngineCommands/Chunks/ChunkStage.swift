@@ -9,7 +9,4 @@ struct ChunkStage: Codable, Equatable, Sendable {
 
   /// In the order of their numbers.
   var ids: [ChunkID] { chunks.indices.map { ChunkID(stage: name, number: $0 + 1) } }
-
-  /// The expected time that the chunks take together, in seconds.
-  var expectedSeconds: Double { chunks.reduce(0) { $0 + $1.expectedSeconds } }
 }

@@ -24,6 +24,8 @@ struct ChunkStatus: Codable, Equatable, Sendable {
   var result: RunEvent?
   /// What its user should know.
   var warnings: [String] = []
+  /// The events about the files that were written for the user.
+  var written: [RunEvent] = []
   /// What was made.
   var outputs: [ChunkOutput] = []
 }

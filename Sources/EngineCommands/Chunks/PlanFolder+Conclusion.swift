@@ -17,35 +17,28 @@ extension PlanFolder {
       """)
   }
 
-  /// Prints the warnings and the files of the last stage. Returns a failure if a chunk is missing:
-  /// the reason why the first of them failed.
-  func conclude(_ reporter: RunReporter) -> CommandFailure? {
-    guard let first = missing.first else {
-      reportLastStage(reporter)
-      return nil
-    }
-    let failure: CommandFailure
-    if let status = status(of: first), let error = status.error {
-      failure = .run(
-        "\(plan[first]?.name ?? "\(first)"): \(error) The log is \(log(of: first).relativePath).",
-        isTransient: status.isTransient)
-    } else {
+  /// Reports the warnings and the files of the last stage. Throws a `CommandFailure` if a chunk is
+  /// missing: the reason why the first of them failed.
+  func conclude(_ reporter: RunReporter) throws {
+    guard let first = missing.first else { return reportLastStage(reporter) }
+    guard let status = status(of: first), let error = status.error else {
       let names = missing.prefix(5).map(\.description).joined(separator: ", ")
-      failure = .run(
+      throw CommandFailure.run(
         "\(missing.count) of \(plan.count) chunks are missing: \(names)"
           + "\(missing.count > 5 ? " …" : ""). Make them with 'photogrammetry-cli join "
           + "\(url.relativePath) --jobs 1'.")
     }
-    reporter.failed(failure)
-    return failure
+    throw CommandFailure.run(
+      "\(plan[first]?.name ?? "\(first)"): \(error) The log is \(log(of: first).relativePath).",
+      isTransient: status.isTransient)
   }
+
   private func reportLastStage(_ reporter: RunReporter) {
-    guard let stage = plan.stages.last else { return }
-    let statuses = stage.ids.compactMap(status)
+    let statuses = plan.stages.last?.ids.compactMap(status) ?? []
     let logger = Logger(label: "photogrammetry-cli")
     for warning in statuses.flatMap(\.warnings) { logger.warning("\(warning)") }
-    for path in stage.chunks.flatMap(\.writes) {
-      reporter.wrote("model", URL(fileURLWithPath: path).relativePath)
+    for event in statuses.flatMap(\.written) {
+      if let kind = event.kind, let path = event.path { reporter.wrote(kind, path) }
     }
     var event = statuses.last?.result ?? RunEvent("complete")
     event.seconds = reporter.elapsed

@@ -60,10 +60,10 @@ struct PlanProgress: Equatable, Sendable {
       + (failed > 0 ? ", \(failed) failed" : "")
   }
 
-  /// The progress as a line of a terminal.
-  func bar(width: Int) -> String {
+  /// The progress and a note as a line of a terminal.
+  func bar(width: Int, _ note: String) -> String {
     let left = remaining.map { "  \(RunProgress.duration($0)) left" } ?? ""
     let bar = RunProgress(fraction: fraction).bar(width: 200)
-    return String("\(bar)  \(text)\(left)".prefix(max(0, width - 1)))
+    return String("\(bar)  \(text)\(left)  \(note)".prefix(max(0, width - 1)))
   }
 }

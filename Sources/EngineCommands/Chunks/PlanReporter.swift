@@ -68,8 +68,7 @@ struct PlanReporter {
     switch style {
     case .quiet: return
     case .bar:
-      Terminal.shared.show(
-        status: progress.bar(width: Terminal.shared.width) + (note.isEmpty ? "" : "  \(note)"))
+      Terminal.shared.show(status: progress.bar(width: Terminal.shared.width, note))
     case .lines:
       guard text != shown.text, now - shown.at >= Self.lineInterval else { return }
       Terminal.shared.message(text)

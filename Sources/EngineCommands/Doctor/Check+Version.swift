@@ -1,3 +1,4 @@
+import Kernels
 import Pipeline
 import RealityFoundation
 import SceneModel
@@ -5,9 +6,7 @@ import SceneModel
 extension Check {
   /// The version, and the build: results of different builds may differ.
   static func version(of build: EngineBuild, fingerprint: UInt64, system: String) -> Check {
-    let hash = String(fingerprint, radix: 16)
-    let digits = String(repeating: "0", count: 16 - hash.count) + hash
-    let text = "\(ProgramVersion.current), build \(digits), on \(system)."
+    let text = "\(ProgramVersion.current), build \(fingerprint.hexadecimalDigits), on \(system)."
     guard !build.isOptimized else { return Check(.version, .ok, text) }
     return Check(
       .version, .note, "\(text) It was compiled without optimization and is about 30 times slower.",

@@ -60,7 +60,7 @@ struct ChunkedRun {
 
   private func follow(_ run: SlurmRun, _ reporter: RunReporter) async throws {
     _ = try await SlurmWatch(run: run, style: reporter.style).follow()
-    if let failure = run.folder.conclude(reporter) { throw failure }
+    try run.folder.conclude(reporter)
   }
 
   // MARK: - Plan

@@ -61,20 +61,32 @@ struct JoinChunks: AsyncParsableCommand {
   mutating func run() async throws {
     logging.bootstrap()
     let reporter = RunReporter(logging.style(json: json))
+    let failure: CommandFailure?
     do {
-      let folder = try PlanFolder(reading: URL(fileURLWithPath: plan, isDirectory: true))
-      if slurm {
-        guard try submit(folder) else { return }
-      } else if let jobs {
-        try await LocalChunks(folder, jobs: jobs, retries: retries, reporter.style).run()
-      }
-      if let failure = try conclude(folder, reporter) { throw failure }
+      failure = try await join(reporter)
     } catch {
       let failure = CommandFailure(error)
-      // The conclusion of a batch has reported itself.
-      if !(error is CommandFailure) { reporter.failed(failure) }
+      reporter.failed(failure)
       throw failure
     }
+    if let failure { throw failure }
+  }
+
+  /// Makes what is missing if asked to, checks all, and reports the end. Returns a failure that has
+  /// been reported.
+  private func join(_ reporter: RunReporter) async throws -> CommandFailure? {
+    let folder = try PlanFolder(reading: URL(fileURLWithPath: plan, isDirectory: true))
+    if slurm {
+      guard try submit(folder) else { return nil }
+    } else if let jobs {
+      try await LocalChunks(folder, jobs: jobs, retries: retries, reporter.style).run()
+    }
+    let damaged = folder.forgetDamaged()
+    if !damaged.isEmpty {
+      Logger(label: "photogrammetry-cli").warning(
+        "Files of \(damaged.count) chunks are missing or damaged: they have to be made again.")
+    }
+    return try folder.report(reporter)
   }
 
   /// Submits what is next to Slurm; returns whether nothing more can be made.
@@ -88,15 +100,5 @@ struct JoinChunks: AsyncParsableCommand {
       return false
     case .ended: return true
     }
-  }
-
-  private func conclude(_ folder: PlanFolder, _ reporter: RunReporter) throws -> CommandFailure? {
-    let damaged = folder.forgetDamaged()
-    if !damaged.isEmpty {
-      Logger(label: "photogrammetry-cli").warning(
-        "Files of \(damaged.count) chunks are missing or damaged: they have to be made again.")
-    }
-    guard let record = BatchRecord(of: folder.url) else { return folder.conclude(reporter) }
-    return try record.conclude(folder).report(reporter)
   }
 }

@@ -32,14 +32,16 @@ struct WatchPlan: AsyncParsableCommand {
   mutating func run() async throws {
     logging.bootstrap()
     let reporter = RunReporter(logging.style(json: json))
-    let folder = try PlanFolder(reading: URL(fileURLWithPath: plan, isDirectory: true))
-    _ = try await SlurmWatch(run: SlurmRun(folder), style: reporter.style).follow()
-    let failure =
-      if let record = BatchRecord(of: folder.url) {
-        try record.conclude(folder).report(reporter)
-      } else {
-        folder.conclude(reporter)
-      }
+    let failure: CommandFailure?
+    do {
+      let folder = try PlanFolder(reading: URL(fileURLWithPath: plan, isDirectory: true))
+      _ = try await SlurmWatch(run: SlurmRun(folder), style: reporter.style).follow()
+      failure = try folder.report(reporter)
+    } catch {
+      let failure = CommandFailure(error)
+      reporter.failed(failure)
+      throw failure
+    }
     if let failure { throw failure }
   }
 }

@@ -47,7 +47,7 @@ struct SlurmRun: Sendable {
   /// The start of the names of this plan's jobs.
   private var label: String {
     let hash = XXHash64.hash(Array(folder.url.standardizedFileURL.path.utf8))
-    return "photogrammetry-\(String(hash, radix: 16))"
+    return "photogrammetry-\(hash.hexadecimalDigits)"
   }
 
   private func jobName(_ stage: String) -> String { "\(label)-\(stage)" }

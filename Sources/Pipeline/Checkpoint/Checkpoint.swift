@@ -62,7 +62,7 @@ package struct Checkpoint {
       guard let content = FileManager.default.contents(atPath: file.path) else { return nil }
       fingerprint.add(content)
     }
-    return SurfaceRecord.text(fingerprint.value)
+    return fingerprint.value.hexadecimalDigits
   }
 
   func write(_ mesh: Mesh) throws {

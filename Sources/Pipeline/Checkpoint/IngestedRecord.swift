@@ -28,14 +28,9 @@ struct IngestedRecord: Codable, UnitValue {
       + masks.flatMap { masks in
         (try? PhotoFolder.files(in: masks)) ?? []
       }
-    for file in files {
-      let attributes = try? FileManager.default.attributesOfItem(
-        atPath: file.resolvingSymlinksInPath().path)
-      key.add(file.path.utf8)
-      key.add((attributes?[.size] as? NSNumber)?.intValue ?? -1)
-      let time = attributes?[.modificationDate] as? Date
-      key.add(time?.timeIntervalSinceReferenceDate ?? 0)
-    }
+    // Their URLs are part of the result.
+    key.add(folder.path.utf8)
+    for file in files { key.addAttributes(of: file) }
     return key.value
   }
 }

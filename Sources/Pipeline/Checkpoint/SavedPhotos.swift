@@ -17,7 +17,7 @@ struct SavedPhotos: Sendable {
     var result = try PhotoIngestion(options)
       .run(files: names.map { saved.photoFolder.appendingPathComponent($0) }, context)
     let hashes = Dictionary(
-      zip(result.photos.map(\.name), result.contentHashes.map(SurfaceRecord.text)),
+      zip(result.photos.map(\.name), result.contentHashes.map(\.hexadecimalDigits)),
       uniquingKeysWith: { first, _ in first })
     let changed = saved.record.photos.filter { hashes[$0.name] != $0.contentHash }.map(\.name)
     guard changed.isEmpty, result.photos.map(\.name) == names else {

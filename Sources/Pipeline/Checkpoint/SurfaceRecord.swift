@@ -40,7 +40,7 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     photos = reconstruction.registered.map { id in
       PhotoFile(
         name: ingested.photos[id.index].name,
-        contentHash: Self.text(ingested.contentHashes[id.index]),
+        contentHash: ingested.contentHashes[id.index].hexadecimalDigits,
         mask: ingested.photos[id.index].mask,
         sharpPixels: ingested.photos[id.index].sharpPixels)
     }
@@ -48,12 +48,6 @@ package struct SurfaceRecord: Codable, Equatable, Sendable {
     processingPixels = ingested.processingPixels
     worldFrame = reconstruction.worldFrame
     self.sparseHash = sparseHash
-  }
-
-  /// A hash as 16 hexadecimal digits, since some JSON readers round 64-bit numbers.
-  static func text(_ hash: UInt64) -> String {
-    let digits = String(hash, radix: 16)
-    return String(repeating: "0", count: 16 - digits.count) + digits
   }
 
   /// The record as JSON with sorted keys.

@@ -38,8 +38,8 @@ struct UnitStore: Sendable {
   }
 
   private func file(_ kind: Kind, _ fingerprint: UInt64) -> URL {
-    let digits = String(key(fingerprint), radix: 16)
-    return folder.appendingPathComponent("\(kind.rawValue)-\(digits)", isDirectory: false)
+    let name = "\(kind.rawValue)-\(key(fingerprint).hexadecimalDigits)"
+    return folder.appendingPathComponent(name, isDirectory: false)
   }
 
   /// Other builds of the program may make other results.
