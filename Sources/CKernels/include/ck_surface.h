@@ -13,26 +13,73 @@ typedef struct ck_surface ck_surface;
 
 /// Options of Poisson reconstruction.
 typedef struct {
-  /// Octree depth; the smallest cells have a side of `scale × extent / 2^depth`.
+  /// Octree depth; the smallest cells have a side of `1 / 2^depth` of the cube's.
   int32_t depth;
   /// Side of the cube in which the system is solved, relative to the largest extent of the points.
   double scale;
   /// Memory that the solver may use; the octree is less deep if it would need more.
   size_t maximum_bytes;
+  /// The cube: its lowest corner and its side. With a side of 0 it is that around the points.
+  double cube_origin[3];
+  double cube_side;
 } ck_poisson_options;
+
+/// Cells of one level of an octree: from `low` to before `high` along x, y and z. A node belongs to
+/// the cell of which it is the lowest corner.
+typedef struct {
+  int32_t depth;
+  int32_t low[3];
+  int32_t high[3];
+} ck_cell_box;
+
+/// A solved function on an octree, whose surface of one value is the reconstructed surface. Free
+/// with `ck_poisson_free`.
+typedef struct ck_poisson_solution ck_poisson_solution;
 
 /// Screened Poisson surface reconstruction (Kazhdan and Hoppe, ACM TOG 2013) from oriented points,
 /// with trilinear functions on an adaptive octree.
 ///
-/// Positions and normals (3 floats) have the same count; points that are not finite or have no
-/// normal are ignored. Triangles are counter-clockwise when seen from the side that the normals
-/// point to. The surface has no cracks; it is open where it leaves the cube. Returns
-/// `ck_degenerate` if fewer than four points are left, or if all are at one position.
-ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
-                     const ck_control* control, ck_surface** surface);
+/// Positions and normals (3 floats) have the same count; points that are not finite, have no normal
+/// or lie outside the given cube are ignored. Returns `ck_degenerate` if fewer than four points are
+/// left, or if all are at one position.
+ck_status ck_poisson_solve(ck_span positions, ck_span normals, const ck_poisson_options* options,
+                           const ck_control* control, ck_poisson_solution** solution);
+
+/// Solves the levels below those of `base` down to `depth` for the points of a part of the scene,
+/// which need to be all points there. Otherwise like `ck_poisson_solve`, in the cube of the base.
+ck_status ck_poisson_refine(const ck_poisson_solution* base, ck_span positions, ck_span normals,
+                            int32_t depth, const ck_control* control,
+                            ck_poisson_solution** solution);
+
+/// Takes the values of `other` at the nodes in a box, below the levels of a common base of depth
+/// `base_depth`. Two parts that have the same values at the nodes of a seam, and one node beyond
+/// it, have the same surface there, to the last bit.
+ck_status ck_poisson_adopt(ck_poisson_solution* solution, const ck_poisson_solution* other,
+                           int32_t base_depth, const ck_cell_box* box, const ck_control* control);
+
+/// The surface around the nodes in a box; around all with null. Surfaces of boxes that adjoin fit
+/// together.
+///
+/// Triangles are counter-clockwise when seen from the side that the normals point to. The surface
+/// has no cracks; it is open where it leaves the cube or the box.
+ck_status ck_poisson_surface(const ck_poisson_solution* solution, const ck_cell_box* box,
+                             const ck_control* control, ck_surface** surface);
 
 /// Greatest depth of the octree: less than that of the options if memory does not suffice.
-int32_t ck_surface_depth(const ck_surface* surface);
+int32_t ck_poisson_depth(const ck_poisson_solution* solution);
+/// The cube: its lowest corner (3 doubles) and its side.
+void ck_poisson_cube(const ck_poisson_solution* solution, double* origin, double* side);
+/// Serializes what the surface in a box depends on: calls `write` once with the bytes.
+ck_status ck_poisson_encode(const ck_poisson_solution* solution, const ck_cell_box* box,
+                            void (*write)(void* context, const void* bytes, size_t count),
+                            void* context);
+/// Restores what the surface in a box depends on from the bytes of a box that contains it. Returns
+/// `ck_invalid_argument` if they are malformed.
+ck_status ck_poisson_decode(const void* bytes, size_t count, const ck_cell_box* box,
+                            const ck_control* control, ck_poisson_solution** solution);
+/// Frees the solution; null does nothing.
+void ck_poisson_free(ck_poisson_solution* solution);
+
 /// Number of vertices of the mesh.
 size_t ck_surface_vertex_count(const ck_surface* surface);
 /// Number of triangles of the mesh.

@@ -4,56 +4,133 @@
 
 #include "ck_surface.h"
 #include "core/guard.h"
+#include "core/progress.h"
 #include "core/span.h"
 #include "surface/poisson/contour.h"
-#include "surface/poisson/density.h"
-#include "surface/poisson/solver.h"
+#include "surface/poisson/solution.h"
+#include "surface/poisson/solution_bytes.h"
+
+using namespace ck::poisson;
 
 struct ck_surface {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<uint32_t, 3>> triangles;
-  int depth;
+};
+
+struct ck_poisson_solution {
+  Solution value;
 };
 
 namespace {
 
-using namespace ck::poisson;
+void require_depth(int32_t depth) {
+  // Limit: of the numbers of cells.
+  ck::require(depth >= kFirstDepth && depth <= 14, "depth must be 2 to 14");
+}
 
-ck_surface reconstruct(Samples samples, int depth, size_t maximum_bytes,
-                       const ck_control* control) {
-  // Measured: the shares of the time on boot and orbit.
-  const ck::ProgressPart density(control, 0, 0.07), octree(control, 0.07, 0.2),
-      solving(control, 0.2, 0.73), averaging(control, 0.73, 0.75), contouring(control, 0.75, 1);
-  estimate_density(samples, depth, density.control());
-  std::vector<Level> levels = make_levels(samples, depth, maximum_bytes, octree.control());
-  solve(levels, samples, solving.control());
-  const double value = mean_value(levels, samples, averaging.control());
-  Contour found = contour(levels, value, contouring.control());
-  for (std::array<float, 3>& p : found.positions) {
-    for (size_t a = 0; a < 3; ++a) {
-      p[a] = static_cast<float>(samples.origin[a] + samples.side * p[a]);
-    }
+void require_as_many(ck_span positions, ck_span normals) {
+  ck::require(positions.data && normals.data, "null pointer");
+  ck::require(positions.count == normals.count, "as many normals as positions are needed");
+}
+
+CellBox box_of(const ck_cell_box* box) {
+  CellBox result;
+  if (!box) return result;
+  ck::require(box->depth >= 0 && box->depth <= 14, "depth of a box must be 0 to 14");
+  result.depth = box->depth;
+  for (size_t a = 0; a < 3; ++a) {
+    result.low[a] = box->low[a];
+    result.high[a] = box->high[a];
   }
-  return {std::move(found.positions), std::move(found.triangles), depth};
+  return result;
 }
 
 }  // namespace
 
-ck_status ck_poisson(ck_span positions, ck_span normals, const ck_poisson_options* options,
-                     const ck_control* control, ck_surface** surface) {
+ck_status ck_poisson_solve(ck_span positions, ck_span normals, const ck_poisson_options* options,
+                           const ck_control* control, ck_poisson_solution** solution) {
   return ck::guarded([&] {
-    ck::require(positions.data && normals.data && options && surface, "null pointer");
-    ck::require(positions.count == normals.count, "as many normals as positions are needed");
-    ck::require(options->depth >= 2 && options->depth <= 14, "depth must be 2 to 14");
+    ck::require(options && solution, "null pointer");
+    require_as_many(positions, normals);
+    require_depth(options->depth);
     ck::require(options->scale >= 1, "scale must be 1 or more");
     ck::step(control, 0);
-    const ck::Strided<float> p(positions), n(normals);
-    *surface = new ck_surface(reconstruct(Samples(p, n, options->scale, control), options->depth,
-                                          options->maximum_bytes, control));
+    Cube cube;
+    std::copy(options->cube_origin, options->cube_origin + 3, cube.origin.begin());
+    cube.side = options->cube_side;
+    Samples samples(positions, normals, options->scale, cube, control);
+    *solution = new ck_poisson_solution{
+        ck::poisson::solution(std::move(samples), options->depth, options->maximum_bytes, control)};
   });
 }
 
-int32_t ck_surface_depth(const ck_surface* surface) { return surface->depth; }
+ck_status ck_poisson_refine(const ck_poisson_solution* base, ck_span positions, ck_span normals,
+                            int32_t depth, const ck_control* control,
+                            ck_poisson_solution** solution) {
+  return ck::guarded([&] {
+    ck::require(base && solution, "null pointer");
+    require_as_many(positions, normals);
+    require_depth(depth);
+    ck::require(depth >= base->value.depth(), "the base is deeper");
+    ck::step(control, 0);
+    Samples samples(positions, normals, 1, base->value.cube, control);
+    *solution = new ck_poisson_solution{refined(base->value, std::move(samples), depth, control)};
+  });
+}
+
+ck_status ck_poisson_adopt(ck_poisson_solution* solution, const ck_poisson_solution* other,
+                           int32_t base_depth, const ck_cell_box* box, const ck_control* control) {
+  return ck::guarded([&] {
+    ck::require(solution && other && box, "null pointer");
+    ck::require(base_depth >= kFirstDepth, "the base has no levels");
+    const auto shared = static_cast<size_t>(base_depth - kFirstDepth + 1);
+    adopt(solution->value, other->value, shared, box_of(box), control);
+  });
+}
+
+ck_status ck_poisson_surface(const ck_poisson_solution* solution, const ck_cell_box* box,
+                             const ck_control* control, ck_surface** surface) {
+  return ck::guarded([&] {
+    ck::require(solution && surface, "null pointer");
+    const Solution& value = solution->value;
+    Contour found = contour(value.levels, value.value, box_of(box), control);
+    for (std::array<float, 3>& p : found.positions) {
+      for (size_t a = 0; a < 3; ++a) {
+        p[a] = static_cast<float>(value.cube.origin[a] + value.cube.side * p[a]);
+      }
+    }
+    *surface = new ck_surface{std::move(found.positions), std::move(found.triangles)};
+  });
+}
+
+int32_t ck_poisson_depth(const ck_poisson_solution* solution) { return solution->value.depth(); }
+
+void ck_poisson_cube(const ck_poisson_solution* solution, double* origin, double* side) {
+  const Cube& cube = solution->value.cube;
+  std::copy(cube.origin.begin(), cube.origin.end(), origin);
+  *side = cube.side;
+}
+
+ck_status ck_poisson_encode(const ck_poisson_solution* solution, const ck_cell_box* box,
+                            void (*write)(void* context, const void* bytes, size_t count),
+                            void* context) {
+  return ck::guarded([&] {
+    ck::require(solution && write, "null pointer");
+    const std::vector<uint8_t> bytes = encoded(solution->value, box_of(box));
+    write(context, bytes.data(), bytes.size());
+  });
+}
+
+ck_status ck_poisson_decode(const void* bytes, size_t count, const ck_cell_box* box,
+                            const ck_control* control, ck_poisson_solution** solution) {
+  return ck::guarded([&] {
+    ck::require(bytes && solution, "null pointer");
+    *solution = new ck_poisson_solution{
+        decoded(static_cast<const uint8_t*>(bytes), count, box_of(box), control)};
+  });
+}
+
+void ck_poisson_free(ck_poisson_solution* solution) { delete solution; }
 
 size_t ck_surface_vertex_count(const ck_surface* surface) { return surface->positions.size(); }
 

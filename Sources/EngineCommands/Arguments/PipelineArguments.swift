@@ -15,6 +15,8 @@ package struct PipelineArguments: EngineArguments {
 
   @OptionGroup var compression: CompressionArguments
 
+  @OptionGroup var tiles: TileArguments
+
   @OptionGroup var surface: SurfaceArguments
 
   @OptionGroup var masking: MaskArguments
@@ -75,6 +77,7 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.maskFolder = try masking.folder
     session.engineOptions.maskOutput = try maskOutput.folder(photos: folder)
     session.engineOptions.previewFile = try preview.file()
+    session.engineOptions.tiles = try tiles.output()
     session.engineOptions.keepsReportMaterial =
       try viewer.viewer || runArguments.reportFile()?.isPage == true
     session.engineOptions.compressesGLB = compression.compress

@@ -140,7 +140,7 @@ struct ChunkedRun {
     let coarser = (try? CoarserModel.all(arguments.detail, nextTo: output)) ?? []
     let companions = [
       arguments.poses, arguments.pointCloud, arguments.engine.preview.preview,
-      arguments.engine.runArguments.report,
+      arguments.engine.runArguments.report, arguments.engine.tiles.tiles,
     ].compactMap(\.self).map { URL(fileURLWithPath: $0) }
     return ([output.url] + coarser.map(\.output.url) + companions).map(\.standardizedFileURL.path)
   }

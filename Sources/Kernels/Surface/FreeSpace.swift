@@ -3,6 +3,9 @@ import SceneModel
 
 /// Counts the photos that see through each cell of a grid to a surface behind it.
 package struct FreeSpace: Sendable {
+  /// Cells per side, at most. Chosen.
+  package static let maximumCells = 320
+
   private let grid: ck_free_space_grid
   private let counts: [UInt8]
 
@@ -10,22 +13,24 @@ package struct FreeSpace: Sendable {
   ///
   /// `clearances` holds, for each point, how far in front of it a ray ends, in world units;
   /// `centers` the camera center of each photo in the world frame. Cells have a side of `cellSize`,
-  /// or more where the box between `low` and `high` would exceed `maximumCells` per side.
+  /// or more where the box between `low` and `high` would have more than `maximumCells`, and start
+  /// at `origin` if it is given instead of `low`.
   package init(
-    low: SIMD3<Float>, high: SIMD3<Float>, cellSize: Double, maximumCells: Int = 320,
+    low: SIMD3<Float>, high: SIMD3<Float>, origin: SIMD3<Double>? = nil, cellSize: Double,
     cloud: PointCloud, clearances: [Float], centers: [SIMD3<Float>], _ control: KernelControl
   ) throws {
     guard clearances.count == cloud.count, cloud.photoOffsets.count == cloud.count + 1,
       Int(cloud.photoOffsets.last ?? 0) <= cloud.photoIndices.count
     else { throw KernelError.invalidArgument("the cloud's arrays do not fit each other") }
     let extent = Double((high - low).max())
-    let side = max(cellSize, extent / Double(maximumCells))
+    let side = max(cellSize, extent / Double(Self.maximumCells))
     guard side > 0, side.isFinite else {
       throw KernelError.invalidArgument("the box of free space has no size")
     }
     let size = (0..<3).map { Int32((Double(high[$0] - low[$0]) / side).rounded(.down)) + 1 }
+    let origin = origin ?? SIMD3<Double>(low)
     let grid = ck_free_space_grid(
-      origin: (Double(low.x), Double(low.y), Double(low.z)), cell_size: side,
+      origin: (origin.x, origin.y, origin.z), cell_size: side,
       size: (size[0], size[1], size[2]))
     var counts = [UInt8](repeating: 0, count: size.reduce(1) { $0 * Int($1) })
     var rawGrid = grid

@@ -22,6 +22,7 @@ enum ConfigurationFingerprint {
     Exclusion("checkpointDirectory", "results do not depend on where they are written"),
     Exclusion("maskOutput", "it receives masks that are used anyway"),
     Exclusion("previewFile", "it shows a finished model"),
+    Exclusion("tiles", "they are made besides the model"),
     Exclusion("keepsReportMaterial", "it shows a finished run"),
     Exclusion("ingestion.maskFolder", "the masks in use are hashed by content"),
     Exclusion("ingestion.inspection.usesMasks", "the masks in use are hashed by content"),
@@ -30,6 +31,9 @@ enum ConfigurationFingerprint {
     Exclusion("ingestion.memoryBudget", "the processing pixels that follow from it are hashed"),
     Exclusion("ingestion.bytesPerPixel", "the processing pixels that follow from it are hashed"),
     Exclusion("pointCloudGeneration.cacheBytes", "it bounds a cache"),
+    Exclusion(
+      "pointCloudGeneration.maximumPoints",
+      "only a cloud that does not fit into memory depends on it"),
     Exclusion(
       "meshGeneration.poisson.maximumBytes",
       "only a surface that does not fit into memory depends on it, with a warning"),
@@ -43,7 +47,7 @@ enum ConfigurationFingerprint {
     "sky": .objectMasking,
     "pointCloudGeneration": .pointCloudGeneration,
     "meshGeneration": .meshGeneration, "photoRefinement": .meshGeneration,
-    "simplification": .textureMapping, "textureMapping": .textureMapping,
+    "simplification": .textureMapping, "tiling": .optimization, "textureMapping": .textureMapping,
     "export": .optimization, "preview": .optimization, "meshPrimitive": .optimization,
   ]
 

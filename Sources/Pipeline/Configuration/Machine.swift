@@ -91,15 +91,20 @@ extension Machine {
   /// Photos per GiB of memory: 1000 photos need somewhat less than `sufficientGibibytes`. Chosen.
   private static let photosPerGibibyte = 134.0
 
+  /// Memory of a point of the dense cloud while the surface is made from it. Chosen.
+  private static let bytesPerPoint = 600
+
   /// With 7.5 GiB of memory or more, 1000 photos of at most 16384 pixels per side. With less, in
   /// proportion fewer photos, but 100 at least, and 8192 pixels per side. Decoded photos take an
-  /// eighth of the memory, from 256 MiB to 1 GiB, and the surface solver at most half of it.
+  /// eighth of the memory, from 256 MiB to 1 GiB, and the surface solver at most half of it, as the
+  /// dense cloud.
   package var limits: MemoryLimits {
     let gibibytes = Double(totalMemoryBytes) / Double(1 << 30)
     return MemoryLimits(
       maximumPhotos: min(1000, max(100, Int(gibibytes * Self.photosPerGibibyte))),
       maximumPhotoSide: gibibytes >= Self.sufficientGibibytes ? 16384 : 8192,
       imageMemory: min(1 << 30, max(256 << 20, totalMemoryBytes / 8)),
-      surfaceMemory: totalMemoryBytes / 2)
+      surfaceMemory: totalMemoryBytes / 2,
+      cloudPoints: totalMemoryBytes / 2 / Self.bytesPerPoint)
   }
 }

@@ -11,4 +11,6 @@ package struct MemoryLimits: Hashable, Sendable {
   package var imageMemory: Int
   /// Bytes that the surface solver may use.
   package var surfaceMemory: Int
+  /// Points of the dense cloud that are kept for the model, at most.
+  package var cloudPoints: Int
 }

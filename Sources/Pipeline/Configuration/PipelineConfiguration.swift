@@ -18,6 +18,7 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var photoRefinement: PhotoRefinement.Options?
   package var simplification = Simplification.Options()
   package var textureMapping = TextureMapping.Options()
+  package var tiling = Tiling.Options()
   package var export = ModelExport.Options()
   package var preview = ModelPreview.Options()
 
@@ -29,6 +30,8 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
   package var maskOutput: URL?
   /// The PNG file of a preview that shows each model from several sides; nil renders none.
   package var previewFile: URL?
+  /// Where the scene is written in tiles of full detail, too; nil makes none.
+  package var tiles: TileOutput?
   /// Whether pictures, the model and points are kept for the page of a report.
   package var keepsReportMaterial = false
   /// The number of threads of all stages; does not affect the results.
@@ -42,6 +45,7 @@ package struct PipelineConfiguration: Hashable, Codable, Sendable {
     ingestion.inspection.limits.maximumSide = limits.maximumPhotoSide
     ingestion.memoryBudget = limits.imageMemory
     meshGeneration.poisson.maximumBytes = limits.surfaceMemory
+    pointCloudGeneration.maximumPoints = limits.cloudPoints
   }
 }
 

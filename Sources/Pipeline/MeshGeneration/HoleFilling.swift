@@ -22,6 +22,9 @@ struct HoleFilling {
     /// Openings of a membrane that photos see through stay open from this share of its area on.
     /// Chosen.
     var minimumOpeningShare = 0.01
+    /// What stands for the extent of the surface; nil is that of the mesh. `SurfaceTrimming` sets
+    /// it for a part of a surface.
+    var extent: Float?
     /// How far below the hole free space is evaluated, in world units: rays that graze the surface
     /// don't reach this depth. Chosen: `SurfaceTrimming` sets it to the side of a cell.
     var depth: Float = 0
@@ -47,7 +50,7 @@ struct HoleFilling {
     isFree: (SIMD3<Float>) -> Bool
   ) -> Mesh {
     guard let bounds = mesh.bounds, isRemoved.contains(true) else { return mesh }
-    let size = (bounds.max - bounds.min).length
+    let size = options.extent ?? (bounds.max - bounds.min).length
     // A surface that leaves the solved cube is open there; with caps added, it fills holes too.
     let caps = mesh.caps(isRemoved: isRemoved)
     let (mesh, isRemoved) = (mesh.adding(caps), isRemoved + caps.triangles.map { _ in true })

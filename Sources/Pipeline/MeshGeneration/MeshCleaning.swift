@@ -21,16 +21,18 @@ struct MeshCleaning {
 
   var options = Options()
 
-  /// `samples` provide the colors; none are set if it is empty. Throws `PipelineError.noSurface` if
-  /// no face is left.
-  func run(_ mesh: Mesh, samples: PointCloud, _ context: StageContext) throws -> Mesh {
+  /// `samples` provide the colors; none are set if it is empty. `part` is given for a part of a
+  /// surface. Throws `PipelineError.noSurface` if no face is left.
+  func run(
+    _ mesh: Mesh, samples: PointCloud, part: SurfacePart? = nil, _ context: StageContext
+  ) throws -> Mesh {
     var result = mesh
-    result.triangles = joiningCoincidentCorners(mesh)
+    result.triangles = joiningCoincidentCorners(mesh, extent: part?.extent)
     result.triangles = nondegenerateTriangles(result)
     try context.control.step(0.2)
     result = result.splitIntoManifold()
     try context.control.step(0.4)
-    keepLargeComponents(&result)
+    keepLargeComponents(&result, part)
     result = result.withoutUnusedVertices()
     guard !result.triangles.isEmpty else {
       throw PipelineError.noSurface(reason: "nothing of the surface is supported by the photos.")
@@ -46,10 +48,10 @@ struct MeshCleaning {
 
   /// Merges the end points of degenerate edges: marching cubes creates them where the surface
   /// passes through a grid corner. Dropping such faces without merging would leave holes.
-  private func joiningCoincidentCorners(_ mesh: Mesh) -> [Triangle] {
+  private func joiningCoincidentCorners(_ mesh: Mesh, extent: Float?) -> [Triangle] {
     guard let bounds = mesh.bounds else { return [] }
     let triangles = mesh.triangles.filter { Int(max($0.a, $0.b, $0.c)) < mesh.positions.count }
-    let limit = options.coincidenceTolerance * (bounds.max - bounds.min).length
+    let limit = options.coincidenceTolerance * (extent ?? (bounds.max - bounds.min).length)
     var sets = DisjointSets(count: mesh.positions.count)
     for t in triangles {
       let (a, b, c) = mesh.corners(of: t)
@@ -87,15 +89,22 @@ struct MeshCleaning {
     }
   }
 
-  /// Removes components with a small share of the largest one's area.
-  private func keepLargeComponents(_ mesh: inout Mesh) {
+  /// Removes components with a small share of the largest one's area; of a part, complete ones with
+  /// a small area.
+  private func keepLargeComponents(_ mesh: inout Mesh, _ part: SurfacePart?) {
     let parts = MeshComponents(mesh.triangles, vertexCount: mesh.positions.count)
     var areas = [Double](repeating: 0, count: parts.count)
     for (triangle, part) in zip(mesh.triangles, parts.components) {
       let (a, b, c) = mesh.corners(of: triangle)
       areas[Int(part)] += Double((b - a).cross(c - a).length) / 2
     }
-    let limit = options.minimumComponentShare * (areas.max() ?? 0)
+    if let part {
+      for (triangle, component) in zip(mesh.triangles, parts.components)
+      where part.isAtRim(mesh.positions[Int(triangle.a)]) {
+        areas[Int(component)] = .infinity
+      }
+    }
+    let limit = part?.minimumComponentArea ?? options.minimumComponentShare * (areas.max() ?? 0)
     mesh.triangles = zip(mesh.triangles, parts.components)
       .filter { areas[Int($0.1)] >= limit }.map(\.0)
   }

@@ -58,42 +58,57 @@ package struct MeshGeneration {
     support: SupportPlane? = nil, surroundings: PointCloud = PointCloud(),
     _ context: StageContext
   ) throws -> Mesh {
-    try check(cloud)
+    let samples = try samples(
+      of: cloud, reconstruction, silhouettes: silhouettes, support: support,
+      context.part(from: 0, to: 0.1))
     let notes = context.notes
-    let selection = try notes.step("selection") {
-      try select(cloud, reconstruction, silhouettes, support, context.part(from: 0, to: 0.05))
-    }
-    let downsampling = VoxelDownsampling(options: options.downsampling)
-    let downsampled = try notes.step("samples") {
-      var samples = try downsampling.run(
-        cloud.filtered(by: selection.isKept), context.part(from: 0.05, to: 0.07))
-      samples.cloud = try downsampling.withoutOutliers(
-        samples, context.control.part(from: 0.07, to: 0.1))
-      return samples
-    }
-    notes.record("samples", Double(downsampled.cloud.count))
     var poisson = PoissonSurface(options: options.poisson)
     poisson.options.maximumDepth = options.maximumDepth
     let (closed, cell) = try notes.step("poisson") {
       try poisson.run(
-        downsampled.cloud, spacing: downsampled.voxelSize, context.part(from: 0.1, to: 0.85))
+        samples.cloud, spacing: samples.voxelSize, context.part(from: 0.1, to: 0.85))
     }
     var scene = cloud
     scene.append(surroundings)
     var trimming = SurfaceTrimming(options: options.trimming)
-    trimming.options.holeFilling.fillsLarge = selection.isObject && options.closesObject
+    trimming.options.holeFilling.fillsLarge = samples.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
-      closed, samples: downsampled.cloud, scene: scene,
-      spacing: max(downsampled.voxelSize, cell / 2),
-      support: selection.support, silhouettes: silhouettes, reconstruction,
+      closed, samples: samples.cloud, scene: scene,
+      spacing: max(samples.voxelSize, cell / 2),
+      support: samples.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.85, to: 0.96))
     let mesh = try notes.step("cleaning") {
       try MeshCleaning(options: options.cleaning).run(
-        trimmed, samples: downsampled.cloud, context.part(from: 0.96, to: 1))
+        trimmed, samples: samples.cloud, context.part(from: 0.96, to: 1))
     }
     notes.record("triangles", Double(mesh.triangles.count))
     return mesh
+  }
+
+  /// Selects the points of the object, or of the whole scene, and averages them by voxel. Throws
+  /// and uses masks and support like `run`.
+  func samples(
+    of cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes?,
+    support: SupportPlane?, _ context: StageContext
+  ) throws -> SurfaceSamples {
+    try check(cloud)
+    let notes = context.notes
+    let selection = try notes.step("selection") {
+      try select(cloud, reconstruction, silhouettes, support, context.part(from: 0, to: 0.5))
+    }
+    let downsampling = VoxelDownsampling(options: options.downsampling)
+    let downsampled = try notes.step("samples") {
+      var samples = try downsampling.run(
+        cloud.filtered(by: selection.isKept), context.part(from: 0.5, to: 0.7))
+      samples.cloud = try downsampling.withoutOutliers(
+        samples, context.control.part(from: 0.7, to: 1))
+      return samples
+    }
+    notes.record("samples", Double(downsampled.cloud.count))
+    return SurfaceSamples(
+      cloud: downsampled.cloud, voxelSize: downsampled.voxelSize, isObject: selection.isObject,
+      support: selection.support)
   }
 
   /// The box around what `run` would keep, in the frame of the cloud; from the sparse points if

@@ -33,10 +33,10 @@ struct SurfaceTrimming {
 
   /// `samples` support the surface; `scene` is all that the photos observe, including the
   /// background; `spacing` is the sample spacing in world units; `support` is the plane that the
-  /// object stands on.
+  /// object stands on; `part` is given for a part of a surface.
   func run(
     _ mesh: Mesh, samples: PointCloud, scene: PointCloud, spacing: Double,
-    support: SupportPlane? = nil, silhouettes: Silhouettes? = nil,
+    support: SupportPlane? = nil, silhouettes: Silhouettes? = nil, part: SurfacePart? = nil,
     _ reconstruction: Reconstruction, _ context: StageContext
   ) throws -> Mesh {
     guard let bounds = mesh.bounds else { return mesh }
@@ -49,7 +49,7 @@ struct SurfaceTrimming {
     }
     let freeSpace = try notes.step("freeSpace") {
       try self.freeSpace(
-        bounds, scene, spacing, reconstruction, context.control.part(from: 0.4, to: 0.8))
+        bounds, part, scene, spacing, reconstruction, context.control.part(from: 0.4, to: 0.8))
     }
     let isSeenThrough = { freeSpace.photos(at: $0) >= options.contradictingPhotos }
     var evidence = SurfaceEvidence(
@@ -69,6 +69,7 @@ struct SurfaceTrimming {
       Double(isRemoved.count { $0 }) / Double(max(1, mesh.triangles.count)))
     var holeFilling = HoleFilling(options: options.holeFilling)
     holeFilling.options.depth = Float(freeSpace.cellSize)
+    holeFilling.options.extent = part?.extent
     return notes.step("holeFilling") {
       holeFilling.run(mesh, isRemoved: isRemoved, support: support) { point in
         isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
@@ -94,8 +95,8 @@ struct SurfaceTrimming {
   /// Casts rays from the camera centers to a subset of the scene's points, and counts the photos
   /// that see through each cell.
   private func freeSpace(
-    _ bounds: (min: SIMD3<Float>, max: SIMD3<Float>), _ scene: PointCloud, _ spacing: Double,
-    _ reconstruction: Reconstruction, _ control: KernelControl
+    _ bounds: (min: SIMD3<Float>, max: SIMD3<Float>), _ part: SurfacePart?, _ scene: PointCloud,
+    _ spacing: Double, _ reconstruction: Reconstruction, _ control: KernelControl
   ) throws -> FreeSpace {
     let step = max(1, scene.count / max(1, options.maximumRayPoints))
     var targets = PointCloud()
@@ -103,9 +104,15 @@ struct SurfaceTrimming {
     let clearances = targets.footprints.map {
       Float(options.clearanceSpacings) * max(Float(spacing), $0)
     }
+    let centers = reconstruction.poses.map { SIMD3<Float>($0?.center ?? .zero) }
+    guard let part else {
+      return try FreeSpace(
+        low: bounds.min, high: bounds.max, cellSize: options.cellSpacings * spacing,
+        cloud: targets, clearances: clearances, centers: centers, control)
+    }
     return try FreeSpace(
-      low: bounds.min, high: bounds.max, cellSize: options.cellSpacings * spacing, cloud: targets,
-      clearances: clearances,
-      centers: reconstruction.poses.map { SIMD3<Float>($0?.center ?? .zero) }, control)
+      low: SIMD3<Float>(part.low), high: SIMD3<Float>(part.high), origin: part.low,
+      cellSize: part.freeSpaceCell, cloud: targets, clearances: clearances, centers: centers,
+      control)
   }
 }

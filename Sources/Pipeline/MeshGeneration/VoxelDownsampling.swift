@@ -34,9 +34,12 @@ struct VoxelDownsampling {
 
   var options = Options()
 
-  /// Throws `PipelineError.noSurface` for an empty cloud.
-  func run(_ cloud: PointCloud, _ context: StageContext) throws -> Result {
-    guard let footprint = cloud.medianFootprint, footprint > 0 else {
+  /// The mean points; `footprint` stands for the cloud's median for a part of a cloud. Throws
+  /// `PipelineError.noSurface` for an empty cloud.
+  func run(
+    _ cloud: PointCloud, footprint: Float? = nil, _ context: StageContext
+  ) throws -> Result {
+    guard let footprint = footprint ?? cloud.medianFootprint, footprint > 0 else {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
     }
     let size = Double(footprint) * options.voxelFootprints
@@ -123,11 +126,14 @@ struct VoxelDownsampling {
 }
 
 extension VoxelDownsampling {
-  /// The mean points without isolated ones.
-  func withoutOutliers(_ result: Result, _ control: KernelControl) throws -> PointCloud {
+  /// The mean points without isolated ones. `coarsest` is the footprint from which on all are
+  /// isolated; it stands for that of nearly all points for a part of a cloud.
+  func withoutOutliers(
+    _ result: Result, coarsest: Float? = nil, _ control: KernelControl
+  ) throws -> PointCloud {
     let (cloud, voxelSize) = (result.cloud, result.voxelSize)
     let (neighbors, radius) = (options.outlierNeighbors, options.outlierRadius)
-    let coarsest = Double(cloud.footprints.quantile(0.99) ?? 0)
+    let coarsest = Double(coarsest ?? cloud.footprints.quantile(0.99) ?? 0)
     let reach = radius * max(voxelSize, coarsest)
     let nearest = try NearestPoints(
       of: cloud.positions, in: cloud.positions, neighbors: neighbors + 1,

@@ -177,19 +177,32 @@ struct DenseSteps {
     return clouds.reduce(into: PointCloud()) { $0.append($1) }
   }
 
-  /// Concatenates the views' points in view order.
+  /// Concatenates the views' points in view order, thinned if there are too many.
   func cloud(_ context: StageContext) throws -> PointCloud {
-    var (cloud, accepted) = (PointCloud(), 0)
+    let thinning = CloudThinning(maximumPoints: options.maximumPoints)
+    var (cloud, points, accepted) = (PointCloud(), 0, 0)
     for index in views.indices {
       try context.step(index, of: views.views.count)
-      let key = views.key(.cloud, index)
-      guard let bytes = workspace.bytes(key), bytes.count >= 8,
-        cloud.append(encoded: bytes.dropFirst(8))
-      else { throw WorkspaceError.changed(file: workspace.url(key).path) }
-      accepted += bytes.withUnsafeBytes { Int(clamping: $0.loadUnaligned(as: UInt64.self)) }
+      let view = try fusedView(index)
+      (points, accepted) = (points + view.cloud.count, accepted + view.acceptedPatches)
+      if thinning.isNeeded(for: points) { cloud = PointCloud() } else { cloud.append(view.cloud) }
     }
     warnIfSparse(Double(accepted) / max(1, views.objectPixelCount), context.notes)
+    guard thinning.isNeeded(for: points) else { return cloud }
+    cloud = try thinning.run(parts: views.views.count, context) { try fusedView($0).cloud }
+    context.notes.log(
+      "Kept \(cloud.count) of \(points) points, as many as the memory allows.")
     return cloud
+  }
+
+  /// The points of a view, and the number of patches that they come from.
+  func fusedView(_ index: Int) throws -> (cloud: PointCloud, acceptedPatches: Int) {
+    let key = views.key(.cloud, index)
+    var cloud = PointCloud()
+    guard let bytes = workspace.bytes(key), bytes.count >= 8,
+      cloud.append(encoded: bytes.dropFirst(8))
+    else { throw WorkspaceError.changed(file: workspace.url(key).path) }
+    return (cloud, bytes.withUnsafeBytes { Int(clamping: $0.loadUnaligned(as: UInt64.self)) })
   }
 
   /// Records the share of accepted pixels, and warns if the cloud is too sparse.

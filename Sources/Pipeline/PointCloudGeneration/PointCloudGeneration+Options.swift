@@ -22,6 +22,9 @@ extension PointCloudGeneration {
     package var completes = true
     /// Share of the photos' pixels below which a warning calls the cloud sparse. Chosen.
     package var sparseRatio = 0.05
+    /// Points of the cloud, at most; more are thinned. `Machine.limits` sets that of the machine.
+    /// Chosen: more than any memory holds.
+    package var maximumPoints = 1 << 40
     /// Size in bytes of the cache of views and patch maps that are not in use. Chosen.
     package var cacheBytes = 512 << 20
 

@@ -49,6 +49,19 @@ package struct PointCloudGeneration {
     return cloud
   }
 
+  /// The points of each view in `folder`, with whatever is missing. Throws like `run`.
+  func fusedViews(
+    _ reconstruction: Reconstruction, images: ImageStore, folder: URL, _ context: StageContext
+  ) throws -> FusedViews {
+    let views = try DenseViews(reconstruction, images: images, options: options)
+    let workspace = try PatchWorkspace(folder: folder)
+    let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
+    let steps = DenseSteps(
+      views, workspace, plan, masks(of: views, reconstruction, images), options)
+    try steps.run(reconstruction, images, context)
+    return FusedViews(count: views.views.count) { try steps.fusedView($0).cloud }
+  }
+
   /// Computes the patches of a share of the views, with what they require from other views, and
   /// leaves all results in `folder`.
   ///

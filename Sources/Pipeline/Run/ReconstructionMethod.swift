@@ -98,7 +98,10 @@ struct ReconstructionMethod {
     return try cache.cloud(viewPixels: viewPixels) {
       let cloud = try recorder.run(.pointCloudGeneration, images: photos.images) { context in
         let cloud = try PointCloudGeneration(options: configuration.pointCloudGeneration)
-          .run(reconstruction, images: photos.images, folder: cache.checkpoint?.views, context)
+          .run(
+            reconstruction, images: photos.images,
+            folder: configuration.tiles == nil ? cache.checkpoint?.views : cache.viewFolder(),
+            context)
         CloudMetrics().run(cloud, reconstruction, context.notes)
         collector?.add(cloud)
         return cloud

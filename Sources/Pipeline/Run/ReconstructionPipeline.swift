@@ -137,7 +137,11 @@ package final class ReconstructionPipeline {
   ) throws {
     var specification = specification
     specification.maps.formIntersection(ModelFormat(of: url).maps)
-    try method(for: specification, hasPreview: hasPreview).writeModel(in: geometry, to: url)
+    let method = method(for: specification, hasPreview: hasPreview)
+    try method.writeModel(in: geometry, to: url)
+    if hasPreview, let tiles = configuration.tiles {
+      try method.writeTiles(in: geometry, to: tiles)
+    }
     try writeReport()
   }
 

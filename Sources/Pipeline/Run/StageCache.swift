@@ -29,6 +29,8 @@ final class StageCache {
   private var scene: ObjectScene?
   /// Folder of estimated masks of a run without a checkpoint directory.
   private var temporaryMasks: ScratchFolder?
+  /// Folder of the dense stage, if its files are needed later, of such a run.
+  private var temporaryViews: ScratchFolder?
   private var cloud: AtResolution<PointCloud>?
   private var surface: AtResolution<Mesh>?
 
@@ -155,6 +157,14 @@ extension StageCache {
     if let folder = checkpoint?.masks ?? temporaryMasks?.url { return folder }
     let folder = try ScratchFolder()
     temporaryMasks = folder
+    return folder.url
+  }
+
+  /// A folder for the files of the dense stage that is kept for later stages.
+  func viewFolder() throws -> URL {
+    if let folder = checkpoint?.views ?? temporaryViews?.url { return folder }
+    let folder = try ScratchFolder()
+    temporaryViews = folder
     return folder.url
   }
 

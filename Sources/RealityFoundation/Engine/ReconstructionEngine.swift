@@ -121,6 +121,7 @@ extension PipelineConfiguration {
     keepsReportMaterial = options.keepsReportMaterial
     export.glbCompression = options.compressesGLB ? GLBCompression() : nil
     maskOutput = options.maskOutput
+    tiles = options.tiles
     threadCount = options.threadCount
   }
 }

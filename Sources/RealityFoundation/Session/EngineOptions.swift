@@ -27,6 +27,8 @@ package struct EngineOptions: Equatable, Sendable {
   package var maskFolder: URL?
   /// Folder that receives the masks in use as PNG files; nil writes none.
   package var maskOutput: URL?
+  /// Where the scene is written in tiles of full detail, too; nil makes none.
+  package var tiles: TileOutput?
   /// Options of the configuration with another value, for measurements.
   package var overrides: [OptionOverride] = []
 

@@ -39,12 +39,14 @@ void remove_repeated(std::vector<Vertex>& sorted) {
 
 class BrickContour {
  public:
-  BrickContour(const std::vector<Level>& levels, const Leaves& leaves, size_t level, size_t brick)
-      : level_(levels[level]), leaves_(leaves), l_(level), b_(brick) {}
+  BrickContour(const std::vector<Level>& levels, const Leaves& leaves, const CellBox& box,
+               size_t level, size_t brick)
+      : level_(levels[level]), leaves_(leaves), box_(box), l_(level), b_(brick) {}
 
   Part run() {
     for (int i = 0; i < kBrick; ++i) {
-      if (!level_.nodes[b_][i] || !find_leaves(local_coordinates(i))) continue;
+      if (!level_.nodes[b_][i] || !is_in_box(local_coordinates(i))) continue;
+      if (!find_leaves(local_coordinates(i))) continue;
       for (const MarchingCubes::Triangle& t : MarchingCubes::shared().triangles(inside_)) add(t);
     }
     std::sort(part_.vertices.begin(), part_.vertices.end());
@@ -53,6 +55,12 @@ class BrickContour {
   }
 
  private:
+  bool is_in_box(Coordinates node) const {
+    const Coordinates brick = level_.bricks.coordinates(b_);
+    for (size_t a = 0; a < 3; ++a) node[a] += kSide * brick[a];
+    return box_.has_node(node, level_.depth);
+  }
+
   /// Finds the leaves around a node; false if it is a node of finer leaves, too, if the surface
   /// does not pass between them, or if it leaves the cube there.
   bool find_leaves(const Coordinates& node) {
@@ -109,6 +117,7 @@ class BrickContour {
 
   const Level& level_;
   const Leaves& leaves_;
+  const CellBox& box_;
   const size_t l_, b_;
   /// The leaves around the current node, and those of them inside the surface, as bits.
   std::array<Leaf, 8> corners_;
@@ -116,16 +125,19 @@ class BrickContour {
   Part part_;
 };
 
-std::vector<Part> make_parts(const std::vector<Level>& levels, double value,
+std::vector<Part> make_parts(const std::vector<Level>& levels, double value, const CellBox& box,
                              const ck_control* control) {
   const Leaves leaves(levels, value, control);
   std::vector<std::pair<size_t, size_t>> bricks;
   for (size_t l = 0; l < levels.size(); ++l) {
-    for (size_t b = 0; b < levels[l].bricks.count(); ++b) bricks.emplace_back(l, b);
+    for (size_t b = 0; b < levels[l].bricks.count(); ++b) {
+      const Coordinates brick = levels[l].bricks.coordinates(b);
+      if (box.touches(brick, levels[l].depth)) bricks.emplace_back(l, b);
+    }
   }
   std::vector<Part> parts(bricks.size());
   parallel_for(control, bricks.size(), [&](size_t i) {
-    parts[i] = BrickContour(levels, leaves, bricks[i].first, bricks[i].second).run();
+    parts[i] = BrickContour(levels, leaves, box, bricks[i].first, bricks[i].second).run();
   });
   parts.erase(std::remove_if(parts.begin(), parts.end(),
                              [](const Part& part) { return part.triangles.empty(); }),
@@ -154,9 +166,10 @@ std::vector<Vertex> merged_vertices(const std::vector<Part>& parts, const ck_con
 
 }  // namespace
 
-Contour contour(const std::vector<Level>& levels, double value, const ck_control* control) {
+Contour contour(const std::vector<Level>& levels, double value, const CellBox& box,
+                const ck_control* control) {
   const ProgressPart first(control, 0, 0.7), second(control, 0.7, 0.7), third(control, 0.7, 1);
-  const std::vector<Part> parts = make_parts(levels, value, first.control());
+  const std::vector<Part> parts = make_parts(levels, value, box, first.control());
   const std::vector<Vertex> vertices = merged_vertices(parts, second.control());
   std::vector<size_t> starts{0};
   for (const Part& part : parts) starts.push_back(starts.back() + part.triangles.size());

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "surface/poisson/cell_box.h"
 #include "surface/poisson/octree.h"
 
 namespace ck::poisson {
@@ -20,6 +21,9 @@ struct Contour {
 /// contouring of dual grids", Pacific Graphics 2004): the corners of its cells are the centers of
 /// the leaves around a node, which may coincide. Triangles are counter-clockwise seen from where
 /// the function is larger.
-Contour contour(const std::vector<Level>& levels, double value, const ck_control* control);
+///
+/// Only the part around the nodes in `box`; contours of boxes that adjoin fit together.
+Contour contour(const std::vector<Level>& levels, double value, const CellBox& box,
+                const ck_control* control);
 
 }  // namespace ck::poisson

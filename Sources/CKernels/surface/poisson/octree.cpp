@@ -94,6 +94,37 @@ void mark_sampled_cells(Level& level, const Samples& samples, const Neighborhood
   });
 }
 
+/// Adds the bricks of a base that are among those of a level or next to them, in whatever box that
+/// these fill.
+void add_bricks(const BrickSet& base, BrickSet& bricks, const ck_control* control) {
+  if (bricks.count() == 0) return;
+  Coordinates low = bricks.coordinates(0), high = low;
+  std::vector<uint64_t> codes;
+  for (size_t b = 0; b < bricks.count(); ++b) {
+    const Coordinates c = bricks.coordinates(b);
+    for (size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], c[a] - 1);
+      high[a] = std::max(high[a], c[a] + 1);
+    }
+    codes.push_back(bricks.code(b));
+  }
+  for (size_t b = 0; b < base.count(); ++b) {
+    const Coordinates c = base.coordinates(b);
+    bool is_near = true;
+    for (size_t a = 0; a < 3; ++a) is_near = is_near && low[a] <= c[a] && c[a] <= high[a];
+    if (is_near) codes.push_back(base.code(b));
+  }
+  bricks = BrickSet(std::move(codes), control);
+}
+
+void add_cells(const Level& base, Level& level, const ck_control* control) {
+  parallel_for(control, level.bricks.count(), [&](size_t b) {
+    const int32_t other = base.bricks.find(level.bricks.coordinates(b));
+    if (other >= 0) level.cells[b] |= base.cells[other];
+  });
+  drop_incomplete_cells(level, control);
+}
+
 /// Marks the corners of the cells.
 void mark_nodes(Level& level, const ck_control* control) {
   parallel_for(control, level.bricks.count(), [&](size_t b) {
@@ -142,6 +173,13 @@ void gather_samples(Level& level, const Samples& samples, const ck_control* cont
   }
 }
 
+}  // namespace
+
+bool Level::has_cell(size_t brick, const Coordinates& at) const {
+  const auto [other, index] = resolve(bricks, brick, at);
+  return other >= 0 && cells[other][index];
+}
+
 void find_parents(Level& level, const Level& above, const ck_control* control) {
   // Bricks that a thread works on at a time. Chosen: each takes much less than a microsecond.
   constexpr size_t kBlock = 1024;
@@ -152,15 +190,18 @@ void find_parents(Level& level, const Level& above, const ck_control* control) {
   });
 }
 
-}  // namespace
-
-bool Level::has_cell(size_t brick, const Coordinates& at) const {
-  const auto [other, index] = resolve(bricks, brick, at);
-  return other >= 0 && cells[other][index];
+void drop_incomplete_cells(Level& level, const ck_control* control) {
+  parallel_for(control, level.bricks.count(), [&](size_t b) {
+    for (int i = 0; i < kBrick; ++i) {
+      for (int k = 0; k < 8 && level.cells[b][i]; ++k) {
+        level.cells[b][i] = resolve(level.bricks, b, corner(local_coordinates(i), k)).first >= 0;
+      }
+    }
+  });
 }
 
 std::vector<Level> make_levels(const Samples& samples, int& depth, size_t maximum_bytes,
-                               const ck_control* control) {
+                               const std::vector<Level>& base, const ck_control* control) {
   std::vector<Level> levels;
   size_t all_bricks = 0;
   for (int d = kFirstDepth; d <= std::max(depth, kFirstDepth); ++d) {
@@ -170,6 +211,8 @@ std::vector<Level> make_levels(const Samples& samples, int& depth, size_t maximu
     level.depth = d;
     const Neighborhood around(depth - d);
     level.bricks = make_bricks(level, samples, around, part.control());
+    const Level* other = levels.size() < base.size() ? &base[levels.size()] : nullptr;
+    if (other) add_bricks(other->bricks, level.bricks, part.control());
     const size_t count = level.bricks.count();
     if (count == 0) break;
     all_bricks += count;
@@ -181,6 +224,7 @@ std::vector<Level> make_levels(const Samples& samples, int& depth, size_t maximu
     level.nodes.resize(count);
     d <= kFullDepth ? mark_all_cells(level)
                     : mark_sampled_cells(level, samples, around, part.control());
+    if (other) add_cells(*other, level, part.control());
     mark_nodes(level, part.control());
     gather_samples(level, samples, part.control());
     if (!levels.empty()) find_parents(level, levels.back(), part.control());

@@ -59,8 +59,14 @@ constexpr size_t kBytesPerBrick = 16 << 10;
 
 /// The levels from `kFirstDepth` to at most `depth`, without values: those for which
 /// `maximum_bytes` suffice, to whose depth `depth` is lowered, and those with all cells in any
-/// case.
+/// case. They also have the cells of `base` around the samples.
 std::vector<Level> make_levels(const Samples& samples, int& depth, size_t maximum_bytes,
-                               const ck_control* control);
+                               const std::vector<Level>& base, const ck_control* control);
+
+/// Finds the parents of a level's bricks.
+void find_parents(Level& level, const Level& above, const ck_control* control);
+
+/// Unmarks the cells some of whose corners are in no brick.
+void drop_incomplete_cells(Level& level, const ck_control* control);
 
 }  // namespace ck::poisson

@@ -17,11 +17,8 @@ constexpr size_t kBlock = 1 << 14;
 
 }  // namespace
 
-Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale,
+Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale, const Cube& given,
                  const ck_control* control) {
-  std::array<double, 3> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
   for (size_t i = 0; i < p.count; ++i) {
     if (!p.is_finite(i) || !n.is_finite(i)) continue;
     const double length = std::hypot(n[i][0], n[i][1], n[i][2]);
@@ -30,19 +27,46 @@ Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale,
     for (size_t a = 0; a < 3; ++a) {
       s.position[a] = p[i][a];
       s.normal[a] = static_cast<float>(n[i][a] / length);
-      low[a] = std::min<double>(low[a], p[i][a]);
-      high[a] = std::max<double>(high[a], p[i][a]);
     }
     samples.push_back(s);
   }
+  if (given.side > 0) {
+    cube = given;
+    remove_outside();
+  }
   if (samples.size() < 4) throw Degenerate("fewer than four oriented points");
-  side = 0;
-  for (size_t a = 0; a < 3; ++a) side = std::max(side, scale * (high[a] - low[a]));
-  if (!(side > 0)) throw Degenerate("all points are at one position");
-  for (size_t a = 0; a < 3; ++a) origin[a] = (low[a] + high[a]) / 2 - side / 2;
+  if (!(given.side > 0)) cube = cube_around(scale);
   const ck_control quiet{nullptr, nullptr, thread_count(control)};
   parallel_for_blocks(&quiet, samples.size(), kBlock, [&](size_t i) { move_to_cube(samples[i]); });
   sort(&quiet);
+}
+
+Cube Samples::cube_around(double scale) const {
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (const Sample& s : samples) {
+    for (size_t a = 0; a < 3; ++a) {
+      low[a] = std::min<double>(low[a], s.position[a]);
+      high[a] = std::max<double>(high[a], s.position[a]);
+    }
+  }
+  Cube result;
+  for (size_t a = 0; a < 3; ++a) result.side = std::max(result.side, scale * (high[a] - low[a]));
+  if (!(result.side > 0)) throw Degenerate("all points are at one position");
+  for (size_t a = 0; a < 3; ++a) result.origin[a] = (low[a] + high[a]) / 2 - result.side / 2;
+  return result;
+}
+
+void Samples::remove_outside() {
+  const auto is_outside = [&](const Sample& s) {
+    for (size_t a = 0; a < 3; ++a) {
+      const double at = (s.position[a] - cube.origin[a]) / cube.side;
+      if (!(at >= 0 && at < 1)) return true;
+    }
+    return false;
+  };
+  samples.erase(std::remove_if(samples.begin(), samples.end(), is_outside), samples.end());
 }
 
 /// Samples of one cell stay in the order of the input.
@@ -62,7 +86,7 @@ void Samples::move_to_cube(Sample& s) const {
   const float largest = std::nextafter(1.0f, 0.0f);
   Coordinates cell;
   for (size_t a = 0; a < 3; ++a) {
-    const double at = (static_cast<double>(s.position[a]) - origin[a]) / side;
+    const double at = (static_cast<double>(s.position[a]) - cube.origin[a]) / cube.side;
     s.position[a] = std::clamp(static_cast<float>(at), 0.0f, largest);
     cell[a] = static_cast<int>(std::ldexp(s.position[a], kCodeDepth));
   }

@@ -28,17 +28,22 @@ struct Sample {
 /// Depth of the codes. Limit: a code of three coordinates of 21 bits fits 64 bits.
 constexpr int kCodeDepth = 21;
 
-/// The finite points with a normal, in Morton order, with the transform to their frame:
-/// world = origin + side × position.
+/// The cube in which a surface is reconstructed: world = origin + side × position.
+struct Cube {
+  std::array<double, 3> origin{};
+  double side = 0;
+};
+
+/// The finite points with a normal, in Morton order.
 struct Samples {
   std::vector<Sample> samples;
-  std::array<double, 3> origin{};
-  double side = 1;
+  Cube cube;
 
-  /// `scale` is the side of the cube relative to the largest extent of the points. Throws
-  /// `Degenerate` if fewer than four are left, or all at one position.
+  /// `scale` is the side of the cube relative to the largest extent of the points, unless the side
+  /// of `given` is above zero; then points outside that cube are ignored. Throws `Degenerate` if
+  /// fewer than four are left, or all at one position.
   Samples(const Strided<float>& positions, const Strided<float>& normals, double scale,
-          const ck_control* control);
+          const Cube& given, const ck_control* control);
 
   /// The samples in a brick of a level: from `first` to before `second`.
   std::pair<size_t, size_t> range(uint64_t brick_code, int depth) const;
@@ -70,6 +75,8 @@ struct Samples {
   }
 
  private:
+  Cube cube_around(double scale) const;
+  void remove_outside();
   void move_to_cube(Sample& sample) const;
   void sort(const ck_control* control);
 };

@@ -23,6 +23,16 @@ void start_from(const Level& above, Level& level, const ck_control* control) {
   });
 }
 
+/// Takes the values of bricks that a base has, too.
+void take_values(const Level& base, Level& level, const ck_control* control) {
+  parallel_for(control, level.bricks.count(), [&](size_t b) {
+    const int32_t other = base.bricks.find(level.bricks.coordinates(b));
+    if (other < 0) return;
+    const auto first = base.values.begin() + other * std::ptrdiff_t{kBrick};
+    std::copy(first, first + kBrick, level.values.begin() + b * std::ptrdiff_t{kBrick});
+  });
+}
+
 /// The value at a sample in the finest cell that contains it.
 double value_at(const Sample& sample, const std::vector<Level>& levels) {
   for (size_t l = levels.size(); l-- > 0;) {
@@ -39,7 +49,8 @@ double value_at(const Sample& sample, const std::vector<Level>& levels) {
 
 }  // namespace
 
-void solve(std::vector<Level>& levels, const Samples& samples, const ck_control* control) {
+void solve(std::vector<Level>& levels, const Samples& samples, const std::vector<Level>& base,
+           const ck_control* control) {
   const ProgressPart first(control, 0, 0.4), second(control, 0.4, 1);
   make_right_hand_sides(levels, samples, first.control());
   double all = 0, done = 0;
@@ -50,7 +61,11 @@ void solve(std::vector<Level>& levels, const Samples& samples, const ck_control*
     const ProgressPart part(second.control(), done / all, (done + count) / all);
     level.values.assign(level.bricks.count() * kBrick, 0);
     if (l > 0) start_from(levels[l - 1], level, part.control());
-    relax(level, level.depth <= kFullDepth ? kFullSweeps : kSweeps, part.control());
+    if (l < base.size()) {
+      take_values(base[l], level, part.control());
+    } else {
+      relax(level, level.depth <= kFullDepth ? kFullSweeps : kSweeps, part.control());
+    }
     level.rhs = {};
     done += count;
   }

@@ -12,7 +12,9 @@ namespace ck::poisson {
 ///
 /// Cascadic multigrid: levels are solved from coarse to fine, each from the values of the one
 /// above, which also hold around its nodes.
-void solve(std::vector<Level>& levels, const Samples& samples, const ck_control* control);
+/// Levels of `base`, whose values are known, are not solved again.
+void solve(std::vector<Level>& levels, const Samples& samples, const std::vector<Level>& base,
+           const ck_control* control);
 
 /// The mean of the function at the samples, weighted by their areas.
 double mean_value(const std::vector<Level>& levels, const Samples& samples,

@@ -8,7 +8,7 @@ import Testing
 
 /// Runs on a real Slurm of two nodes.
 @Suite(
-  .endToEnd, .serialized,
+  .endToEnd, .mostlyWaiting, .serialized,
   .disabled(if: SlurmCluster.shortfall != nil, "\(SlurmCluster.shortfall ?? "")"))
 struct SlurmTests {
   private let temporary: TemporaryFolder

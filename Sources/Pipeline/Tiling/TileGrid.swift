@@ -1,0 +1,54 @@
+import Kernels
+import SceneModel
+
+/// Divides the cube of a scene into boxes with about the same number of points.
+struct TileGrid: Hashable, Codable, Sendable {
+  /// The cube in which the surface is solved, in the frame of the cloud.
+  let cube: Cube
+  /// Boxes that fill the cube without overlap, each with points.
+  private(set) var boxes: [CellBox]
+
+  /// Halves the box with too many points at the plane between cells that divides them best, across
+  /// its longest side, until all have at most `maximumPoints` or are one cell.
+  init(_ counts: CellCounts, maximumPoints: Int) {
+    cube = counts.cube
+    boxes = []
+    let side = Int32(1) << Int32(counts.depth)
+    var rest = [
+      (CellBox(depth: counts.depth, low: .zero, high: .init(repeating: side)), counts.cells)
+    ]
+    while let (box, cells) = rest.popLast() {
+      let split = Self.split(cells.map { ($0.key, $0.value) }, maximumPoints)
+      guard let split else {
+        if !cells.isEmpty { boxes.append(box) }
+        continue
+      }
+      var (first, second) = (box, box)
+      first.high[split.axis] = split.plane
+      second.low[split.axis] = split.plane
+      rest.append((second, cells.filter { $0.key[split.axis] >= split.plane }))
+      rest.append((first, cells.filter { $0.key[split.axis] < split.plane }))
+    }
+  }
+
+  /// The plane that halves some cells' points; nil if they are few enough or in one cell.
+  private static func split(
+    _ cells: [(cell: SIMD3<Int32>, count: Int)], _ maximumPoints: Int
+  ) -> (axis: Int, plane: Int32)? {
+    let total = cells.reduce(0) { $0 + $1.count }
+    guard total > maximumPoints, let first = cells.first?.cell else { return nil }
+    let low = cells.reduce(first) { pointwiseMin($0, $1.cell) }
+    let extent = cells.reduce(first) { pointwiseMax($0, $1.cell) } &- low
+    let axis = (0..<3).max { extent[$0] < extent[$1] } ?? 0
+    guard extent[axis] > 0 else { return nil }
+    var slices = [Int](repeating: 0, count: Int(extent[axis]) + 1)
+    for (cell, count) in cells { slices[Int(cell[axis] - low[axis])] += count }
+    var (before, best) = (0, (plane: 1, difference: Int.max))
+    for (slice, count) in slices.dropLast().enumerated() {
+      before += count
+      let difference = abs(total - 2 * before)
+      if difference < best.difference { best = (slice + 1, difference) }
+    }
+    return (axis, low[axis] + Int32(best.plane))
+  }
+}

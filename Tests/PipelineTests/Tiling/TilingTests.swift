@@ -1,0 +1,111 @@
+import Foundation
+import Kernels
+import SceneModel
+import TestLevels
+import TestSupport
+import Testing
+
+@testable import Pipeline
+
+/// Uneven ground with a gap, in tiles.
+@Suite(.endToEnd) struct TilingTests {
+  private static let gap: (center: SIMD2<Float>, radius: Float) = ([0.1, -0.05], 0.2)
+
+  /// The points of four views.
+  private let views: [PointCloud]
+  private let cloud: PointCloud
+  private let reconstruction: Reconstruction
+
+  init() {
+    var random = SeededGenerator(seed: 4)
+    views = (0..<4).map { view in
+      var cloud = PointCloud()
+      while cloud.count < 15_000 {
+        let (x, y) = (Float(random.uniform()) * 2 - 1, Float(random.uniform()) * 2 - 1)
+        guard (SIMD2(x, y) - Self.gap.center).length > Self.gap.radius else { continue }
+        let (slopeX, slopeY) = (
+          0.3 * cos(6 * x) * cos(6 * y), -0.3 * sin(6 * x) * sin(6 * y)
+        )
+        cloud.positions.append([x, 0.05 * sin(6 * x) * cos(6 * y), y])
+        cloud.normals.append(SIMD3<Float>(-slopeX, 1, -slopeY).normalized)
+        cloud.colors.append([100, 150, 200])
+        cloud.consistency.append(0.9)
+        cloud.footprints.append(0.008)
+        cloud.photoIndices += [UInt16(2 * view + 1), UInt16(2 * view + 3)]
+        cloud.photoOffsets.append(UInt32(cloud.photoIndices.count))
+      }
+      return cloud
+    }
+    cloud = views.reduce(into: PointCloud()) { $0.append($1) }
+    reconstruction = IsolationScene().reconstruction(target: .zero)
+  }
+
+  private func tiles(
+    maximumPoints: Int, baseDepth: Int = 6, threads: Int = 2
+  ) throws -> (base: TileBase, meshes: [Mesh]) {
+    var meshing = MeshGeneration()
+    meshing.options.isolatesObject = false
+    meshing.options.maximumDepth = baseDepth
+    var options = Tiling.Options()
+    options.maximumPoints = maximumPoints
+    let tiling = Tiling(
+      options: options, meshing: meshing, reconstruction: reconstruction, silhouettes: nil)
+    let context = StageContext(control: KernelControl(threadCount: threads))
+    let base = try tiling.base(
+      cloud, support: nil, FusedViews(count: 4) { [views] in views[$0] }, context)
+    let folder = try TemporaryFolder()
+    let solutions = TileSolutions(tiling: tiling, base: base, folder: folder.url)
+    var points = TilePoints(base.grid, reach: tiling.reach(base), in: folder.url)
+    for view in views { try points.add(view) }
+    try points.finish()
+    let tiles = base.grid.boxes.indices
+    for tile in tiles { try solutions.solve(tile, try points.points(of: tile), context) }
+    return (base, try tiles.compactMap { try solutions.surface($0, scene: cloud, context)?.mesh })
+  }
+
+  /// The edges with one triangle only, as the positions of their ends, if vertices at exactly the
+  /// same position are one.
+  private func openEdges(_ meshes: [Mesh]) -> [(SIMD3<Float>, SIMD3<Float>)] {
+    var uses: [[SIMD3<Float>]: Int] = [:]
+    for mesh in meshes {
+      for t in mesh.triangles {
+        let (a, b, c) = mesh.corners(of: t)
+        for (start, end) in [(a, b), (b, c), (c, a)] {
+          uses[[start, end], default: 0] += 1
+          uses[[end, start], default: 0] -= 1
+        }
+      }
+    }
+    return uses.filter { $0.value > 0 }.map { ($0.key[0], $0.key[1]) }
+  }
+
+  @Test func tilesFitTogether() throws {
+    let (base, meshes) = try tiles(maximumPoints: 8000)
+    #expect(base.grid.boxes.count >= 8 && meshes.count == base.grid.boxes.count)
+    for (start, _) in openEdges(meshes) {
+      let distance = (SIMD2(start.x, start.z) - Self.gap.center).length
+      #expect(
+        max(abs(start.x), abs(start.z)) > 0.95 || abs(distance - Self.gap.radius) < 0.03,
+        "\(start) is open.")
+    }
+  }
+
+  @Test func tilesAreWhatOneTileIs() throws {
+    let (_, meshes) = try tiles(maximumPoints: 8000)
+    let (_, one) = try tiles(maximumPoints: 1_000_000)
+    let count = { (meshes: [Mesh]) in meshes.reduce(0) { $0 + $1.triangles.count } }
+    #expect(one.count == 1)
+    #expect(abs(count(meshes) - count(one)) < count(one) / 50)
+    let errors = meshes.flatMap(\.positions).map {
+      abs($0.y - 0.05 * sin(6 * $0.x) * cos(6 * $0.z))
+    }
+    #expect((errors.max() ?? 1) < 0.01)
+  }
+
+  @Test func threadsDoNotMatter() throws {
+    let runs = try [1, 3].map { try tiles(maximumPoints: 20_000, threads: $0).meshes }
+    for (one, other) in zip(runs[0], runs[1]) {
+      #expect(one.positions == other.positions && one.triangles == other.triangles)
+    }
+  }
+}
