@@ -14,6 +14,7 @@ import Testing
     configuration.checkpointDirectory = folder
     configuration.maskOutput = folder
     configuration.previewFile = file
+    configuration.tiles = TileOutput(folder: folder, fileExtension: "glb")
     configuration.ingestion.maskFolder = folder
     configuration.alignment.worldAlignment.knownDistances = [
       KnownDistance(from: .camera("a.jpg"), to: .camera("b.jpg"), meters: 0.4)

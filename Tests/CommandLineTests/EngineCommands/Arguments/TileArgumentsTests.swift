@@ -28,17 +28,26 @@ import Testing
   @Test(.endToEnd) func theIndexListsTheTiles() throws {
     let folder = try TemporaryFolder()
     let tiles = folder.url.appendingPathComponent("tiles")
+    let photos = folder.url.appendingPathComponent("photos")
+    try FileManager.default.createDirectory(at: photos, withIntermediateDirectories: true)
+    let source = Fixtures.images(of: "orbit")
+    for name in try FileManager.default.contentsOfDirectory(atPath: source.path).sorted().prefix(8)
+    {
+      try FileManager.default.copyItem(
+        at: source.appendingPathComponent(name), to: photos.appendingPathComponent(name))
+    }
     func run(_ options: [String]) throws -> [Index.Tile] {
       let run = try CommandProcess.run(
         [
-          "reconstruct", Fixtures.images(of: "orbit").path, "m.usdz", "-d", "preview",
+          "reconstruct", "photos", "m.usdz", "-d", "preview",
           "--no-object-masking", "--checkpoint-directory", "work", "--tiles", "tiles",
+          "--set", "tiling.haloCells=16", "--set", "tiling.textureSide=512",
         ] + options, in: folder.url)
       #expect(run.exitCode == 0, "\(run.errors)")
       let data = try Data(contentsOf: tiles.appendingPathComponent("tiles.json"))
       return try JSONDecoder().decode(Index.self, from: data).tiles
     }
-    let several = try run(["--set", "tiling.maximumPoints=9000"])
+    let several = try run(["--set", "tiling.maximumPoints=8000"])
     #expect(several.count > 1 && several.allSatisfy { $0.triangles > 0 })
     let one = try run(["--set", "tiling.maximumPoints=1000000"])
     let files = try FileManager.default.contentsOfDirectory(atPath: tiles.path)
