@@ -40,7 +40,8 @@ struct DryRun {
     let coarser = coarserModels.map(\.level.limits)
     let durations = StageDurationModel(
       photos: PhotoTotals(ingested.photos), finest: limits, threadCount: threadCount,
-      masksObject: configuration.isObjectMaskingEnabled)
+      masksObject: configuration.isObjectMaskingEnabled,
+      makesTiles: arguments.engine.tiles.tiles != nil)
     expectedSeconds = coarser.reduce(durations.total) { sum, limits in
       [.textureMapping, .optimization].reduce(sum) {
         $0 + durations.seconds(of: WorkUnit(stage: $1, specification: limits))

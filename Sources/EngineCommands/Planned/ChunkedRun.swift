@@ -36,7 +36,7 @@ struct ChunkedRun {
     threads = arguments.engine.runArguments.threading.threads ?? Chunk.usualThreads
     durations = StageDurationModel(
       photos: PhotoTotals(count: count), finest: arguments.detail.limits, threadCount: threads,
-      masksObject: !arguments.noObjectMasking)
+      masksObject: !arguments.noObjectMasking, makesTiles: arguments.engine.tiles.tiles != nil)
     let name = output.url.lastPathComponent + ".plan"
     url =
       arguments.engine.slurm.planFolder.map { URL(fileURLWithPath: $0, isDirectory: true) }

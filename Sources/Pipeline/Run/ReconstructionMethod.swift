@@ -19,14 +19,24 @@ struct ReconstructionMethod {
   var viewPixels: Int { configuration.pointCloudGeneration.maximumPixelsPerView }
 
   /// Runs all steps, from the photos to the file. The model contains the part of the surface inside
-  /// the crop box, moved by the transform.
-  func writeModel(in geometry: ModelGeometry, to url: URL) throws {
+  /// the crop box, moved by the transform. Writes the scene in `tiles`, too.
+  func writeModel(in geometry: ModelGeometry, to url: URL, tiles: TileOutput? = nil) throws {
     let photos = try ingest()
     let reconstruction = try align(photos)
     let scene = try maskObject(photos, reconstruction)
     let surface = try surface(scene)
     let model = try texture(surface, scene, inside: geometry.crop)
-    try export(model, reconstruction, movedBy: geometry.transform, to: url)
+    let cloud = try tiles.map { _ in try densify(scene) }
+    try recorder.run(.optimization, images: tiles.map { _ in photos.images }) { context in
+      let end = tiles == nil ? 1 : 0.05
+      try export(
+        model, reconstruction, movedBy: geometry.transform, to: url,
+        context.part(from: 0, to: end))
+      guard let tiles, let cloud else { return }
+      try context.notes.step("tiles") {
+        try writeTiles(of: scene, cloud, in: geometry, to: tiles, context.part(from: end, to: 1))
+      }
+    }
   }
 
   /// Reads and validates the photos.
@@ -192,29 +202,27 @@ struct ReconstructionMethod {
   /// Writes the model in the format of the URL's extension, and renders a preview if configured.
   func export(
     _ model: TexturedMesh, _ reconstruction: Reconstruction, movedBy transform: AffineMap,
-    to url: URL
+    to url: URL, _ context: StageContext
   ) throws {
-    try recorder.run(.optimization) { context in
-      let end = configuration.previewFile == nil ? 1 : 0.7
-      let faces =
-        switch configuration.meshPrimitive {
-        case .triangle: model
-        case .quad: try QuadPairing().run(model, context.part(from: 0, to: 0))
-        }
-      try context.notes.step("export") {
-        try ModelExport(options: configuration.export)
-          .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
+    let end = configuration.previewFile == nil ? 1 : 0.7
+    let faces =
+      switch configuration.meshPrimitive {
+      case .triangle: model
+      case .quad: try QuadPairing().run(model, context.part(from: 0, to: 0))
       }
-      if let collector {
-        try context.notes.step("report") {
-          try collector.add(model, reconstruction, context.part(from: end, to: end))
-        }
-      }
-      guard let preview = configuration.previewFile else { return }
-      // The preview is rendered in the frame of the cameras.
-      try ModelPreview(configuration.preview).write(
-        model, cameras: reconstruction.poses.compactMap { $0 }, to: preview,
-        context.part(from: end, to: 1))
+    try context.notes.step("export") {
+      try ModelExport(options: configuration.export)
+        .run(faces.transformed(by: transform), to: url, context.part(from: 0, to: end))
     }
+    if let collector {
+      try context.notes.step("report") {
+        try collector.add(model, reconstruction, context.part(from: end, to: end))
+      }
+    }
+    guard let preview = configuration.previewFile else { return }
+    // The preview is rendered in the frame of the cameras.
+    try ModelPreview(configuration.preview).write(
+      model, cameras: reconstruction.poses.compactMap { $0 }, to: preview,
+      context.part(from: end, to: 1))
   }
 }

@@ -129,7 +129,7 @@ package final class ReconstructionPipeline {
   }
 
   /// Makes a model and writes it in the format of the URL's extension, with the maps that the
-  /// format supports. Renders a preview if the configuration names a file for it, unless
+  /// format supports. Renders a preview and writes tiles if the configuration says where, unless
   /// `hasPreview` is false.
   package func writeModel(
     _ specification: DetailSpecification, in geometry: ModelGeometry = ModelGeometry(),
@@ -137,11 +137,8 @@ package final class ReconstructionPipeline {
   ) throws {
     var specification = specification
     specification.maps.formIntersection(ModelFormat(of: url).maps)
-    let method = method(for: specification, hasPreview: hasPreview)
-    try method.writeModel(in: geometry, to: url)
-    if hasPreview, let tiles = configuration.tiles {
-      try method.writeTiles(in: geometry, to: tiles)
-    }
+    try method(for: specification, hasPreview: hasPreview)
+      .writeModel(in: geometry, to: url, tiles: hasPreview ? configuration.tiles : nil)
     try writeReport()
   }
 

@@ -1,3 +1,4 @@
+import Foundation
 import Kernels
 import SceneModel
 
@@ -8,17 +9,15 @@ struct TileBase {
   /// The coarse levels, which are solved for the whole scene.
   let solution: PoissonSolution
   let grid: TileGrid
+  /// Depth of the octree in tiles.
+  let depth: Int
   /// The typical footprint of all points, in world units.
   let footprint: Float
+  /// The footprint of the coarsest samples, in world units.
+  let coarsestFootprint: Float
   /// Side of the smallest voxels in which the points are averaged, in world units.
   let voxelSize: Double
 
-  /// Depth of the octree in tiles.
-  func depth(_ poisson: PoissonSurface) -> Int {
-    var poisson = poisson
-    // Limit: that of the kernel.
-    poisson.options.maximumDepth = 14
-    let extent = solution.cube.side / poisson.options.scale
-    return max(solution.depth, poisson.depth(extent: extent, spacing: voxelSize))
-  }
+  /// Spacing of the samples, or half a cell where cells are larger, in world units.
+  var spacing: Double { max(voxelSize, grid.cube.side / exp2(Double(depth)) / 2) }
 }

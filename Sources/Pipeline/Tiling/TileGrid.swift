@@ -1,3 +1,4 @@
+import Foundation
 import Kernels
 import SceneModel
 
@@ -5,13 +6,15 @@ import SceneModel
 struct TileGrid: Hashable, Codable, Sendable {
   /// The cube in which the surface is solved, in the frame of the cloud.
   let cube: Cube
+  /// The level whose cells the boxes consist of.
+  let depth: Int
   /// Boxes that fill the cube without overlap, each with points.
   private(set) var boxes: [CellBox]
 
   /// Halves the box with too many points at the plane between cells that divides them best, across
   /// its longest side, until all have at most `maximumPoints` or are one cell.
   init(_ counts: CellCounts, maximumPoints: Int) {
-    cube = counts.cube
+    (cube, depth) = (counts.cube, counts.depth)
     boxes = []
     let side = Int32(1) << Int32(counts.depth)
     var rest = [
@@ -50,5 +53,26 @@ struct TileGrid: Hashable, Codable, Sendable {
       if difference < best.difference { best = (slice + 1, difference) }
     }
     return (axis, low[axis] + Int32(best.plane))
+  }
+}
+
+extension TileGrid {
+  /// Side of a cell, in world units.
+  var cellSize: Double { cube.side / exp2(Double(depth)) }
+
+  /// The tile that a point belongs to is the one whose box has its cell; beyond the sides of the
+  /// cube, the nearest cell.
+  func cell(nearest point: SIMD3<Double>) -> SIMD3<Int32> {
+    let cell = ((point - cube.origin) / cellSize).rounded(.down)
+    let last = Double((1 << depth) - 1)
+    return SIMD3<Int32>(pointwiseMin(pointwiseMax(cell, .zero), .init(repeating: last)))
+  }
+
+  /// A box in the frame of the cloud: its lowest and its highest corner.
+  func corners(of box: CellBox) -> (low: SIMD3<Double>, high: SIMD3<Double>) {
+    (
+      cube.origin + SIMD3<Double>(box.low) * cellSize,
+      cube.origin + SIMD3<Double>(box.high) * cellSize
+    )
   }
 }

@@ -1,3 +1,4 @@
+import Formats
 import Foundation
 import Kernels
 import SceneModel
@@ -10,8 +11,10 @@ struct TilePoints {
   /// The tiles whose reach has a cell.
   private var tilesOfCell: [SIMD3<Int32>: [Int]] = [:]
   private var pending: [PointCloud]
+  /// The number of files of each tile.
+  private var fileCounts: [Int]
 
-  /// Points of a tile that are collected before they are written. Chosen: a few megabytes.
+  /// Points of a file. Chosen: a few megabytes.
   private static let blockSize = 50_000
 
   /// `reach` is the number of cells by which tiles reach beyond their boxes.
@@ -20,9 +23,10 @@ struct TilePoints {
     self.folder = folder
     reaches = grid.boxes.map { $0.dilated(by: reach) }
     pending = grid.boxes.map { _ in PointCloud() }
+    fileCounts = grid.boxes.map { _ in 0 }
   }
 
-  /// Adds points in the order in which they are to be read.
+  /// Adds points in the order in which they are to be read. Throws `OutputError`.
   mutating func add(_ cloud: PointCloud) throws {
     for (index, position) in cloud.positions.enumerated() {
       for tile in tiles(at: position) { pending[tile].append(cloud, index) }
@@ -30,43 +34,34 @@ struct TilePoints {
     for tile in pending.indices where pending[tile].count >= Self.blockSize { try write(tile) }
   }
 
-  /// Writes what is left. Called once, before the points are read.
-  mutating func finish() throws { for tile in pending.indices { try write(tile) } }
-
-  /// The points of a tile.
+  /// The points of a tile. Throws `WorkspaceError` if a file was changed or deleted.
   func points(of tile: Int) throws -> PointCloud {
     var cloud = PointCloud()
-    var rest = [UInt8](try Data(contentsOf: file(tile)))[...]
-    while rest.count >= 8 {
-      let count = rest.withUnsafeBytes { Int($0.loadUnaligned(as: UInt64.self)) }
-      guard count <= rest.count - 8, cloud.append(encoded: rest.dropFirst(8).prefix(count)) else {
-        throw WorkspaceError.changed(file: file(tile).path)
+    for number in 0..<fileCounts[tile] {
+      let url = file(tile, number)
+      guard let data = try? Data(contentsOf: url), cloud.append(encoded: [UInt8](data)[...]) else {
+        throw WorkspaceError.changed(file: url.path)
       }
-      rest = rest.dropFirst(8 + count)
     }
+    cloud.append(pending[tile])
     return cloud
   }
 
   private mutating func tiles(at position: SIMD3<Float>) -> [Int] {
-    let depth = grid.boxes.first?.depth ?? 0
-    guard let cell = grid.cube.cell(of: position, depth: depth) else { return [] }
+    guard let cell = grid.cube.cell(of: position, depth: grid.depth) else { return [] }
     if let known = tilesOfCell[cell] { return known }
     let found = reaches.indices.filter { reaches[$0].contains(cell) }
     tilesOfCell[cell] = found
     return found
   }
 
-  private func file(_ tile: Int) -> URL { folder.appendingPathComponent("\(tile).points") }
+  private func file(_ tile: Int, _ number: Int) -> URL {
+    folder.appendingPathComponent("\(tile)-\(number).points")
+  }
 
   private mutating func write(_ tile: Int) throws {
-    let bytes = pending[tile].encoded()
+    try AtomicFile.write(pending[tile].encoded(), to: file(tile, fileCounts[tile]))
     pending[tile] = PointCloud()
-    if !FileManager.default.fileExists(atPath: file(tile).path) {
-      try Data().write(to: file(tile))
-    }
-    let handle = try FileHandle(forWritingTo: file(tile))
-    try handle.seekToEnd()
-    try handle.write(contentsOf: withUnsafeBytes(of: UInt64(bytes.count)) { Data($0) } + bytes)
-    try handle.close()
+    fileCounts[tile] += 1
   }
 }

@@ -12,12 +12,9 @@ import SceneModel
 package struct Tiling {
   /// Parameters of tiles.
   package struct Options: Hashable, Codable, Sendable {
-    /// Points of a tile, at most. Chosen: about as many triangles, which viewers and texturing cope
-    /// with.
+    /// Points of a tile, at most. Chosen: tiles of several hundred thousand triangles, which
+    /// viewers and texturing cope with.
     var maximumPoints = 500_000
-    /// Finest cells by which the surface is made beyond a tile. Chosen: more than the 80 edges over
-    /// which boundaries are smoothed.
-    var haloCells = 128
     /// A hole or component with an extent below this share of the halo is seen as a whole by all
     /// tiles that it is part of. Chosen.
     var localShare = 0.25
@@ -26,8 +23,6 @@ package struct Tiling {
     var solverCells = 16
     /// Greatest depth of the boxes' lattice. Chosen: 128 cells per axis.
     var latticeDepth = 7
-    /// Side of the free-space cells, in spacings. Chosen: as `SurfaceTrimming`.
-    var freeSpaceSpacings = 2.0
     /// A point belongs to the scene if it is within this many voxels of one of its samples. Chosen.
     var sampleReach = 3.0
     /// Side of a tile's textures in texels, halved while the photos have less detail. Chosen: what
@@ -35,9 +30,6 @@ package struct Tiling {
     var textureSide = 4096
     /// Textures of a tile, at most. Chosen.
     var maximumAtlases = 4
-    /// Triangles of the rest of the scene that block the photos' view of a tile. Chosen: as in
-    /// `TextureMapping`.
-    var occluderTriangles = 100_000
 
     package init() {}
   }
@@ -47,7 +39,8 @@ package struct Tiling {
   let reconstruction: Reconstruction
   let silhouettes: Silhouettes?
 
-  /// What all tiles have in common; `cloud` is the thinned cloud of the scene.
+  /// What all tiles have in common; `cloud` is the thinned cloud of the scene, `views` has all
+  /// points.
   func base(
     _ cloud: PointCloud, support: SupportPlane?, _ views: FusedViews, _ context: StageContext
   ) throws -> TileBase {
@@ -58,80 +51,93 @@ package struct Tiling {
     poisson.options.maximumDepth = meshing.options.maximumDepth
     let solution = try poisson.solution(
       of: samples.cloud, spacing: samples.voxelSize, context.part(from: 0.3, to: 0.8))
-    let latticeDepth = min(options.latticeDepth, solution.depth)
-    var counts = CellCounts(cube: solution.cube, depth: latticeDepth)
+    var counts = CellCounts(
+      cube: solution.cube, depth: min(options.latticeDepth, solution.depth))
     var footprints: [Float] = []
     for view in 0..<views.count {
+      try context.control.step(0.8 + 0.2 * Double(view) / Double(views.count))
       let points = try views.points(view)
       counts.add(points.positions)
       if let median = points.medianFootprint { footprints.append(median) }
-      try context.control.step(0.8 + 0.2 * Double(view) / Double(views.count))
     }
     guard let footprint = footprints.quantile(0.5) else {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
     }
+    let voxelSize = Double(footprint) * meshing.options.downsampling.voxelFootprints
+    // Limit: the greatest depth of the kernel.
+    poisson.options.maximumDepth = 14
+    let depth = poisson.depth(
+      extent: solution.cube.side / poisson.options.scale, spacing: voxelSize)
     return TileBase(
       samples: samples, solution: solution,
-      grid: TileGrid(counts, maximumPoints: options.maximumPoints), footprint: footprint,
-      voxelSize: Double(footprint) * meshing.options.downsampling.voxelFootprints)
+      grid: TileGrid(counts, maximumPoints: options.maximumPoints),
+      depth: max(solution.depth, depth), footprint: footprint,
+      coarsestFootprint: samples.cloud.footprints.quantile(0.99) ?? footprint,
+      voxelSize: voxelSize)
   }
 
-  /// The surface of a tile and of its halo, before seams are adjusted, and its samples; nil if
-  /// there are too few.
-  func solve(
-    _ points: PointCloud, of base: TileBase, _ context: StageContext
-  ) throws -> (solution: PoissonSolution, samples: PointCloud)? {
-    let kept = try points.filtered(
-      by: isOfScene(points, base, context.control.part(from: 0, to: 0.1)))
-    let downsampling = VoxelDownsampling(options: meshing.options.downsampling)
-    let averaged = try downsampling.run(
-      kept, footprint: base.footprint, context.part(from: 0.1, to: 0.2))
-    let samples = try downsampling.withoutOutliers(
-      averaged, coarsest: base.samples.cloud.footprints.quantile(0.99),
-      context.control.part(from: 0.2, to: 0.3))
-    guard samples.count >= meshing.options.poisson.minimumPoints else { return nil }
-    let solution = try base.solution.refined(
-      positions: samples.positions, normals: samples.normals, depth: depth(base),
-      context.control.part(from: 0.3, to: 1))
-    return (solution, samples)
-  }
-
-  /// Whether points are near samples of the scene, and inside the masks.
-  private func isOfScene(
-    _ points: PointCloud, _ base: TileBase, _ control: KernelControl
-  ) throws -> [Bool] {
-    let nearest = try NearestPoints(
-      of: points.positions, in: base.samples.cloud.positions, control)
-    let isInside = try silhouettes?.areInside(points.positions, control)
-    return points.positions.indices.map { index in
-      let sample = nearest.indices[index]
-      guard sample >= 0, isInside?[index] != false else { return false }
-      let spacing = max(
-        Float(base.samples.voxelSize), base.samples.cloud.footprints[Int(sample)])
-      return nearest.distances[index] <= Float(options.sampleReach) * spacing
-    }
-  }
-
-  private func depth(_ base: TileBase) -> Int {
-    base.depth(PoissonSurface(options: meshing.options.poisson))
-  }
-
-  /// Cells of the lattice by which the surface of a tile is made beyond its box.
+  /// Cells of the lattice by which the surface of a tile is made beyond its box: beyond what is
+  /// seen as a whole, the edges over which boundaries are smoothed.
   func halo(_ base: TileBase) -> Int {
-    let finer = depth(base) - lattice(base)
-    return max(1, (options.haloCells + (1 << finer) - 1) >> finer)
+    let boundary = meshing.options.trimming.boundary
+    let cells = Double(boundary.steps + boundary.reach) / (1 - options.localShare)
+    return max(1, Int((cells / exp2(Double(base.depth - base.grid.depth))).rounded(.up)))
   }
 
   /// Cells of the lattice by which the points of a tile reach beyond its box.
   func reach(_ base: TileBase) -> Int {
-    let finer = max(0, base.solution.depth + 1 - lattice(base))
-    return halo(base) + max(1, (options.solverCells + (1 << finer) - 1) >> finer)
+    let finer = Double(base.solution.depth + 1 - base.grid.depth)
+    return halo(base) + max(1, Int((Double(options.solverCells) / exp2(finer)).rounded(.up)))
   }
 
-  private func lattice(_ base: TileBase) -> Int { base.grid.boxes.first?.depth ?? 0 }
+  /// The solution of a tile and of its surroundings, before seams are adjusted, and its samples;
+  /// nil if there are too few.
+  func solve(
+    _ tile: Int, _ points: PointCloud, of base: TileBase, _ context: StageContext
+  ) throws -> (solution: PoissonSolution, samples: PointCloud)? {
+    let kept = points.filtered(
+      by: try isOfScene(points, tile, base, context.control.part(from: 0, to: 0.1)))
+    let downsampling = VoxelDownsampling(options: meshing.options.downsampling)
+    let averaged = try downsampling.run(
+      kept, footprint: base.footprint, context.part(from: 0.1, to: 0.2))
+    let samples = try downsampling.withoutOutliers(
+      averaged, coarsest: base.coarsestFootprint, context.control.part(from: 0.2, to: 0.3))
+    guard samples.count >= meshing.options.poisson.minimumPoints else { return nil }
+    let solution = try base.solution.refined(
+      positions: samples.positions, normals: samples.normals, depth: base.depth,
+      context.control.part(from: 0.3, to: 1))
+    return (solution, samples)
+  }
 
+  /// Whether points of a tile are near samples of the scene, and inside the masks.
+  private func isOfScene(
+    _ points: PointCloud, _ tile: Int, _ base: TileBase, _ control: KernelControl
+  ) throws -> [Bool] {
+    let limits = base.samples.cloud.footprints.map {
+      Float(options.sampleReach) * max(Float(base.samples.voxelSize), $0)
+    }
+    // Only those that can be near enough.
+    let (low, high) = base.grid.corners(of: base.grid.boxes[tile].dilated(by: reach(base)))
+    let near = limits.indices.filter { index in
+      let (position, limit) = (base.samples.cloud.positions[index], limits[index])
+      return (0..<3).allSatisfy {
+        Double(position[$0] + limit) >= low[$0] && Double(position[$0] - limit) <= high[$0]
+      }
+    }
+    let nearest = try NearestPoints(
+      of: points.positions, in: near.map { base.samples.cloud.positions[$0] }, control)
+    let isInside = try silhouettes?.areInside(points.positions, control)
+    return points.positions.indices.map { index in
+      let sample = nearest.indices[index]
+      return sample >= 0 && isInside?[index] != false
+        && nearest.distances[index] <= limits[near[Int(sample)]]
+    }
+  }
+}
+
+extension Tiling {
   /// The final surface in the box of a tile, with normals and colors, from its solution with the
-  /// values of its neighbors; nil if there is none.
+  /// values of its neighbors; nil if there is none. `scene` is all that the photos observe.
   func surface(
     _ tile: Int, _ solution: PoissonSolution, samples: PointCloud, of base: TileBase,
     scene: PointCloud, _ context: StageContext
@@ -143,51 +149,44 @@ package struct Tiling {
     var trimming = SurfaceTrimming(options: meshing.options.trimming)
     trimming.options.holeFilling.fillsLarge = false
     let trimmed = try trimming.run(
-      solved, samples: samples, scene: scene, spacing: spacing(base),
+      solved, samples: samples, scene: scene, spacing: base.spacing,
       support: base.samples.support, silhouettes: silhouettes, part: part, reconstruction,
       context.part(from: 0.2, to: 0.8))
     guard !trimmed.triangles.isEmpty else { return nil }
     var mesh = try MeshCleaning(options: meshing.options.cleaning).run(
       trimmed, samples: samples, part: part, context.part(from: 0.8, to: 1))
-    mesh.triangles = mesh.triangles.filter { isOwned($0, of: mesh, box, base.grid.cube) }
+    mesh.triangles = mesh.triangles.filter { triangle in
+      let (a, b, c) = mesh.corners(of: triangle)
+      // In double precision the sum is exact, in whatever order.
+      let sum = SIMD3<Double>(a) + SIMD3<Double>(b) + SIMD3<Double>(c)
+      return box.contains(base.grid.cell(nearest: sum / 3))
+    }
     return mesh.triangles.isEmpty ? nil : mesh.withoutUnusedVertices()
   }
 
-  /// Whether the center of a triangle is in a box.
-  private func isOwned(_ triangle: Triangle, of mesh: Mesh, _ box: CellBox, _ cube: Cube) -> Bool {
-    let (a, b, c) = mesh.corners(of: triangle)
-    // In double precision the sum is exact, in whatever order.
-    let sum = SIMD3<Double>(a) + SIMD3<Double>(b) + SIMD3<Double>(c)
-    let cell = ((sum / 3 - cube.origin) / cube.side * exp2(Double(box.depth))).rounded(.down)
-    let last = Double((1 << box.depth) - 1)
-    return (0..<3).allSatisfy { axis in
-      let index = min(max(cell[axis], 0), last)
-      return index >= Double(box.low[axis]) && index < Double(box.high[axis])
-    }
-  }
-
-  /// Spacing of the samples, or half a cell where cells are larger.
-  private func spacing(_ base: TileBase) -> Double {
-    max(base.voxelSize, base.grid.cube.side / exp2(Double(depth(base))) / 2)
-  }
-
+  /// What stands for properties of the whole surface in a tile and its halo.
   private func part(around box: CellBox, _ base: TileBase) -> SurfacePart {
-    let halo = halo(base)
-    let cell = base.grid.cube.side / exp2(Double(box.depth))
+    let (halo, cell) = (halo(base), base.grid.cellSize)
+    let (low, high) = base.grid.corners(of: box.dilated(by: halo))
+    let local = options.localShare * Double(halo) * cell
+    return SurfacePart(
+      low: low, high: high, rim: 2 * base.spacing, minimumComponentArea: local * local,
+      extent: Float(local / meshing.options.trimming.holeFilling.smallShare),
+      freeSpaceCell: freeSpaceCell(base))
+  }
+
+  /// The same for all tiles: the largest part of a lattice cell of which none has too many.
+  private func freeSpaceCell(_ base: TileBase) -> Double {
+    let (halo, cell) = (halo(base), base.grid.cellSize)
     let largest =
       base.grid.boxes.map { box in
-        let size = box.dilated(by: halo).high &- box.dilated(by: halo).low
-        return Double(size.max()) * cell
+        let dilated = box.dilated(by: halo)
+        return Double((dilated.high &- dilated.low).max()) * cell
       }.max() ?? cell
-    let coarsest = max(
-      options.freeSpaceSpacings * spacing(base), 1.1 * largest / Double(FreeSpace.maximumCells))
-    let local = options.localShare * Double(halo) * cell
-    let dilated = box.dilated(by: halo)
-    return SurfacePart(
-      low: base.grid.cube.origin + SIMD3<Double>(dilated.low) * cell,
-      high: base.grid.cube.origin + SIMD3<Double>(dilated.high) * cell,
-      rim: 2 * spacing(base), minimumComponentArea: local * local,
-      extent: Float(local / meshing.options.trimming.holeFilling.smallShare),
-      freeSpaceCell: cell / max(1, (cell / coarsest).rounded(.down)))
+    // One cell less than the limit, for rounding.
+    let smallest = max(
+      meshing.options.trimming.cellSpacings * base.spacing,
+      largest / Double(FreeSpace.maximumCells - 1))
+    return cell / max(1, (cell / smallest).rounded(.down))
   }
 }

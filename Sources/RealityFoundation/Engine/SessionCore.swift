@@ -65,7 +65,7 @@ final class SessionCore: SessionWorker {
     let flag = try shared.withLock { shared in
       try shared.state.begin(
         task.plan, photoCount: task.input.fileCount, threadCount: task.options.threadCount,
-        at: now())
+        makesTiles: task.options.tiles != nil, at: now())
       // A flag can't be reset: after a cancellation, a new flag and a new engine are made.
       if shared.flag.isCancelled {
         shared.flag = CancellationFlag()

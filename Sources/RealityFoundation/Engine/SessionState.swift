@@ -33,9 +33,10 @@ struct SessionState: Sendable {
   /// Whether requests are being processed.
   var isProcessing: Bool { phase != .idle }
 
-  /// Begins a plan for approximately `photoCount` photos.
+  /// Begins a plan for approximately `photoCount` photos, with tiles besides the models if
+  /// `makesTiles` is set.
   mutating func begin(
-    _ plan: RunPlan, photoCount: Int, threadCount: Int, at time: Double
+    _ plan: RunPlan, photoCount: Int, threadCount: Int, makesTiles: Bool = false, at time: Double
   ) throws(ProcessingError) {
     guard phase == .idle else { throw .alreadyProcessing }
     phase = hasIngested ? .processing : .ingesting
@@ -44,7 +45,8 @@ struct SessionState: Sendable {
     lastReported = [:]
     specification = nil
     let durations = StageDurationModel(
-      photos: photos ?? .init(count: photoCount), finest: plan.finest, threadCount: threadCount)
+      photos: photos ?? .init(count: photoCount), finest: plan.finest, threadCount: threadCount,
+      makesTiles: makesTiles)
     self.durations = durations
     estimator = ProgressEstimator(units: plan.units, at: time) { [known] in
       known.contains($0) ? 0 : durations.seconds(of: $0)

@@ -27,14 +27,17 @@ package struct StageDurationModel: Sendable {
   package var denseShare: Double
   /// Whether masks of the object are estimated if none are given; otherwise those of the sky.
   package var masksObject: Bool
+  /// Whether the scene is written in tiles, too.
+  package var makesTiles: Bool
 
   package init(
     photos: PhotoTotals, finest: DetailSpecification, threadCount: Int,
-    alignment: AlignmentWork = .search, denseShare: Double = 1, masksObject: Bool = true
+    alignment: AlignmentWork = .search, denseShare: Double = 1, masksObject: Bool = true,
+    makesTiles: Bool = false
   ) {
     (self.photos, self.finest, self.threadCount) = (photos, finest, threadCount)
     (self.alignment, self.denseShare) = (alignment, denseShare)
-    self.masksObject = masksObject
+    (self.masksObject, self.makesTiles) = (masksObject, makesTiles)
   }
 
   /// Expected seconds of a model, from the photos to the file.
@@ -62,9 +65,13 @@ package struct StageDurationModel: Sendable {
     // The octree usually has the same depth for 0.2 MP and 0.5 MP, and is shallower below 0.12 MP.
     case .meshGeneration: view < 0.12 ? 1.5 : 5.2 * pow(view / 0.5, view < 0.5 ? 0.27 : 0.45)
     case .textureMapping: 0.025 * megapixels + 0.42 * texels + 11.8 * view.squareRoot()
-    case .optimization: 0.1 + 0.06 * texels
+    case .optimization:
+      0.1 + 0.06 * texels + (makesTiles && specification == finest ? tileSeconds(count * view) : 0)
     }
   }
+
+  /// Measured: on the town of 100 photos at reduced, with two threads.
+  private func tileSeconds(_ viewMegapixels: Double) -> Double { 12 * viewMegapixels }
 
   /// Seconds on a single thread, of the object's masks or of those of the sky.
   private func maskingSeconds(_ count: Double) -> Double {

@@ -41,7 +41,8 @@ import Testing
         [
           "reconstruct", "photos", "m.usdz", "-d", "preview",
           "--no-object-masking", "--checkpoint-directory", "work", "--tiles", "tiles",
-          "--set", "tiling.haloCells=16", "--set", "tiling.textureSide=512",
+          "--set", "meshGeneration.trimming.boundary.steps=8",
+          "--set", "meshGeneration.trimming.boundary.reach=4", "--set", "tiling.textureSide=512",
         ] + options, in: folder.url)
       #expect(run.exitCode == 0, "\(run.errors)")
       let data = try Data(contentsOf: tiles.appendingPathComponent("tiles.json"))
