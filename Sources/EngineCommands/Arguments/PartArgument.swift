@@ -8,7 +8,9 @@ struct PartArgument: ExpressibleByArgument {
   init?(argument: String) {
     let words = argument.split(separator: ":", omittingEmptySubsequences: false).map(String.init)
     let block = words.count == 2 ? JobArgument(argument: words[1])?.share : nil
-    let parts: [String: RunPart] = ["photos": .photos, "pairs": .pairs, "cameras": .cameras]
+    let parts: [String: RunPart] = [
+      "photos": .photos, "pairs": .pairs, "cameras": .cameras, "surface": .surface,
+    ]
     if words.count == 1, let part = parts[words[0]] {
       self.part = part
     } else if let block {
@@ -25,7 +27,9 @@ struct PartArgument: ExpressibleByArgument {
     switch name {
     case "features": .features(block)
     case "matches": .matches(block)
-    default: DensePart(rawValue: name).map { .views($0, block) }
+    default:
+      DensePart(rawValue: name).map { .views($0, block) }
+        ?? TilePart(rawValue: name).map { .tiles($0, block) }
     }
   }
 }

@@ -7,12 +7,14 @@ enum MachineLimits {
   /// For a set of `photos` photos if it is divided into chunks: each then needs the memory of its
   /// own part only.
   static func arguments(photos: Int = 0) -> [String] {
-    let ingestion = PipelineConfiguration().ingestion
+    let limits = Machine.current.limits
     return [
-      ("memoryBudget", ingestion.memoryBudget),
-      ("maximumPhotos", max(photos, ingestion.maximumPhotos)),
-      ("inspection.limits.maximumSide", ingestion.inspection.limits.maximumSide),
-    ].flatMap { ["--set", "ingestion.\($0)=\($1)"] }
+      ("ingestion.memoryBudget", limits.imageMemory),
+      ("ingestion.maximumPhotos", max(photos, limits.maximumPhotos)),
+      ("ingestion.inspection.limits.maximumSide", limits.maximumPhotoSide),
+      ("pointCloudGeneration.maximumPoints", limits.cloudPoints),
+      ("meshGeneration.poisson.maximumBytes", limits.surfaceMemory),
+    ].flatMap { ["--set", "\($0)=\($1)"] }
   }
 }
 

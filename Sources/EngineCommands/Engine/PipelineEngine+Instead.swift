@@ -1,6 +1,7 @@
 import Foundation
 import Pipeline
 import RealityFoundation
+import SceneModel
 import SharedCommands
 
 // What `reconstruct` does instead of a run: a dry run, a part of a run, or a run on many machines.
@@ -52,11 +53,12 @@ extension PipelineEngine {
     runArguments.report = nil
     let plan = EngineRun.Plan(
       source: .photos(in: photos), stages: part.stages, limits: arguments.detail.limits,
-      alignment: part.isView ? .none : .search, access: .parts,
+      alignment: part.hasCameras ? .none : .search, access: .parts,
       untilInputEnds: arguments.untilInputEnds)
     let run = try EngineRun(plan, configuration, runArguments, reporter)
     try run.perform(missing: "the part was not made") { pipeline in
-      try pipeline.make(part, for: plan.limits)
+      try pipeline.make(
+        part, for: plan.limits, in: ModelGeometry(arguments.shape.geometry ?? .init()))
     }
     reporter.event(RunEvent("complete") { $0.seconds = reporter.elapsed })
   }
@@ -71,10 +73,20 @@ extension RunPart {
     case .cameras: [.preProcessing, .imageAlignment, .objectMasking]
     case .views:
       [.preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration]
+    case .surface:
+      [
+        .preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration, .meshGeneration,
+        .optimization,
+      ]
+    case .tiles: [.preProcessing, .imageAlignment, .objectMasking, .optimization]
     }
   }
 
-  fileprivate var isView: Bool {
-    if case .views = self { true } else { false }
+  /// Whether cameras have been found before.
+  fileprivate var hasCameras: Bool {
+    switch self {
+    case .photos, .features, .pairs, .matches, .cameras: false
+    case .views, .surface, .tiles: true
+    }
   }
 }

@@ -84,16 +84,40 @@ struct ChunkedRun {
         stage(
           "cameras", seconds: 0.4 * alignment + durations.seconds(of: [.objectMasking]),
           holdsAll: true),
-      ] + views + [
+      ] + views + tileStages(blocks) + [
         ChunkStage(
           name: "model",
           chunks: [
             chunk(
               "model", part: nil,
-              seconds: durations.seconds(of: [.meshGeneration, .textureMapping, .optimization]),
+              seconds: durations.seconds(of: [.textureMapping])
+                + (hasTiles
+                  ? withoutTiles.seconds(of: [.optimization])
+                  : durations.seconds(of: [.meshGeneration, .optimization])),
               holdsAll: true)
           ])
       ])
+  }
+
+  private var hasTiles: Bool { durations.makesTiles }
+
+  private var withoutTiles: StageDurationModel {
+    var result = durations
+    result.makesTiles = false
+    return result
+  }
+
+  /// The stages that make tiles, and before them the surface that hides tiles from photos.
+  private func tileStages(_ blocks: Int) -> [ChunkStage] {
+    guard hasTiles else { return [] }
+    let seconds =
+      durations.seconds(of: [.optimization]) - withoutTiles.seconds(of: [.optimization])
+    return [
+      stage("surface", seconds: durations.seconds(of: [.meshGeneration]), holdsAll: true)
+    ]
+      + TilePart.allCases.map {
+        stage($0.rawValue, blocks: blocks, seconds: $0.cost * seconds, holdsAll: true)
+      }
   }
 
   /// A stage of `blocks` chunks, which take `seconds` together; of a single chunk without a number
@@ -128,11 +152,19 @@ struct ChunkedRun {
     let memory = arguments.detail.detail.expectedMemoryBytes + Chunk.spareMemory
     return Chunk(
       name: name, arguments: words, directory: FileManager.default.currentDirectoryPath,
-      reads: [photos.standardizedFileURL.path, work], writes: part == nil ? results : [work],
+      reads: [photos.standardizedFileURL.path, work],
+      writes: part == nil ? results : [work] + tileFolder(part),
       areSealed: part != nil, scratch: part == nil && !isKept ? work : nil,
       fingerprint: InputFingerprint.text(of: [], options: words + [input]),
       expectedSeconds: seconds, threads: threads,
       memoryBytes: memory + (holdsAll ? count * Self.bytesPerPhoto : 0))
+  }
+
+  /// The folder that the chunks of tiles write to.
+  private func tileFolder(_ part: String?) -> [String] {
+    guard part?.hasPrefix(TilePart.tiles.rawValue + ":") == true else { return [] }
+    return arguments.engine.tiles.tiles.map { [URL(fileURLWithPath: $0).standardizedFileURL.path] }
+      ?? []
   }
 
   /// The paths of the files that the run writes.

@@ -12,6 +12,7 @@ import SceneModel
 /// dense/views/                            patches of each view, to resume the dense stage
 /// mesh/surface.ply                        before simplification
 /// mesh/surface.json                       the inputs of the surface
+/// tiles/                                  surfaces of tiles before they are joined
 /// units/                                  features and matches that several processes share
 /// report.json
 /// ```
@@ -45,6 +46,15 @@ package struct Checkpoint {
       try? FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     }
     return folder.isExistingFolder ? UnitStore(folder: folder, isWritten: isWritten) : nil
+  }
+
+  /// The folder of `TileStore`, which is created. Throws `OutputError`.
+  func tileFolder() throws -> URL {
+    do {
+      return try folder("tiles")
+    } catch {
+      throw OutputError.notWritable(path: directory.path)
+    }
   }
 
   /// The folder of COLMAP's text files.
@@ -88,7 +98,7 @@ package struct Checkpoint {
 
   /// Removes the unfinished files of runs that were killed.
   func removeRemains() {
-    for name in ["", "sparse", "masks", "dense", "mesh", "stages"] {
+    for name in ["", "sparse", "masks", "dense", "mesh", "stages", "tiles"] {
       UnfinishedFiles.remove(from: directory.appendingPathComponent(name, isDirectory: true))
     }
   }

@@ -38,7 +38,7 @@ private struct AlignmentRecord: Codable {
   var cameras: [Camera]
   var cameraOfPhoto: [ID<Camera>]
   var poses: [RigidTransform?]
-  var points: [ScenePoint]
+  var points: PackedPoints
   var worldFrame: WorldFrame
   var unregistered: [RejectedPhoto]
   var notes: SavedNotes
@@ -51,7 +51,7 @@ extension StageStore {
     let record = AlignmentRecord(
       masks: aligned.masks, cameras: reconstruction.cameras,
       cameraOfPhoto: reconstruction.photos.map(\.camera),
-      poses: reconstruction.poses, points: reconstruction.points,
+      poses: reconstruction.poses, points: PackedPoints(reconstruction.points),
       worldFrame: reconstruction.worldFrame, unregistered: reconstruction.unregistered,
       notes: SavedNotes(notes))
     try write(record, "alignment", madeFrom: inputs.alignment)
@@ -62,14 +62,14 @@ extension StageStore {
   func alignment(of photos: [Photo], _ notes: StageNotes) -> AlignedPhotos? {
     guard let record: AlignmentRecord = read("alignment", madeFrom: inputs.alignment),
       record.cameraOfPhoto.count == photos.count, record.poses.count == photos.count,
-      record.masks?.areIntact ?? true
+      record.masks?.areIntact ?? true, let points = record.points.points
     else { return nil }
     var photos = photos
     for (index, camera) in record.cameraOfPhoto.enumerated() { photos[index].camera = camera }
     record.notes.replay(to: notes)
     return AlignedPhotos(
       reconstruction: Reconstruction(
-        cameras: record.cameras, photos: photos, poses: record.poses, points: record.points,
+        cameras: record.cameras, photos: photos, poses: record.poses, points: points,
         worldFrame: record.worldFrame, unregistered: record.unregistered),
       masks: record.masks)
   }

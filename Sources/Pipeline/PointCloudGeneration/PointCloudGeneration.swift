@@ -49,17 +49,26 @@ package struct PointCloudGeneration {
     return cloud
   }
 
-  /// The points of each view in `folder`, with whatever is missing. Throws like `run`.
+  /// The points of each view in `folder`, which are read when they are used; those of a file that
+  /// is missing or damaged are computed again.
   func fusedViews(
-    _ reconstruction: Reconstruction, images: ImageStore, folder: URL, _ context: StageContext
+    _ reconstruction: Reconstruction, images: ImageStore, folder: URL, _ control: KernelControl
   ) throws -> FusedViews {
     let views = try DenseViews(reconstruction, images: images, options: options)
     let workspace = try PatchWorkspace(folder: folder)
-    let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
-    let steps = DenseSteps(
-      views, workspace, plan, masks(of: views, reconstruction, images), options)
-    try steps.run(reconstruction, images, context)
-    return FusedViews(count: views.views.count) { try steps.fusedView($0).cloud }
+    let masks = masks(of: views, reconstruction, images)
+    let steps = { @Sendable [options] (indices: [Int]) in
+      DenseSteps(
+        views, workspace, try DensePlan(.cloud, of: indices, views, workspace, control), masks,
+        options)
+    }
+    let complete = try steps([])
+    return FusedViews(count: views.views.count) { view in
+      if let found = try? complete.fusedView(view) { return found.cloud }
+      let missing = try steps([view])
+      try missing.run(reconstruction, images, StageContext(control: control))
+      return try missing.fusedView(view).cloud
+    }
   }
 
   /// Computes the patches of a share of the views, with what they require from other views, and

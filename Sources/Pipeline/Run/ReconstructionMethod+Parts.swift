@@ -2,8 +2,9 @@ import Kernels
 import SceneModel
 
 extension ReconstructionMethod {
-  /// Makes a part of the work from the parts before it.
-  func make(_ part: RunPart) throws {
+  /// Makes a part of the work from the parts before it. Tiles contain the part of the surface that
+  /// `geometry` selects.
+  func make(_ part: RunPart, in geometry: ModelGeometry) throws {
     let photos = try ingest()
     switch part {
     case .photos: break
@@ -11,10 +12,17 @@ extension ReconstructionMethod {
       try alignmentPart(photos) { try $0.makeFeatures(of: block, $1) }
     case .pairs: try alignmentPart(photos) { try $0.selectPairs($1) }
     case .matches(let block): try alignmentPart(photos) { try $0.match(block, $1) }
-    case .cameras: _ = try maskObject(photos, try align(photos))
-    case .views(let part, let block):
-      try make(part, block, of: try maskObject(photos, try align(photos)))
+    case .cameras: _ = try scene(photos)
+    case .views(let part, let block): try make(part, block, of: try scene(photos))
+    case .surface:
+      try tilePart(try scene(photos), in: geometry) { try prepareTiles($0, $1) }
+    case .tiles(let part, let block):
+      try tilePart(try scene(photos), in: geometry) { try make(part, block, of: $0, $1) }
     }
+  }
+
+  private func scene(_ photos: PhotoSet) throws -> ObjectScene {
+    try maskObject(photos, try align(photos))
   }
 
   private func alignmentPart(
@@ -37,6 +45,17 @@ extension ReconstructionMethod {
           part.step, block, of: scene.reconstruction, images: scene.photos.images, folder: folder,
           context)
     }
+  }
+
+  private func tilePart(
+    _ scene: ObjectScene, in geometry: ModelGeometry,
+    _ body: (TileInput, StageContext) throws -> Void
+  ) throws {
+    guard let output = configuration.tiles else {
+      throw KernelError.invalidArgument("a part of the tiles needs a folder for them")
+    }
+    let input = try tileInput(scene, in: geometry, to: output)
+    try recorder.run(.optimization, images: scene.photos.images) { try body(input, $0) }
   }
 
   private static var noDirectory: KernelError {

@@ -26,16 +26,14 @@ struct ReconstructionMethod {
     let scene = try maskObject(photos, reconstruction)
     let surface = try surface(scene)
     let model = try texture(surface, scene, inside: geometry.crop)
-    let cloud = try tiles.map { _ in try densify(scene) }
+    let tiles = try tiles.map { try tileInput(scene, in: geometry, to: $0) }
     try recorder.run(.optimization, images: tiles.map { _ in photos.images }) { context in
       let end = tiles == nil ? 1 : 0.05
       try export(
         model, reconstruction, movedBy: geometry.transform, to: url,
         context.part(from: 0, to: end))
-      guard let tiles, let cloud else { return }
-      try context.notes.step("tiles") {
-        try writeTiles(of: scene, cloud, in: geometry, to: tiles, context.part(from: end, to: 1))
-      }
+      guard let tiles else { return }
+      try context.notes.step("tiles") { try writeTiles(tiles, context.part(from: end, to: 1)) }
     }
   }
 

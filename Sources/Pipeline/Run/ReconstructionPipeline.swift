@@ -104,10 +104,13 @@ package final class ReconstructionPipeline {
     }
   }
 
-  /// Makes a part of the work for a model of `specification`, from the parts before it. The
-  /// checkpoint directory, which is required, holds the results; access is `.parts`.
-  package func make(_ part: RunPart, for specification: DetailSpecification) throws {
-    try method(for: specification).make(part)
+  /// Makes a part of the work for a model of `specification`, from the parts before it. Tiles
+  /// contain the part of the surface that `geometry` selects. The checkpoint directory, which is
+  /// required, holds the results; access is `.parts`.
+  package func make(
+    _ part: RunPart, for specification: DetailSpecification, in geometry: ModelGeometry
+  ) throws {
+    try method(for: specification).make(part, in: geometry)
   }
 
   /// Makes the unsimplified surface of the object, or of the whole scene if masking is off.

@@ -15,4 +15,8 @@ package enum RunPart: Hashable, Sendable {
   case cameras
   /// A step of the dense stage for a block of the views.
   case views(DensePart, Block)
+  /// The surface of the whole scene, and what all its tiles need.
+  case surface
+  /// A step of the work on tiles for a block of them.
+  case tiles(TilePart, Block)
 }

@@ -31,6 +31,9 @@ final class StageCache {
   private var temporaryMasks: ScratchFolder?
   /// Folder of the dense stage, if its files are needed later, of such a run.
   private var temporaryViews: ScratchFolder?
+  /// Folder of the tiles' intermediate files, of a run without a checkpoint directory, or whose
+  /// cameras were given.
+  private var temporaryTiles: ScratchFolder?
   private var cloud: AtResolution<PointCloud>?
   private var surface: AtResolution<Mesh>?
 
@@ -165,6 +168,23 @@ extension StageCache {
     if let folder = checkpoint?.views ?? temporaryViews?.url { return folder }
     let folder = try ScratchFolder()
     temporaryViews = folder
+    return folder.url
+  }
+
+  /// What is made of tiles.
+  func tileStore(of photos: PhotoSet, _ configuration: PipelineConfiguration) throws -> TileStore {
+    var inputs = Fingerprint()
+    inputs.add(try RunInputs(photos, configuration).surface)
+    inputs.add(try Fingerprint.content(of: configuration.tiling))
+    let checkpoint = sealsStages ? checkpoint : nil
+    return TileStore(
+      folder: try checkpoint?.tileFolder() ?? temporaryTileFolder(), isShared: checkpoint != nil,
+      inputs: inputs.value)
+  }
+
+  private func temporaryTileFolder() throws -> URL {
+    let folder = try temporaryTiles ?? ScratchFolder()
+    temporaryTiles = folder
     return folder.url
   }
 

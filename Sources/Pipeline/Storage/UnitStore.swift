@@ -11,6 +11,7 @@ struct UnitStore: Sendable {
   /// What a result is: the start of its file's name.
   enum Kind: String, Sendable {
     case photos, features, pairs, matches
+    case tileBase, tileSurroundings, solvedTile, writtenTile
   }
 
   let folder: URL
@@ -25,11 +26,15 @@ struct UnitStore: Sendable {
   ) throws -> Value {
     if let found: Value = find(kind, madeFrom: fingerprint) { return found }
     let value = try make()
-    if isWritten {
-      try SealedFile.write(
-        try value.unitData(), madeFrom: key(fingerprint), to: file(kind, fingerprint))
-    }
+    try save(value, kind, madeFrom: fingerprint)
     return value
+  }
+
+  /// Seals a result, if results are written. Throws `OutputError`.
+  func save(_ value: some UnitValue, _ kind: Kind, madeFrom fingerprint: UInt64) throws {
+    guard isWritten else { return }
+    try SealedFile.write(
+      try value.unitData(), madeFrom: key(fingerprint), to: file(kind, fingerprint))
   }
 
   /// A result that was sealed before; nil if there is none.

@@ -9,12 +9,18 @@ struct CellCounts: Sendable {
 
   init(cube: Cube, depth: Int) { (self.cube, self.depth) = (cube, depth) }
 
-  /// Counts points; those outside the cube are ignored.
-  mutating func add(_ positions: [SIMD3<Float>]) {
+  /// Counts points; those outside the cube are ignored. Returns the box around their cells.
+  @discardableResult
+  mutating func add(_ positions: [SIMD3<Float>]) -> CellBox? {
+    var box: CellBox?
     for position in positions {
       guard let cell = cube.cell(of: position, depth: depth) else { continue }
       cells[cell, default: 0] += 1
+      let (low, high) = (box?.low ?? cell, box?.high ?? cell)
+      box = CellBox(
+        depth: depth, low: pointwiseMin(low, cell), high: pointwiseMax(high, cell &+ 1))
     }
+    return box
   }
 }
 

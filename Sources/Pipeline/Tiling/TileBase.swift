@@ -9,15 +9,48 @@ struct TileBase {
   /// The coarse levels, which are solved for the whole scene.
   let solution: PoissonSolution
   let grid: TileGrid
+  /// For each view, the cells of the grid's level around its points; nil without points.
+  let viewBoxes: [CellBox?]
   /// Depth of the octree in tiles.
   let depth: Int
   /// The typical footprint of all points, in world units.
   let footprint: Float
-  /// The footprint of the coarsest samples, in world units.
-  let coarsestFootprint: Float
   /// Side of the smallest voxels in which the points are averaged, in world units.
   let voxelSize: Double
 
   /// Spacing of the samples, or half a cell where cells are larger, in world units.
   var spacing: Double { max(voxelSize, grid.cube.side / exp2(Double(depth)) / 2) }
+
+  /// The footprint of the coarsest samples, in world units.
+  var coarsestFootprint: Float { samples.cloud.footprints.quantile(0.99) ?? footprint }
+}
+
+extension TileBase: UnitValue {
+  private struct Record: LargeUnitValue {
+    var samples: SurfaceSamples
+    var solution: Data
+    var grid: TileGrid
+    var viewBoxes: [CellBox?]
+    var depth: Int
+    var footprint: Float
+    var voxelSize: Double
+  }
+
+  init?(unit: Data) {
+    guard let record = Record(unit: unit) else { return nil }
+    let solution = record.solution.withUnsafeBytes {
+      try? PoissonSolution(encoded: $0, for: record.grid.whole, KernelControl())
+    }
+    guard let solution else { return nil }
+    self.init(
+      samples: record.samples, solution: solution, grid: record.grid, viewBoxes: record.viewBoxes,
+      depth: record.depth, footprint: record.footprint, voxelSize: record.voxelSize)
+  }
+
+  func unitData() throws -> Data {
+    try Record(
+      samples: samples, solution: Data(try solution.encoded(for: grid.whole)), grid: grid,
+      viewBoxes: viewBoxes, depth: depth, footprint: footprint, voxelSize: voxelSize
+    ).unitData()
+  }
 }

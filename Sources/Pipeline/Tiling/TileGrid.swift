@@ -16,10 +16,7 @@ struct TileGrid: Hashable, Codable, Sendable {
   init(_ counts: CellCounts, maximumPoints: Int) {
     (cube, depth) = (counts.cube, counts.depth)
     boxes = []
-    let side = Int32(1) << Int32(counts.depth)
-    var rest = [
-      (CellBox(depth: counts.depth, low: .zero, high: .init(repeating: side)), counts.cells)
-    ]
+    var rest = [(Self.whole(counts.depth), counts.cells)]
     while let (box, cells) = rest.popLast() {
       let split = Self.split(cells.map { ($0.key, $0.value) }, maximumPoints)
       guard let split else {
@@ -57,6 +54,13 @@ struct TileGrid: Hashable, Codable, Sendable {
 }
 
 extension TileGrid {
+  /// The box of the whole cube.
+  var whole: CellBox { Self.whole(depth) }
+
+  private static func whole(_ depth: Int) -> CellBox {
+    CellBox(depth: depth, low: .zero, high: .init(repeating: 1 << Int32(depth)))
+  }
+
   /// Side of a cell, in world units.
   var cellSize: Double { cube.side / exp2(Double(depth)) }
 

@@ -18,13 +18,19 @@ package struct TileOutput: Hashable, Codable, Sendable {
     folder.appendingPathComponent(String(format: "tile-%04d.", number) + fileExtension)
   }
 
-  /// Creates the folder, and removes the tiles of an earlier run.
-  func prepare() throws {
-    try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
+  /// Creates the folder, and removes the index of an earlier run and its tiles, except some. Throws
+  /// `OutputError`.
+  func prepare(keeping kept: Set<String>) throws {
+    do {
+      try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
+    } catch {
+      throw OutputError.notWritable(path: folder.path)
+    }
     guard let data = try? Data(contentsOf: index),
       let earlier = try? JSONDecoder().decode(TileIndex.self, from: data)
     else { return }
-    for file in [index.lastPathComponent] + earlier.tiles.map(\.file) where !file.contains("/") {
+    try? FileManager.default.removeItem(at: index)
+    for file in earlier.tiles.map(\.file) where !file.contains("/") && !kept.contains(file) {
       try? FileManager.default.removeItem(at: folder.appendingPathComponent(file))
     }
   }

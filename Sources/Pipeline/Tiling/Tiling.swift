@@ -53,11 +53,11 @@ package struct Tiling {
       of: samples.cloud, spacing: samples.voxelSize, context.part(from: 0.3, to: 0.8))
     var counts = CellCounts(
       cube: solution.cube, depth: min(options.latticeDepth, solution.depth))
-    var footprints: [Float] = []
+    var (footprints, viewBoxes): ([Float], [CellBox?]) = ([], [])
     for view in 0..<views.count {
       try context.control.step(0.8 + 0.2 * Double(view) / Double(views.count))
       let points = try views.points(view)
-      counts.add(points.positions)
+      viewBoxes.append(counts.add(points.positions))
       if let median = points.medianFootprint { footprints.append(median) }
     }
     guard let footprint = footprints.quantile(0.5) else {
@@ -71,8 +71,7 @@ package struct Tiling {
     return TileBase(
       samples: samples, solution: solution,
       grid: TileGrid(counts, maximumPoints: options.maximumPoints),
-      depth: max(solution.depth, depth), footprint: footprint,
-      coarsestFootprint: samples.cloud.footprints.quantile(0.99) ?? footprint,
+      viewBoxes: viewBoxes, depth: max(solution.depth, depth), footprint: footprint,
       voxelSize: voxelSize)
   }
 

@@ -41,9 +41,7 @@ import Testing
     reconstruction = IsolationScene().reconstruction(target: .zero)
   }
 
-  private func tiles(
-    maximumPoints: Int, baseDepth: Int = 5, threads: Int = 2
-  ) throws -> (base: TileBase, meshes: [Mesh]) {
+  private func tiling(maximumPoints: Int = 5000, baseDepth: Int) -> Tiling {
     var meshing = MeshGeneration()
     meshing.options.isolatesObject = false
     meshing.options.maximumDepth = baseDepth
@@ -52,18 +50,29 @@ import Testing
     meshing.options.trimming.boundary.reach = 3
     var options = Tiling.Options()
     options.maximumPoints = maximumPoints
-    let tiling = Tiling(
+    return Tiling(
       options: options, meshing: meshing, reconstruction: reconstruction, silhouettes: nil)
+  }
+
+  private func tiles(
+    maximumPoints: Int, baseDepth: Int = 5, threads: Int = 2
+  ) throws -> (base: TileBase, meshes: [Mesh]) {
+    let tiling = tiling(maximumPoints: maximumPoints, baseDepth: baseDepth)
     let context = StageContext(control: KernelControl(threadCount: threads))
-    let base = try tiling.base(
-      cloud, support: nil, FusedViews(count: 4) { [views] in views[$0] }, context)
+    let source = FusedViews(count: 4) { [views] in views[$0] }
+    let base = try tiling.base(cloud, support: nil, source, context)
     let folder = try TemporaryFolder()
-    var solutions = TileSolutions(tiling, base, in: folder.url)
-    var points = TilePoints(base.grid, reach: tiling.reach(base), in: folder.url)
-    for view in views { try points.add(view) }
-    let tiles = base.grid.boxes.indices
-    for tile in tiles { try solutions.solve(tile, try points.points(of: tile), context) }
-    return (base, try tiles.compactMap { try solutions.surface($0, scene: cloud, context)?.mesh })
+    let surfaces = TileSurfaces(
+      tiling: tiling, base: base, views: source,
+      store: TileStore(folder: folder.url, isShared: false, inputs: 1))
+    return (base, try meshes(of: surfaces, context))
+  }
+
+  private func meshes(of surfaces: TileSurfaces, _ context: StageContext) throws -> [Mesh] {
+    for tile in 0..<surfaces.count { try surfaces.solve(tile, context) }
+    return try (0..<surfaces.count).compactMap {
+      try surfaces.surface($0, observed: cloud, context)?.mesh
+    }
   }
 
   /// The edges with one triangle only, as the positions of their ends, if vertices at exactly the
@@ -113,5 +122,35 @@ import Testing
     for (one, other) in zip(runs[0], runs[1]) {
       #expect(one.positions == other.positions && one.triangles == other.triangles)
     }
+  }
+
+  /// Another process has the base from a file, and solutions of tiles that still others made.
+  @Test func storedResultsGiveTheSameTiles() throws {
+    let (base, meshes) = try tiles(maximumPoints: 5000)
+    let folder = try TemporaryFolder()
+    let store = TileStore(folder: folder.url, isShared: true, inputs: 1)
+    try store.save(base, TileSurroundings(observed: cloud, occluders: meshes[0]))
+    let stored = try #require(store.base)
+    #expect(stored.grid == base.grid && stored.viewBoxes == base.viewBoxes)
+    #expect(stored.samples.cloud.positions == base.samples.cloud.positions)
+    let surroundings = try #require(store.surroundings)
+    #expect(surroundings.observed.positions == cloud.positions)
+    #expect(surroundings.occluders.positions == meshes[0].positions)
+    #expect(surroundings.occluders.triangles == meshes[0].triangles)
+    let context = StageContext(control: KernelControl())
+    var isRead = false
+    for _ in 0..<2 {
+      let surfaces = TileSurfaces(
+        tiling: tiling(baseDepth: 5), base: stored,
+        views: FusedViews(count: 4) { [views, isRead] in
+          #expect(!isRead, "A tile was solved although its solution was stored.")
+          return views[$0]
+        }, store: store)
+      let same = try self.meshes(of: surfaces, context)
+      #expect(same.map(\.positions) == meshes.map(\.positions))
+      #expect(same.map(\.triangles) == meshes.map(\.triangles))
+      isRead = true
+    }
+    #expect(TileStore(folder: folder.url, isShared: true, inputs: 2).base == nil)
   }
 }

@@ -41,6 +41,42 @@ import Testing
     #expect(!FileManager.default.fileExists(atPath: work))
   }
 
+  @Test func chunksOfTilesMakeTheBytesOfARun() throws {
+    let options = ["-d", "preview", "--set", "tiling.maximumPoints=30000", "--tiles"]
+    let whole = try run(
+      ["reconstruct", photos, "whole.usdz", "--checkpoint-directory", "ck"] + options + ["one"])
+    #expect(whole.exitCode == 0, "\(whole.errors)")
+    let plan = try run(
+      ["reconstruct", photos, "parts.usdz", "--plan", "plan", "--photos-per-chunk", "10"] + options
+        + ["two"])
+    #expect(plan.exitCode == 0, "\(plan.errors)")
+    let all = try run(["join", "plan", "--jobs", "1"])
+    #expect(all.exitCode == 0, "\(all.errors)")
+    let names = try FileManager.default.contentsOfDirectory(
+      atPath: folder.appendingPathComponent("one").path
+    ).sorted()
+    try #require(names.filter { $0.hasSuffix(".glb") }.count > 1)
+    for name in names { #expect(try content("one/\(name)") == content("two/\(name)"), "\(name)") }
+    #expect(try content("whole.usdz") == content("parts.usdz"))
+    try resumesTiles(options, names)
+  }
+
+  /// A run that finds its tiles keeps them, and makes only what is damaged or missing.
+  private func resumesTiles(_ options: [String], _ names: [String]) throws {
+    let tiles = names.filter { $0.hasSuffix(".glb") }.map {
+      folder.appendingPathComponent("one/\($0)")
+    }
+    let before = try tiles.map { try Data(contentsOf: $0) }
+    try Data(before[0].dropLast(9)).write(to: tiles[0])
+    let kept = try FileManager.default.attributesOfItem(atPath: tiles[1].path)[.systemFileNumber]
+    let again = try run(
+      ["reconstruct", photos, "whole.usdz", "--checkpoint-directory", "ck"] + options + ["one"])
+    #expect(again.exitCode == 0, "\(again.errors)")
+    #expect(try tiles.map { try Data(contentsOf: $0) } == before)
+    let now = try FileManager.default.attributesOfItem(atPath: tiles[1].path)[.systemFileNumber]
+    #expect(kept as? Int == now as? Int)
+  }
+
   @Test func chunkOfAnotherProgramIsRefused() throws {
     #expect(try run(["reconstruct", photos, "m.usdz", "--plan", "plan"]).exitCode == 0)
     let url = folder.appendingPathComponent("plan", isDirectory: true)

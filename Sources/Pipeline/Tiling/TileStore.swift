@@ -1,0 +1,54 @@
+import Foundation
+import Kernels
+import SceneModel
+
+/// What is made of tiles, in a folder: a later run, or another process, finds it there.
+struct TileStore: Sendable {
+  private let units: UnitStore
+  /// For what only other processes read.
+  private let shared: UnitStore
+  /// The fingerprint of everything that the surfaces of tiles depend on.
+  private let inputs: UInt64
+
+  /// `isShared` says whether other processes or runs may read the folder.
+  init(folder: URL, isShared: Bool, inputs: UInt64) {
+    units = UnitStore(folder: folder, isWritten: true)
+    shared = UnitStore(folder: folder, isWritten: isShared)
+    self.inputs = inputs
+  }
+
+  /// The base that was stored; nil if there is none.
+  var base: TileBase? { shared.find(.tileBase, madeFrom: inputs) }
+  /// The surroundings that were stored; nil if there are none.
+  var surroundings: TileSurroundings? { shared.find(.tileSurroundings, madeFrom: inputs) }
+
+  /// Stores what all tiles need. Throws `OutputError`.
+  func save(_ base: TileBase, _ surroundings: TileSurroundings) throws {
+    try shared.save(base, .tileBase, madeFrom: inputs)
+    try shared.save(surroundings, .tileSurroundings, madeFrom: inputs)
+  }
+
+  /// The solution of a tile, stored or from `make`.
+  func solved(_ tile: Int, _ make: () throws -> SolvedTile) throws -> SolvedTile {
+    try units.value(.solvedTile, madeFrom: key(tile), make)
+  }
+
+  /// What is known of the model of a tile that depends on `options` besides; nil if it was not
+  /// made.
+  func written(_ tile: Int, options: UInt64) -> WrittenTile? {
+    units.find(.writtenTile, madeFrom: key(tile, options))
+  }
+
+  /// Stores that the model of a tile was written. Throws `OutputError`.
+  func save(_ written: WrittenTile, _ tile: Int, options: UInt64) throws {
+    try units.save(written, .writtenTile, madeFrom: key(tile, options))
+  }
+
+  private func key(_ tile: Int, _ options: UInt64 = 0) -> UInt64 {
+    var key = Fingerprint()
+    key.add(inputs)
+    key.add(tile)
+    key.add(options)
+    return key.value
+  }
+}
