@@ -92,6 +92,26 @@ struct SlurmTests {
     #expect(again.output.contains("3 datasets: 2 skipped, 1 failed."), "\(again.output)")
   }
 
+  /// The page's first commands, typed by someone who knows nothing else.
+  @Test func firstBatchFollowsThePage() throws {
+    try addDataset("chair", photos: 12)
+    let page = try String(contentsOf: Self.page, encoding: .utf8)
+    let section = try #require(page.components(separatedBy: "## The first batch\n").last)
+    let lines = section.prefix(upTo: try #require(section.range(of: "\n## ")).lowerBound)
+      .split(separator: "\n")
+    let commands = lines.filter { $0.hasPrefix("$ photogrammetry-cli ") }
+    #expect(commands.count == 3)
+    for command in commands {
+      let process = try run(command.split(separator: " ").dropFirst(2).map(String.init))
+      #expect(process.exitCode == 0, "\(command): \(process.errors)")
+    }
+    let model = folder.appendingPathComponent("models/chair.usdz")
+    #expect(FileManager.default.fileExists(atPath: model.path))
+  }
+
+  private static let page = URL(fileURLWithPath: #filePath)
+    .appendingPathComponent("../../../../../docs/clusters.md").standardizedFileURL
+
   @Test func runIsTheSameOnManyMachines() throws {
     let photos = Fixtures.images(of: "orbit").path
     let cluster = try run([
