@@ -1,12 +1,16 @@
-"""Shared by the benchmark scripts: running a program, tables, plots."""
+"""Shared by the benchmark scripts: running a program, the machine, tables, plots."""
 
+import datetime
 import json
 import math
 import os
+import platform
 import subprocess
 import sys
 import time
 from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parent.parent
 
 
 def run(command):
@@ -37,6 +41,19 @@ def read_report(path):
 def peak_bytes(usage):
     """The peak memory measured by `run`; the kernel reports KiB on Linux, bytes on macOS."""
     return usage.ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
+def machine():
+    """What the figures depend on besides the photos."""
+    def git(*words):
+        return subprocess.run(["git", "-C", REPOSITORY, *words], capture_output=True, text=True, check=True).stdout.strip()
+    cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "")
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    changes = git("status", "--porcelain", "--untracked-files=no", "--", "Sources", "Package.swift")
+    return {"commit": git("rev-parse", "--short", "HEAD") + ("+changes" if changes else ""),
+            "processor": cpu, "cores": os.cpu_count(), "memoryGB": round(memory / 1e9),
+            "system": platform.freedesktop_os_release().get("PRETTY_NAME", platform.system()),
+            "date": datetime.date.today().isoformat()}
 
 
 def print_table(header, rows):

@@ -9,7 +9,8 @@ struct PartArgument: ExpressibleByArgument {
     let words = argument.split(separator: ":", omittingEmptySubsequences: false).map(String.init)
     let block = words.count == 2 ? JobArgument(argument: words[1])?.share : nil
     let parts: [String: RunPart] = [
-      "photos": .photos, "pairs": .pairs, "cameras": .cameras, "surface": .surface,
+      "photos": .photos, "pairs": .pairs, "morePairs": .morePairs, "cameras": .cameras,
+      "surface": .surface,
     ]
     if words.count == 1, let part = parts[words[0]] {
       self.part = part
@@ -27,6 +28,7 @@ struct PartArgument: ExpressibleByArgument {
     switch name {
     case "features": .features(block)
     case "matches": .matches(block)
+    case "moreMatches": .moreMatches(block)
     default:
       DensePart(rawValue: name).map { .views($0, block) }
         ?? TilePart(rawValue: name).map { .tiles($0, block) }

@@ -69,7 +69,7 @@ extension RunPart {
   fileprivate var stages: [PipelineStage] {
     switch self {
     case .photos: [.preProcessing]
-    case .features, .pairs, .matches: [.preProcessing, .imageAlignment]
+    case .features, .pairs, .matches, .morePairs, .moreMatches: [.preProcessing, .imageAlignment]
     case .cameras: [.preProcessing, .imageAlignment, .objectMasking]
     case .views:
       [.preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration]
@@ -85,7 +85,7 @@ extension RunPart {
   /// Whether cameras have been found before.
   fileprivate var hasCameras: Bool {
     switch self {
-    case .photos, .features, .pairs, .matches, .cameras: false
+    case .photos, .features, .pairs, .matches, .morePairs, .moreMatches, .cameras: false
     case .views, .surface, .tiles: true
     }
   }

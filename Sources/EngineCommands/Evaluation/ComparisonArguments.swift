@@ -70,7 +70,7 @@ struct ComparisonArguments: ParsableArguments {
 
   func options(threadCount: Int) -> SurfaceComparison.Options {
     var options = SurfaceComparison.Options()
-    if !threshold.isEmpty { options.thresholds = threshold.sorted() }
+    if !threshold.isEmpty { options.compare(at: threshold) }
     options.resultSamples = samples
     options.floor = floor
     options.minimumViews = views

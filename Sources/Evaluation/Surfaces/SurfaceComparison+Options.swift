@@ -25,5 +25,15 @@ extension SurfaceComparison {
     package var threadCount = 1
 
     package init() {}
+
+    /// Compares at other thresholds, above 0. Distances are truncated at no less than four times
+    /// the largest, and parts of the result outside the reference count up to twice that far
+    /// (chosen): else everything would be within the thresholds of a whole town.
+    package mutating func compare(at thresholds: [Double]) {
+      self.thresholds = thresholds.sorted()
+      let largest = self.thresholds.last ?? 0
+      maximumDistance = max(maximumDistance, 4 * largest)
+      margin = max(margin, 2 * largest)
+    }
   }
 }

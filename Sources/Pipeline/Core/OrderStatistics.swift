@@ -25,3 +25,19 @@ extension Array where Element: Comparable {
     return self[count / 2]
   }
 }
+
+extension Array where Element == UInt8 {
+  /// The element that is greater than the fraction `q` of the others, such as of the pixels of an
+  /// image, which are counted instead of sorted; nil for an empty array.
+  func quantile(_ q: Double) -> UInt8? {
+    guard !isEmpty else { return nil }
+    var counts = [Int](repeating: 0, count: 256)
+    for value in self { counts[Int(value)] += 1 }
+    var remaining = Swift.min(count - 1, Swift.max(0, Int(q * Double(count))))
+    return counts.indices.first { value in
+      remaining -= counts[value]
+      return remaining < 0
+    }
+    .map(UInt8.init)
+  }
+}

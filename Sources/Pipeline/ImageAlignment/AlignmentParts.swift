@@ -7,6 +7,7 @@ struct AlignmentParts {
   let alignment: ImageAlignment
   let store: UnitStore
   let photos: [Photo]
+  let cameras: [Camera]
   let images: ImageStore
 
   private var extraction: FeatureExtraction {
@@ -39,10 +40,36 @@ struct AlignmentParts {
     try alignment.correspondenceUnits(store, photos: photos, images: images)
   }
 
-  /// Matches a block of the pairs. Reads the features of a part of the photos at a time.
-  func match(_ block: Block, _ context: StageContext) throws {
+  /// Chooses the pairs that follow from the matches of the first ones.
+  func selectMorePairs(_ context: StageContext) throws {
+    _ = try morePairs(context)
+  }
+
+  private func morePairs(_ context: StageContext) throws -> [PhotoPair] {
+    var search = CorrespondenceSearch(alignment.options.search)
     let units = try units()
-    let pairs = try choice(context.part(from: 0, to: 0.1)).pairs
+    search.units = units
+    return try units.morePairs(search.options, cameras: cameras, photos: photos) {
+      let features = try extraction.run(photos, images: images, context.part(from: 0, to: 0.5))
+      return try search.morePairs(
+        photos: photos, cameras: cameras, features: features, ordering: alignment.options.ordering,
+        context.part(from: 0.5, to: 1))
+    }
+  }
+
+  /// Matches a block of the first pairs.
+  func match(_ block: Block, _ context: StageContext) throws {
+    try match(block, of: try choice(context.part(from: 0, to: 0.1)).pairs, context)
+  }
+
+  /// Matches a block of the pairs that follow from the first ones.
+  func matchMore(_ block: Block, _ context: StageContext) throws {
+    try match(block, of: try morePairs(context.part(from: 0, to: 0.1)), context)
+  }
+
+  /// Matches a block of some pairs. Reads the features of a part of the photos at a time.
+  private func match(_ block: Block, of pairs: [PhotoPair], _ context: StageContext) throws {
+    let units = try units()
     let ranges = MatchBlock.ranges(of: pairs)
     let own = block.range(of: ranges.count)
     let matching = FeatureMatching(alignment.options.search.matching)

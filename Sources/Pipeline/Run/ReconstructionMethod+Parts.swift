@@ -12,6 +12,8 @@ extension ReconstructionMethod {
       try alignmentPart(photos) { try $0.makeFeatures(of: block, $1) }
     case .pairs: try alignmentPart(photos) { try $0.selectPairs($1) }
     case .matches(let block): try alignmentPart(photos) { try $0.match(block, $1) }
+    case .morePairs: try alignmentPart(photos) { try $0.selectMorePairs($1) }
+    case .moreMatches(let block): try alignmentPart(photos) { try $0.matchMore(block, $1) }
     case .cameras: _ = try scene(photos)
     case .views(let part, let block): try make(part, block, of: try scene(photos))
     case .surface:
@@ -32,7 +34,8 @@ extension ReconstructionMethod {
     try recorder.run(.imageAlignment, images: photos.images) { context in
       let parts = AlignmentParts(
         alignment: ImageAlignment(configuration.alignmentOptions(for: photos.images)),
-        store: units, photos: photos.ingested.photos, images: photos.images)
+        store: units, photos: photos.ingested.photos, cameras: photos.ingested.cameras,
+        images: photos.images)
       try body(parts, context)
     }
   }

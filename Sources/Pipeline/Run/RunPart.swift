@@ -11,6 +11,10 @@ package enum RunPart: Hashable, Sendable {
   case pairs
   /// The matches of a block of the pairs.
   case matches(Block)
+  /// Which pairs to match, too, after those of `pairs`.
+  case morePairs
+  /// The matches of a block of these.
+  case moreMatches(Block)
   /// Cameras, poses, sparse points and estimated masks.
   case cameras
   /// A step of the dense stage for a block of the views.

@@ -10,7 +10,7 @@ import Kernels
 struct UnitStore: Sendable {
   /// What a result is: the start of its file's name.
   enum Kind: String, Sendable {
-    case photos, features, pairs, matches
+    case photos, features, pairs, matches, morePairs
     case tileBase, tileSurroundings, solvedTile, writtenTile
   }
 

@@ -48,6 +48,20 @@ import Testing
       result, alignment, reference: comparison.reference(reference, cameras: cameras))
   }
 
+  /// At the default truncation of 2 cm, any distance would be within half a meter.
+  @Test(arguments: [(0.4, 1.0), (0.6, 0.0)])
+  func largeThresholdsAreNotTruncated(_ distance: Float, _ share: Double) throws {
+    var options = SurfaceComparison.Options()
+    options.compare(at: [0.5, 0.05])
+    (options.resultSamples, options.referenceSamples) = (1000, 1000)
+    let scores = try Self.compare(
+      Self.square(side: 4, z: distance), with: Self.square(side: 4), options: options)
+    #expect(scores.thresholds.map(\.threshold) == [0.05, 0.5])
+    #expect(scores.thresholds.map(\.precision) == [0, share])
+    #expect(scores.thresholds.map(\.recall) == [0, share])
+    #expect(abs(scores.chamfer - Double(distance)) < 1e-6)
+  }
+
   @Test func treeAgreesWithBruteForce() {
     var random = SplitMix64(seed: 3)
     func point(_ range: ClosedRange<Float>) -> SIMD3<Float> {

@@ -53,21 +53,12 @@ package struct CorrespondenceSearch {
   ) throws -> (viewGraph: ViewGraph, cameras: [Camera]) {
     var matchedPairs = MatchedPairs(
       options: options, photos: photos, cameras: cameras, features: features)
-    var choice = try choice(
-      features, photos: photos, ordering: ordering, context.part(from: 0, to: 0.1))
-    try matchedPairs.add(choice.pairs, units: units, context.part(from: 0.1, to: 0.5))
-    if isPreemptiveMatchingUnreliable(choice, matchedPairs.graph) {
-      let known = Set(choice.pairs)
-      try matchedPairs.add(
-        choice.candidates.filter { !known.contains($0) }, context.part(from: 0.5, to: 0.65))
-      choice.pairs = choice.candidates
-    }
-    let more = try PairExpansion(options.expansion)
-      .run(
-        choice, matchedPairs.graph, features: features,
-        preemptiveMatching: PreemptiveMatching(options.selection.preemptiveMatching),
-        context.part(from: 0.65, to: 0.7))
-    try matchedPairs.add(more, context.part(from: 0.7, to: 0.9))
+    let choice = try matchFirst(&matchedPairs, ordering, context.part(from: 0, to: 0.65))
+    let rest = context.part(from: 0.65, to: 0.7)
+    func make() throws -> [PhotoPair] { try expansion(choice, matchedPairs, rest) }
+    let more =
+      try units?.morePairs(options, cameras: cameras, photos: photos, make) ?? make()
+    try matchedPairs.add(more, units: units, context.part(from: 0.7, to: 0.9))
     let calibrated = try SelfCalibration(options.selfCalibration)
       .run(
         matchedPairs.graph, features: features, photos: photos, cameras: cameras,
@@ -82,6 +73,45 @@ package struct CorrespondenceSearch {
     context.notes.record("candidatePairs", Double(Set(choice.candidates).union(more).count))
     matchedPairs.report(context.notes)
     return (matchedPairs.graph, calibrated)
+  }
+
+  /// The pairs that follow from the matches of the first ones.
+  func morePairs(
+    photos: [Photo], cameras: [Camera], features: [FeatureSet], ordering: SampleOrdering,
+    _ context: StageContext
+  ) throws -> [PhotoPair] {
+    var matchedPairs = MatchedPairs(
+      options: options, photos: photos, cameras: cameras, features: features)
+    let choice = try matchFirst(&matchedPairs, ordering, context.part(from: 0, to: 0.9))
+    return try expansion(choice, matchedPairs, context.part(from: 0.9, to: 1))
+  }
+
+  /// Matches and verifies the pairs to match first; returns them.
+  private func matchFirst(
+    _ matchedPairs: inout MatchedPairs, _ ordering: SampleOrdering, _ context: StageContext
+  ) throws -> PairSelection.Choice {
+    var choice = try choice(
+      matchedPairs.features, photos: matchedPairs.photos, ordering: ordering,
+      context.part(from: 0, to: 0.15))
+    try matchedPairs.add(choice.pairs, units: units, context.part(from: 0.15, to: 0.75))
+    if isPreemptiveMatchingUnreliable(choice, matchedPairs.graph) {
+      let known = Set(choice.pairs)
+      try matchedPairs.add(
+        choice.candidates.filter { !known.contains($0) }, units: units,
+        context.part(from: 0.75, to: 1))
+      choice.pairs = choice.candidates
+    }
+    return choice
+  }
+
+  /// The pairs that follow from the first ones.
+  private func expansion(
+    _ choice: PairSelection.Choice, _ first: MatchedPairs, _ context: StageContext
+  ) throws -> [PhotoPair] {
+    try PairExpansion(options.expansion)
+      .run(
+        choice, first.graph, features: first.features,
+        preemptiveMatching: PreemptiveMatching(options.selection.preemptiveMatching), context)
   }
 
   /// Whether preemptive matching rejected too many pairs that turned out to be verifiable.
@@ -99,7 +129,7 @@ private struct MatchedPairs {
   let options: CorrespondenceSearch.Options
   let photos: [Photo]
   let cameras: [Camera]
-  private var features: [FeatureSet]
+  private(set) var features: [FeatureSet]
   private(set) var graph: ViewGraph
   private var verification: PairVerification.Options
   private var pairs: [PhotoPair] = []

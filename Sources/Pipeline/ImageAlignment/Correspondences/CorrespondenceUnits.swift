@@ -27,6 +27,20 @@ struct CorrespondenceUnits: Sendable {
     try store.value(.pairs, madeFrom: selectionKey, make)
   }
 
+  /// The pairs that follow from the matches of the first ones, by some options of the search.
+  func morePairs(
+    _ options: some Encodable, cameras: [Camera], photos: [Photo],
+    _ make: () throws -> [PhotoPair]
+  ) throws -> [PhotoPair] {
+    var key = Fingerprint()
+    key.add(selectionKey)
+    key.add(try Fingerprint.content(of: options))
+    key.add(try Fingerprint.content(of: cameras))
+    key.add(try Fingerprint.content(of: photos.map(\.camera.index)))
+    key.add(try Fingerprint.content(of: photos.map { $0.mask != nil }))
+    return try store.value(.morePairs, madeFrom: key.value) { PairList(pairs: try make()) }.pairs
+  }
+
   /// The matches of a block of pairs by some options.
   func block(
     _ pairs: ArraySlice<PhotoPair>, _ options: some Encodable,
@@ -40,4 +54,9 @@ struct CorrespondenceUnits: Sendable {
     }
     return try store.value(.matches, madeFrom: key.value, make)
   }
+}
+
+/// Pairs as one process leaves them for others.
+private struct PairList: Codable, UnitValue {
+  var pairs: [PhotoPair]
 }

@@ -27,7 +27,7 @@ import Testing
     let options = ["-d", "preview"]
     #expect(try run(["reconstruct", photos, "whole.usdz", "--quiet"] + options).exitCode == 0)
     let plan = try run(
-      ["reconstruct", photos, "parts.usdz", "--plan", "plan", "--photos-per-chunk", "3"] + options)
+      ["reconstruct", photos, "parts.usdz", "--plan", "plan", "--photos-per-chunk", "2"] + options)
     #expect(plan.exitCode == 0, "\(plan.errors)")
     let early = try run(["join", "plan"])
     #expect(early.exitCode == 1 && early.errors.contains("chunks are missing"), "\(early.errors)")
@@ -140,7 +140,7 @@ import Testing
   func clocksMayDiffer() throws {
     #expect(
       try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
-    for (stage, offset) in [("photos", "+1h"), ("features", "-1h"), ("pairs", "+1h")] {
+    for (stage, offset) in [("photos", "+1h"), ("features", "-1h"), ("cameras", "+1h")] {
       let words = ["-f", offset, CommandProcess.program.path, "chunk", "plan", stage, "1"]
       #expect(Self.tool("/usr/bin/faketime", words, in: folder) == 0, "\(stage)")
     }
