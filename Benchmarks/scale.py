@@ -25,15 +25,21 @@ class Scale:
 def growth(scale):
     rows = [town(each) for each in scale.result("towns") or []] + [
         synthetic(each) for each in scale.result("growth") or []]
-    return table(["photos", "with a pose", "centers, RMSE", "F at 5 cm", "wall s", "CPU s per photo", "peak GB",
+    return table(["photos", "with a pose", "centers, RMSE", "F at 5, 10 cm", "wall s", "CPU s per photo", "peak GB",
                   "disk GB"], rows)
 
 
 def town(each):
-    quality, photos = each["quality"], each["photos"]
-    return [f"{photos:,}", f"{each['registered']:,}", f"{number(quality.get('centerRMSE'), 3)} m",
-            number(quality.get("mesh-F@0.05")), f"{each['seconds']:.0f}", f"{each['cpuSeconds'] / photos:.2f}",
-            f"{each['peakBytes'] / 1e9:.2f}", f"{each['diskBytes'] / 1e9:.2f}"]
+    poses, mesh = each["quality"].get("poses"), each["quality"].get("mesh")
+    scores = {at["threshold"]: at["fScore"] for at in mesh["thresholds"]} if mesh else {}
+    return [f"{each['photos']:,}", f"{each['registered']:,}" if poses else "refused",
+            f"{100 * poses['centerRMSE']:.1f} cm" if poses else "–",
+            f"{number(scores.get(0.05))}, {number(scores.get(0.1))}" if mesh else "–", *cost(each)]
+
+
+def cost(each):
+    return [f"{each['seconds']:.0f}", f"{each['cpuSeconds'] / each['photos']:.2f}", f"{each['peakBytes'] / 1e9:.2f}",
+            f"{each['diskBytes'] / 1e9:.2f}"]
 
 
 def synthetic(each):

@@ -34,6 +34,34 @@ package struct Silhouettes: Sendable {
       (rotation, translation) = (pose.rotation.matrix, pose.translation)
       (self.camera, self.mask) = (camera, mask)
     }
+
+    /// False if no point of a box is in the frame; a pixel of margin allows for rounding.
+    func mayShow(_ box: Box) -> Bool {
+      let corners = box.corners.map { rotation * $0 + translation }
+      let (f, near) = (camera.focalLength, camera.principalPoint + 1)
+      let far = SIMD2(Double(mask.width), Double(mask.height)) + 2 - near
+      // The normals of the camera's plane and of the frame's sides, all inward.
+      let sides: [SIMD3<Double>] = [
+        [0, 0, 1], [f.x, 0, near.x], [0, f.y, near.y], [-f.x, 0, far.x], [0, -f.y, far.y],
+      ]
+      return sides.allSatisfy { side in corners.contains { side.dot($0) > 0 } }
+    }
+  }
+
+  /// The box of some points.
+  private struct Box {
+    let corners: [SIMD3<Double>]
+
+    init(_ points: ArraySlice<SIMD3<Float>>) {
+      var (low, high) = (SIMD3<Float>(repeating: .infinity), -SIMD3<Float>(repeating: .infinity))
+      for point in points where point.isFinite {
+        (low, high) = (pointwiseMin(low, point), pointwiseMax(high, point))
+      }
+      corners = (0..<8).map { corner in
+        SIMD3<Double>(
+          low.replacing(with: high, where: [corner & 1 != 0, corner & 2 != 0, corner & 4 != 0]))
+      }
+    }
   }
 
   /// Share of the registered photos that have a mask.
@@ -66,7 +94,10 @@ package struct Silhouettes: Sendable {
   }
 
   /// Whether a point may be part of the object.
-  func isInside(_ point: SIMD3<Double>) -> Bool {
+  func isInside(_ point: SIMD3<Double>) -> Bool { isInside(point, views) }
+
+  /// The same, when only some views may have the point in their frame.
+  private func isInside(_ point: SIMD3<Double>, _ views: [View]) -> Bool {
     var (seen, outside) = (0, 0)
     for view in views {
       let p = view.rotation * point + view.translation
@@ -82,8 +113,16 @@ package struct Silhouettes: Sendable {
       || Double(outside) < options.minimumShare * Double(seen)
   }
 
-  /// For each point, whether it may be part of the object.
+  /// For each point, whether it may be part of the object. Consecutive points are near each other:
+  /// each block of them is looked up in the views whose frame it may be in.
   func areInside(_ points: [SIMD3<Float>], _ control: KernelControl) throws -> [Bool] {
-    try control.parallelMap(points.count, inUnitsOf: 8192) { isInside(SIMD3<Double>(points[$0])) }
+    let size = 256  // Points per block. Chosen: about the views' number of large sets.
+    let blocks = (points.count + size - 1) / size
+    return try control.parallelMap(blocks, inUnitsOf: 32) { block in
+      let own = points[block * size..<min((block + 1) * size, points.count)]
+      let box = Box(own)
+      let near = views.filter { $0.mayShow(box) }
+      return own.map { isInside(SIMD3<Double>($0), near) }
+    }.flatMap(\.self)
   }
 }
