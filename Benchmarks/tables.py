@@ -119,9 +119,11 @@ def surfaces(results):
 
 
 def outlines(results):
-    rows = [[each["set"], number(q["iou"]), f"{100 * q['outside']:.2f} %", f"{100 * q['missing']:.2f} %"]
-            for each in results.all(part="models") if "iou" in (q := each["quality"])]
-    return table(["set", "IoU", "outside", "missing"], rows)
+    """A sentence."""
+    return "; ".join(
+        f"{each['set']}: IoU {number(q['iou'])}, {100 * q['outside']:.2f} % of the area outside, "
+        f"{100 * q['missing']:.2f} % missing"
+        for each in results.all(part="models") if "iou" in (q := each["quality"]))
 
 
 def paper(results):
