@@ -92,25 +92,24 @@ struct ChunkedRun {
   /// does.
   private func alignmentStages(_ blocks: Int) -> [ChunkStage] {
     let seconds = durations.seconds(of: [.imageAlignment])
+    let masks = durations.seconds(of: [.objectMasking])
+    let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
     let matchBlocks = blocks / Self.chunksPerMatchChunk
-    // Shares of alignment. Measured: in runs of 11, 32 and 40 photos, and of 250 of a town.
-    var (matches, rest) = ([ChunkStage](), 0.6)
-    if matchBlocks > 1 {
-      matches = [
-        stage("pairs", seconds: 0.05 * seconds, holdsAll: true),
-        stage("matches", blocks: matchBlocks, seconds: 0.15 * seconds),
-        stage("morePairs", seconds: 0.05 * seconds, holdsAll: true),
-        stage("moreMatches", blocks: matchBlocks, seconds: 0.1 * seconds),
+    guard matchBlocks > 1 else {
+      // Shares of alignment. Measured: in runs of 11, 32 and 40 photos.
+      return [
+        photos, stage("features", blocks: blocks, seconds: 0.4 * seconds),
+        stage("cameras", seconds: 0.6 * seconds + masks, holdsAll: true),
       ]
-      rest = 0.25
     }
+    // Shares of alignment. Measured: in chunks of 250 photos of a town.
     return [
-      stage("photos", seconds: durations.seconds(of: [.preProcessing])),
-      stage("features", blocks: blocks, seconds: 0.4 * seconds),
-    ] + matches + [
-      stage(
-        "cameras", seconds: rest * seconds + durations.seconds(of: [.objectMasking]),
-        holdsAll: true)
+      photos, stage("features", blocks: blocks, seconds: 0.15 * seconds),
+      stage("pairs", seconds: 0.03 * seconds, holdsAll: true),
+      stage("matches", blocks: matchBlocks, seconds: 0.3 * seconds),
+      stage("morePairs", seconds: 0.03 * seconds, holdsAll: true),
+      stage("moreMatches", blocks: matchBlocks, seconds: 0.17 * seconds),
+      stage("cameras", seconds: 0.32 * seconds + masks, holdsAll: true),
     ]
   }
 

@@ -26,9 +26,11 @@ extension SurfaceComparison {
 
     package init() {}
 
-    /// Compares at other thresholds, above 0. Distances are truncated at no less than four times
-    /// the largest, and parts of the result outside the reference count up to twice that far
-    /// (chosen): else everything would be within the thresholds of a whole town.
+    /// Compares at other thresholds: lengths above 0, in units of the reference.
+    ///
+    /// Distances are truncated at four times the largest one, and the margin is twice as wide as
+    /// it, unless they are larger already (chosen): thresholds beyond the truncation would count
+    /// every point.
     package mutating func compare(at thresholds: [Double]) {
       self.thresholds = thresholds.sorted()
       let largest = self.thresholds.last ?? 0

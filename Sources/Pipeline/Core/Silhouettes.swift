@@ -30,37 +30,25 @@ package struct Silhouettes: Sendable {
     /// Dilated by the margin.
     let mask: RasterImage
 
+    /// The plane of the camera and the sides of the frame, in the world frame: inward unit normals,
+    /// and how far inside the origin is. A pixel of margin allows for rounding.
+    private let sides: [(normal: SIMD3<Double>, offset: Double)]
+
     init(pose: RigidTransform, camera: Camera, mask: RasterImage) {
-      (rotation, translation) = (pose.rotation.matrix, pose.translation)
+      let (rotation, translation) = (pose.rotation.matrix, pose.translation)
+      let (f, near) = (camera.focalLength, camera.principalPoint + 1)
+      let far = SIMD2(Double(mask.width), Double(mask.height)) + 2 - near
+      let normals: [SIMD3<Double>] = [
+        [0, 0, 1], [f.x, 0, near.x], [0, f.y, near.y], [-f.x, 0, far.x], [0, -f.y, far.y],
+      ]
+      sides = normals.map(\.normalized).map { (rotation.transpose * $0, $0.dot(translation)) }
+      (self.rotation, self.translation) = (rotation, translation)
       (self.camera, self.mask) = (camera, mask)
     }
 
-    /// False if no point of a box is in the frame; a pixel of margin allows for rounding.
-    func mayShow(_ box: Box) -> Bool {
-      let corners = box.corners.map { rotation * $0 + translation }
-      let (f, near) = (camera.focalLength, camera.principalPoint + 1)
-      let far = SIMD2(Double(mask.width), Double(mask.height)) + 2 - near
-      // The normals of the camera's plane and of the frame's sides, all inward.
-      let sides: [SIMD3<Double>] = [
-        [0, 0, 1], [f.x, 0, near.x], [0, f.y, near.y], [-f.x, 0, far.x], [0, -f.y, far.y],
-      ]
-      return sides.allSatisfy { side in corners.contains { side.dot($0) > 0 } }
-    }
-  }
-
-  /// The box of some points.
-  private struct Box {
-    let corners: [SIMD3<Double>]
-
-    init(_ points: ArraySlice<SIMD3<Float>>) {
-      var (low, high) = (SIMD3<Float>(repeating: .infinity), -SIMD3<Float>(repeating: .infinity))
-      for point in points where point.isFinite {
-        (low, high) = (pointwiseMin(low, point), pointwiseMax(high, point))
-      }
-      corners = (0..<8).map { corner in
-        SIMD3<Double>(
-          low.replacing(with: high, where: [corner & 1 != 0, corner & 2 != 0, corner & 4 != 0]))
-      }
+    /// False if nothing of a ball is in the frame.
+    func mayShow(ballAt center: SIMD3<Double>, radius: Double) -> Bool {
+      sides.allSatisfy { $0.normal.dot(center) + $0.offset > -radius }
     }
   }
 
@@ -113,16 +101,23 @@ package struct Silhouettes: Sendable {
       || Double(outside) < options.minimumShare * Double(seen)
   }
 
-  /// For each point, whether it may be part of the object. Consecutive points are near each other:
-  /// each block of them is looked up in the views whose frame it may be in.
+  /// For each point, whether it may be part of the object. Consecutive points are usually near each
+  /// other: each block of them is looked up in the views whose frame it may be in.
   func areInside(_ points: [SIMD3<Float>], _ control: KernelControl) throws -> [Bool] {
-    let size = 256  // Points per block. Chosen: about the views' number of large sets.
+    let size = 256  // Points per block. Chosen: few compared with those of a photo.
     let blocks = (points.count + size - 1) / size
     return try control.parallelMap(blocks, inUnitsOf: 32) { block in
       let own = points[block * size..<min((block + 1) * size, points.count)]
-      let box = Box(own)
-      let near = views.filter { $0.mayShow(box) }
+      let near = views(near: own)
       return own.map { isInside(SIMD3<Double>($0), near) }
     }.flatMap(\.self)
+  }
+
+  /// The views whose frame one of the points may be in.
+  private func views(near points: ArraySlice<SIMD3<Float>>) -> [View] {
+    guard let bounds = Mesh(positions: points.filter(\.isFinite)).bounds else { return [] }
+    let (low, high) = (SIMD3<Double>(bounds.min), SIMD3<Double>(bounds.max))
+    let radius = (high - low).length / 2
+    return views.filter { $0.mayShow(ballAt: (low + high) / 2, radius: radius) }
   }
 }
