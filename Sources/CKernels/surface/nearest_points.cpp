@@ -201,7 +201,8 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
     const double reach = options->maximum_distance;
     ck::require(count > 0 && indices && distances, "invalid output");
     ck::require(reach > 0, "the distance must be positive");
-    const size_t width = static_cast<size_t>(count), query_count = queries.count;
+    const size_t first = options->returns_last_only ? static_cast<size_t>(count) - 1 : 0;
+    const size_t width = static_cast<size_t>(count) - first, query_count = queries.count;
     std::fill(indices, indices + query_count * width, -1);
     std::fill(distances, distances + query_count * width, std::numeric_limits<float>::infinity());
     ck::step(control, 0);
@@ -209,15 +210,15 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
     const ck::Strided<float> q(queries);
     ck::parallel_for(control, (query_count + kChunk - 1) / kChunk, [&](size_t chunk) {
       // The largest distance is included.
-      Nearest nearest(width,
+      Nearest nearest(static_cast<size_t>(count),
                       std::nextafter(reach * reach, std::numeric_limits<double>::infinity()));
       const size_t end = std::min(query_count, (chunk + 1) * kChunk);
       for (size_t i = chunk * kChunk; i < end; ++i) {
         if (!q.is_finite(i)) continue;
         forest.search(q[i], nearest);
-        for (size_t k = 0; k < nearest.size(); ++k) {
-          indices[i * width + k] = nearest.index(k);
-          distances[i * width + k] = static_cast<float>(std::sqrt(nearest.squared(k)));
+        for (size_t k = first; k < nearest.size(); ++k) {
+          indices[i * width + k - first] = nearest.index(k);
+          distances[i * width + k - first] = static_cast<float>(std::sqrt(nearest.squared(k)));
         }
       }
     });

@@ -1,25 +1,27 @@
 import CKernels
 
-/// The k nearest points of a set for each query.
+/// The k nearest points of a set for each query, or the k-th nearest.
 package struct NearestPoints: Sendable {
-  /// Number of neighbors per query.
+  /// Number of neighbors that are returned per query.
   package let neighbors: Int
   /// `neighbors` indices per query, nearest first; −1 if there are fewer.
   package let indices: [Int32]
   /// The distances corresponding to `indices`; infinite if there are fewer.
   package let distances: [Float]
 
-  /// Finds the nearest `neighbors` of `points` within `maximumDistance` of every query.
+  /// Finds the nearest `neighbors` of `points` within `maximumDistance` of every query, or, of
+  /// these, only the last one.
   package init(
     of queries: [SIMD3<Float>], in points: [SIMD3<Float>], neighbors: Int = 1,
-    maximumDistance: Double = .infinity, _ control: KernelControl
+    onlyLast: Bool = false, maximumDistance: Double = .infinity, _ control: KernelControl
   ) throws {
-    let width = max(1, neighbors)
+    let width = onlyLast ? 1 : max(1, neighbors)
     var indices = [Int32](repeating: -1, count: queries.count * width)
     var distances = [Float](repeating: .infinity, count: queries.count * width)
     if !queries.isEmpty {
       var options = ck_nearest_options(
-        neighbors: Int32(width), maximum_distance: maximumDistance)
+        neighbors: Int32(max(1, neighbors)), maximum_distance: maximumDistance,
+        returns_last_only: onlyLast)
       try withKernel(control) { control in
         withSpans(points, queries) { points, queries in
           ck_nearest_points(points, queries, &options, control, &indices, &distances)

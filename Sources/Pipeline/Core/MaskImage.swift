@@ -34,11 +34,14 @@ enum MaskImage {
 }
 
 extension RasterImage {
+  /// The least value of a mask's pixels that are marked. Chosen: half of the largest.
+  static let leastMarked: UInt8 = 128
+
   /// Whether the mask marks a position, in pixels, as object; false outside the mask.
   func isMarked(at pixel: SIMD2<Double>) -> Bool {
     guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(width), pixel.y < Double(height) else {
       return false
     }
-    return pixels[Int(pixel.y) * width + Int(pixel.x)] >= 128
+    return pixels[Int(pixel.y) * width + Int(pixel.x)] >= Self.leastMarked
   }
 }

@@ -46,6 +46,27 @@ package struct Silhouettes: Sendable {
       (self.camera, self.mask) = (camera, mask)
     }
 
+    /// Counts, for each point, this view in `seen` if the point is in its frame, and in `outside`
+    /// if its mask excludes the point, too.
+    func count(
+      _ points: [SIMD3<Double>], seen: inout [Int32], outside: inout [Int32]
+    ) {
+      let (width, height) = (mask.width, mask.height)
+      mask.pixels.withUnsafeBufferPointer { pixels in
+        for index in points.indices {
+          let p = rotation * points[index] + translation
+          guard p.z > 0 else { continue }
+          let pixel = SIMD2(p.x, p.y) / p.z * camera.focalLength + camera.principalPoint
+          guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(width), pixel.y < Double(height)
+          else { continue }
+          seen[index] += 1
+          if pixels[Int(pixel.y) * width + Int(pixel.x)] < RasterImage.leastMarked {
+            outside[index] += 1
+          }
+        }
+      }
+    }
+
     /// False if nothing of a ball is in the frame.
     func mayShow(ballAt center: SIMD3<Double>, radius: Double) -> Bool {
       sides.allSatisfy { $0.normal.dot(center) + $0.offset > -radius }
@@ -82,23 +103,17 @@ package struct Silhouettes: Sendable {
   }
 
   /// Whether a point may be part of the object.
-  func isInside(_ point: SIMD3<Double>) -> Bool { isInside(point, views) }
+  func isInside(_ point: SIMD3<Double>) -> Bool { areInside([point], views)[0] }
 
-  /// The same, when only some views may have the point in their frame.
-  private func isInside(_ point: SIMD3<Double>, _ views: [View]) -> Bool {
-    var (seen, outside) = (0, 0)
-    for view in views {
-      let p = view.rotation * point + view.translation
-      guard p.z > 0 else { continue }
-      let pixel = SIMD2(p.x, p.y) / p.z * view.camera.focalLength + view.camera.principalPoint
-      guard pixel.x >= 0, pixel.y >= 0, pixel.x < Double(view.mask.width),
-        pixel.y < Double(view.mask.height)
-      else { continue }
-      seen += 1
-      if !view.mask.isMarked(at: pixel) { outside += 1 }
+  /// The same for several points that no other views have in their frame.
+  private func areInside(_ points: [SIMD3<Double>], _ views: [View]) -> [Bool] {
+    var seen = [Int32](repeating: 0, count: points.count)
+    var outside = seen
+    for view in views { view.count(points, seen: &seen, outside: &outside) }
+    return zip(seen, outside).map { seen, outside in
+      outside < options.minimumPhotos
+        || Double(outside) < options.minimumShare * Double(seen)
     }
-    return outside < options.minimumPhotos
-      || Double(outside) < options.minimumShare * Double(seen)
   }
 
   /// For each point, whether it may be part of the object. Consecutive points are usually near each
@@ -108,8 +123,7 @@ package struct Silhouettes: Sendable {
     let blocks = (points.count + size - 1) / size
     return try control.parallelMap(blocks, inUnitsOf: 32) { block in
       let own = points[block * size..<min((block + 1) * size, points.count)]
-      let near = views(near: own)
-      return own.map { isInside(SIMD3<Double>($0), near) }
+      return areInside(own.map { SIMD3<Double>($0) }, views(near: own))
     }.flatMap(\.self)
   }
 

@@ -58,18 +58,49 @@ package struct MeshGeneration {
     support: SupportPlane? = nil, surroundings: PointCloud = PointCloud(),
     _ context: StageContext
   ) throws -> Mesh {
+    let system = try system(
+      of: cloud, reconstruction, silhouettes: silhouettes, support: support,
+      context.part(from: 0, to: 0.66))
+    return try mesh(
+      of: system, cloud, reconstruction, silhouettes: silhouettes, surroundings: surroundings,
+      context.part(from: 0.66, to: 1))
+  }
+
+  /// The samples of a cloud, and the solved system that they determine. Throws and uses masks and
+  /// support like `run`.
+  func system(
+    of cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes?,
+    support: SupportPlane?, _ context: StageContext
+  ) throws -> SurfaceSystem {
     let samples = try samples(
       of: cloud, reconstruction, silhouettes: silhouettes, support: support,
-      context.part(from: 0, to: 0.1))
-    let notes = context.notes
+      context.part(from: 0, to: 0.15))
+    let solution = try context.notes.step("poisson") {
+      try poisson.solution(
+        of: samples.cloud, spacing: samples.voxelSize, context.part(from: 0.15, to: 1))
+    }
+    return SurfaceSystem(samples: samples, solution: solution)
+  }
+
+  private var poisson: PoissonSurface {
     var poisson = PoissonSurface(options: options.poisson)
     poisson.options.maximumDepth = options.maximumDepth
+    return poisson
+  }
+
+  /// The surface of a solved system of some cloud. Throws like `run`.
+  func mesh(
+    of system: SurfaceSystem, _ cloud: PointCloud, _ reconstruction: Reconstruction,
+    silhouettes: Silhouettes?, surroundings: PointCloud, _ context: StageContext
+  ) throws -> Mesh {
+    let (samples, notes) = (system.samples, context.notes)
     let (closed, cell) = try notes.step("poisson") {
-      try poisson.run(
-        samples.cloud, spacing: samples.voxelSize, context.part(from: 0.1, to: 0.85))
+      try poisson.surface(
+        of: system.solution, samples.cloud, context.control.part(from: 0, to: 0.55))
     }
     var scene = cloud
-    scene.append(surroundings)
+    // Appending copies the cloud.
+    if surroundings.count > 0 { scene.append(surroundings) }
     var trimming = SurfaceTrimming(options: options.trimming)
     trimming.options.holeFilling.fillsLarge = samples.isObject && options.closesObject
     let trimmed = try trimming.run(
@@ -77,18 +108,17 @@ package struct MeshGeneration {
       closed, samples: samples.cloud, scene: scene,
       spacing: max(samples.voxelSize, cell / 2),
       support: samples.support, silhouettes: silhouettes, reconstruction,
-      context.part(from: 0.85, to: 0.96))
+      context.part(from: 0.55, to: 0.9))
     let mesh = try notes.step("cleaning") {
       try MeshCleaning(options: options.cleaning).run(
-        trimmed, samples: samples.cloud, context.part(from: 0.96, to: 1))
+        trimmed, samples: samples.cloud, context.part(from: 0.9, to: 1))
     }
     notes.record("triangles", Double(mesh.triangles.count))
     return mesh
   }
 
-  /// Selects the points of the object, or of the whole scene, and averages them by voxel. Throws
-  /// and uses masks and support like `run`.
-  func samples(
+  /// Selects the points of the object, or of the whole scene, and averages them by voxel.
+  private func samples(
     of cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes?,
     support: SupportPlane?, _ context: StageContext
   ) throws -> SurfaceSamples {
@@ -98,17 +128,17 @@ package struct MeshGeneration {
       try select(cloud, reconstruction, silhouettes, support, context.part(from: 0, to: 0.5))
     }
     let downsampling = VoxelDownsampling(options: options.downsampling)
-    let downsampled = try notes.step("samples") {
-      var samples = try downsampling.run(
-        cloud.filtered(by: selection.isKept), context.part(from: 0.5, to: 0.7))
-      samples.cloud = try downsampling.withoutOutliers(
-        samples, context.control.part(from: 0.7, to: 1))
+    return try notes.step("samples") {
+      let averaged = try downsampling.run(
+        cloud, keeping: selection.isKept, context.part(from: 0.5, to: 0.7))
+      var samples = SurfaceSamples(
+        cloud: averaged.cloud, voxelSize: averaged.voxelSize, isObject: selection.isObject,
+        support: selection.support)
+      try downsampling.removeOutliers(
+        from: &samples.cloud, voxelSize: averaged.voxelSize, context.control.part(from: 0.7, to: 1))
+      notes.record("samples", Double(samples.cloud.count))
       return samples
     }
-    notes.record("samples", Double(downsampled.cloud.count))
-    return SurfaceSamples(
-      cloud: downsampled.cloud, voxelSize: downsampled.voxelSize, isObject: selection.isObject,
-      support: selection.support)
   }
 
   /// The box around what `run` would keep, in the frame of the cloud; from the sparse points if

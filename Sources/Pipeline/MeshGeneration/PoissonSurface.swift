@@ -30,7 +30,14 @@ struct PoissonSurface {
   ) throws -> (mesh: Mesh, cell: Double) {
     // Measured: the shares of the time on boot and orbit.
     let solution = try solution(of: cloud, spacing: spacing, context.part(from: 0, to: 0.75))
-    let mesh = try solution.surface(context.control.part(from: 0.75, to: 1))
+    return try surface(of: solution, cloud, context.control.part(from: 0.75, to: 1))
+  }
+
+  /// The surface of a solution for a cloud. Returns and throws like `run`.
+  func surface(
+    of solution: PoissonSolution, _ cloud: PointCloud, _ control: KernelControl
+  ) throws -> (mesh: Mesh, cell: Double) {
+    let mesh = try solution.surface(control)
     guard !mesh.triangles.isEmpty else {
       throw PipelineError.noSurface(reason: "no surface fits the \(cloud.count) points.")
     }

@@ -24,7 +24,7 @@ struct VoxelDownsampling {
 
   struct Result: Sendable {
     var cloud: PointCloud
-    /// The mean point of every input point; −1 for inputs that are not finite.
+    /// The mean point of every input point; −1 for inputs that are not kept or not finite.
     var sampleOfPoint: [Int32]
     /// Number of input points of each mean point.
     var weights: [Int32]
@@ -34,12 +34,21 @@ struct VoxelDownsampling {
 
   var options = Options()
 
-  /// The mean points; `footprint` stands for the cloud's median for a part of a cloud. Throws
-  /// `PipelineError.noSurface` for an empty cloud.
+  /// The mean points of those that are kept, of all by default; `footprint` stands for their median
+  /// for a part of a cloud. Throws `PipelineError.noSurface` if there are none.
   func run(
-    _ cloud: PointCloud, footprint: Float? = nil, _ context: StageContext
+    _ cloud: PointCloud, keeping isKept: [Bool]? = nil, footprint: Float? = nil,
+    _ context: StageContext
   ) throws -> Result {
-    guard let footprint = footprint ?? cloud.medianFootprint, footprint > 0 else {
+    var kept = PointCloud(positions: cloud.positions, footprints: cloud.footprints)
+    if let isKept {
+      // The grid leaves out what isn't finite.
+      for index in isKept.indices where !isKept[index] {
+        kept.positions[index] = SIMD3(repeating: .nan)
+        kept.footprints[index] = 0
+      }
+    }
+    guard let footprint = footprint ?? kept.medianFootprint, footprint > 0 else {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
     }
     let size = Double(footprint) * options.voxelFootprints
@@ -48,7 +57,8 @@ struct VoxelDownsampling {
         ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
     }
     let grid = try VoxelGrid(
-      cloud.positions, cellSize: size, levels: levels, context.control.part(from: 0, to: 0.7))
+      kept.positions, cellSize: size, levels: levels, context.control.part(from: 0, to: 0.7))
+    kept = PointCloud()
     try context.control.step(0.7)
     return try average(cloud, grid, size, context.control.part(from: 0.7, to: 1))
   }
@@ -59,14 +69,17 @@ struct VoxelDownsampling {
   ) throws -> Result {
     let members = Members(of: grid.cells, count: grid.cellCount)
     let chunk = 8192  // Cells of a unit of parallel work. Chosen.
-    let parts = try control.parallelMap((grid.cellCount + chunk - 1) / chunk) { part in
+    var parts = try control.parallelMap((grid.cellCount + chunk - 1) / chunk) { part in
       average(
         part * chunk..<min(grid.cellCount, (part + 1) * chunk), of: members, cloud, Float(size))
     }
     var result = PointCloud()
     result.positions.reserveCapacity(grid.cellCount)
     result.normals.reserveCapacity(grid.cellCount)
-    for part in parts { result.append(part) }
+    for index in parts.indices {
+      result.append(parts[index])
+      parts[index] = PointCloud()
+    }
     return Result(
       cloud: result, sampleOfPoint: grid.cells,
       weights: (0..<grid.cellCount).map { Int32(members[$0].count) }, voxelSize: size)
@@ -126,23 +139,21 @@ struct VoxelDownsampling {
 }
 
 extension VoxelDownsampling {
-  /// The mean points without isolated ones. `coarsest` is the footprint from which on all are
-  /// isolated; it stands for that of nearly all points for a part of a cloud.
-  func withoutOutliers(
-    _ result: Result, coarsest: Float? = nil, _ control: KernelControl
-  ) throws -> PointCloud {
-    let (cloud, voxelSize) = (result.cloud, result.voxelSize)
-    let (neighbors, radius) = (options.outlierNeighbors, options.outlierRadius)
-    let coarsest = Double(coarsest ?? cloud.footprints.quantile(0.99) ?? 0)
-    let reach = radius * max(voxelSize, coarsest)
+  /// Removes isolated mean points. `coarsest` is the footprint from which on all are isolated; it
+  /// stands for that of nearly all points for a part of a cloud.
+  func removeOutliers(
+    from cloud: inout PointCloud, voxelSize: Double, coarsest: Float? = nil,
+    _ control: KernelControl
+  ) throws {
+    let radius = Float(options.outlierRadius)
+    let coarsest = coarsest ?? cloud.footprints.quantile(0.99) ?? 0
     let nearest = try NearestPoints(
-      of: cloud.positions, in: cloud.positions, neighbors: neighbors + 1,
-      maximumDistance: reach, control)
-    return cloud.filtered(
-      by: cloud.positions.indices.map { index in
-        let last = index * nearest.neighbors + neighbors
-        let spacing = max(Float(voxelSize), cloud.footprints[index])
-        return nearest.distances[last] <= Float(radius) * spacing
+      of: cloud.positions, in: cloud.positions, neighbors: options.outlierNeighbors + 1,
+      onlyLast: true, maximumDistance: options.outlierRadius * max(voxelSize, Double(coarsest)),
+      control)
+    cloud.retain(
+      zip(nearest.distances, cloud.footprints).map { distance, footprint in
+        distance <= radius * max(Float(voxelSize), footprint)
       })
   }
 }

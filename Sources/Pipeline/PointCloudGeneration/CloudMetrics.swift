@@ -1,4 +1,5 @@
 import Foundation
+import Kernels
 import SceneModel
 
 /// Quality metrics of a dense cloud: density relative to the sparse points, coverage of the sparse
@@ -38,18 +39,20 @@ package struct CloudMetrics: Sendable {
   /// Measures `cloud` and records the figures in the report.
   @discardableResult
   package func run(
-    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ notes: StageNotes
-  ) -> Values {
+    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ context: StageContext
+  ) throws -> Values {
     let values = Values(
       points: cloud.count, sparsePoints: reconstruction.points.count,
-      sparseCoverage: coverage(of: reconstruction.points, by: cloud),
+      sparseCoverage: try coverage(of: reconstruction.points, by: cloud, context.control),
       pointsPerCubicMeter: reconstruction.worldFrame.scale.isMetric ? density(cloud) : nil)
-    report(values, notes)
+    report(values, context.notes)
     return values
   }
 
   /// The share of the sparse points, 0…1, that have a dense point within reach.
-  private func coverage(of points: [ScenePoint], by cloud: PointCloud) -> Double {
+  private func coverage(
+    of points: [ScenePoint], by cloud: PointCloud, _ control: KernelControl
+  ) throws -> Double {
     let sparsePositions = points.map { SIMD3<Float>($0.position) }
       .filter(\.isFinite)
     guard !sparsePositions.isEmpty, cloud.count > 0 else { return 0 }
@@ -58,11 +61,20 @@ package struct CloudMetrics: Sendable {
       .map { cloud.footprints[$0] }.sorted()
     let factor = Float(options.coverageFootprints)
     let reach = factor * typical[typical.count * 9 / 10]
-    var grid = PointGrid(sparsePositions, reach: reach)
-    for index in 0..<cloud.count {
-      grid.mark(cloud.positions[index], within: min(reach, factor * cloud.footprints[index]))
+    let grid = PointGrid(sparsePositions, reach: reach)
+    let unit = 1 << 17  // Dense points of a unit of parallel work. Chosen.
+    let near = try control.parallelMap((cloud.count + unit - 1) / unit) { number in
+      var near = Set<Int32>()
+      for index in number * unit..<min((number + 1) * unit, cloud.count) {
+        grid.addPoints(
+          near: cloud.positions[index], within: min(reach, factor * cloud.footprints[index]),
+          to: &near)
+      }
+      return near
     }
-    return Double(grid.markedCount) / Double(points.count)
+    var isCovered = [Bool](repeating: false, count: sparsePositions.count)
+    for index in near.joined() { isCovered[Int(index)] = true }
+    return Double(isCovered.count { $0 }) / Double(points.count)
   }
 
   /// Points per unit of volume of the box that holds all but the outermost points; nil for a box
@@ -72,8 +84,9 @@ package struct CloudMetrics: Sendable {
     let outer = Int(options.boxQuantile * Double(cloud.count))
     var (low, high) = (SIMD3<Float>.zero, SIMD3<Float>.zero)
     for axis in 0..<3 {
-      let values = cloud.positions.map { $0[axis] }.sorted()
-      (low[axis], high[axis]) = (values[outer], values[values.count - 1 - outer])
+      let values = cloud.positions.map { $0[axis] }
+      low[axis] = values.element(ofRank: outer)
+      high[axis] = values.element(ofRank: values.count - 1 - outer)
     }
     let inside = cloud.positions.count { point in
       (0..<3).allSatisfy { point[$0] >= low[$0] && point[$0] <= high[$0] }
@@ -105,19 +118,17 @@ package struct CloudMetrics: Sendable {
   private func percent(_ ratio: Double) -> String { String(format: "%.0f %%", 100 * ratio) }
 }
 
-/// A uniform grid over sparse points that marks those near any dense point. Faster to build than a
+/// A uniform grid over sparse points that finds those near a dense point. Faster to build than a
 /// k-d tree of the dense points.
-private struct PointGrid {
+private struct PointGrid: Sendable {
   private let sparsePositions: [SIMD3<Float>]
   private let inverseCell: Float
   private var cells: [SIMD3<Int32>: [Int32]] = [:]
-  private var isMarked: [Bool]
 
   /// Inserts each point into its own cell and the 26 adjacent ones; cells are `reach` wide.
   init(_ sparsePositions: [SIMD3<Float>], reach: Float) {
     self.sparsePositions = sparsePositions
     inverseCell = 1 / max(reach, .leastNormalMagnitude)
-    isMarked = [Bool](repeating: false, count: sparsePositions.count)
     for (index, position) in sparsePositions.enumerated() {
       guard let center = cell(of: position) else { continue }
       for offset in 0..<27 {
@@ -127,14 +138,12 @@ private struct PointGrid {
     }
   }
 
-  var markedCount: Int { isMarked.count { $0 } }
-
-  /// Marks all points within `distance` (at most `reach`) of `point`.
-  mutating func mark(_ point: SIMD3<Float>, within distance: Float) {
+  /// Adds the numbers of the points within `distance` (at most `reach`) of `point`.
+  func addPoints(near point: SIMD3<Float>, within distance: Float, to found: inout Set<Int32>) {
     guard let cell = cell(of: point), let near = cells[cell] else { return }
     for index in near {
       let offset = sparsePositions[Int(index)] - point
-      if (offset * offset).sum() <= distance * distance { isMarked[Int(index)] = true }
+      if (offset * offset).sum() <= distance * distance { found.insert(index) }
     }
   }
 

@@ -38,9 +38,8 @@ package struct PointCloudGeneration {
     let steps = DenseSteps(
       views, workspace, plan, masks(of: views, reconstruction, images), options)
     try steps.run(reconstruction, images, context.part(from: 0, to: 0.98))
-    let cloud = try insideMasks(
-      steps.cloud(context.part(from: 0.98, to: 0.99)), reconstruction, images,
-      context.part(from: 0.99, to: 1))
+    var cloud = try steps.cloud(context.part(from: 0.98, to: 0.99))
+    try dropOutsideMasks(&cloud, reconstruction, images, context.part(from: 0.99, to: 1))
     guard cloud.count > 0 else {
       throw PipelineError.noSurface(
         reason: "no surface patch is consistent in three or more photos.")
@@ -140,15 +139,14 @@ package struct PointCloudGeneration {
   }
 
   /// Drops points outside the masks: photos without a mask may observe what the masks exclude.
-  private func insideMasks(
-    _ cloud: PointCloud, _ reconstruction: Reconstruction, _ images: ImageStore,
+  private func dropOutsideMasks(
+    _ cloud: inout PointCloud, _ reconstruction: Reconstruction, _ images: ImageStore,
     _ context: StageContext
-  ) throws -> PointCloud {
-    guard let silhouettes = try Silhouettes(reconstruction, images: images) else { return cloud }
-    let result = cloud.filtered(
-      by: try silhouettes.areInside(cloud.positions, context.control))
-    context.notes.record("pointsOutsideMasks", Double(cloud.count - result.count))
-    return result
+  ) throws {
+    guard let silhouettes = try Silhouettes(reconstruction, images: images) else { return }
+    let count = cloud.count
+    cloud.retain(try silhouettes.areInside(cloud.positions, context.control))
+    context.notes.record("pointsOutsideMasks", Double(count - cloud.count))
   }
 
   /// Records view counts, and logs how many views are reused.

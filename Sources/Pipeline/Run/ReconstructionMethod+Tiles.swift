@@ -9,12 +9,13 @@ extension ReconstructionMethod {
     let geometry: ModelGeometry
     let output: TileOutput
     fileprivate let store: TileStore
-    /// What all tiles need: stored, or to be made from the cloud and the surface of the scene.
+    /// What all tiles need: stored, or to be made from the cloud and the surface of the scene, and
+    /// what the surface was made from, if that is known.
     fileprivate let base: Base
 
     fileprivate enum Base {
       case stored(TileBase, TileSurroundings)
-      case made(from: PointCloud, Mesh)
+      case made(from: PointCloud, Mesh, SurfaceSystem?)
     }
   }
 
@@ -28,7 +29,8 @@ extension ReconstructionMethod {
       if let base = store.base, let surroundings = store.surroundings {
         .stored(base, surroundings)
       } else {
-        .made(from: try densify(scene), try surface(scene))
+        .made(
+          from: try densify(scene), try surface(scene), cache.system(viewPixels: viewPixels))
       }
     return TileInput(scene: scene, geometry: geometry, output: output, store: store, base: base)
   }
@@ -92,10 +94,11 @@ extension ReconstructionMethod {
   ) throws -> (TileBase, TileSurroundings) {
     switch input.base {
     case .stored(let base, let surroundings): return (base, surroundings)
-    case .made(let cloud, let surface):
-      let base = try tiling.base(cloud, support: input.scene.support, views, context)
+    case .made(let cloud, let surface, let system):
+      let base = try tiling.base(cloud, system, support: input.scene.support, views, context)
       var observed = cloud
-      observed.append(input.scene.surroundings)
+      // Appending copies the cloud.
+      if input.scene.surroundings.count > 0 { observed.append(input.scene.surroundings) }
       let surroundings = TileSurroundings(
         observed: observed,
         occluders: try surface.simplified(

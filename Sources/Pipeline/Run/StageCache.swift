@@ -36,6 +36,7 @@ final class StageCache {
   private var temporaryTiles: ScratchFolder?
   private var cloud: AtResolution<PointCloud>?
   private var surface: AtResolution<Mesh>?
+  private var system: AtResolution<SurfaceSystem>?
 
   init(
     directory: URL?, access: CheckpointAccess, sealsStages: Bool, recorder: RunRecorder
@@ -72,6 +73,7 @@ final class StageCache {
   /// Drops decoded photos and the cloud, which can be recomputed.
   func dropReproducible() {
     cloud = nil
+    system = nil
     photos = photos?.emptied
     if let emptied = scene?.photos.emptied { scene?.photos = emptied }
   }
@@ -117,6 +119,16 @@ final class StageCache {
     let result = try make()
     cloud = AtResolution(viewPixels: viewPixels, value: result)
     return result
+  }
+
+  /// Keeps what a surface is made from, for tiles.
+  func keep(_ system: SurfaceSystem, viewPixels: Int) {
+    self.system = AtResolution(viewPixels: viewPixels, value: system)
+  }
+
+  /// What the surface from views of `viewPixels` pixels was made from; nil if it isn't kept.
+  func system(viewPixels: Int) -> SurfaceSystem? {
+    system.flatMap { $0.viewPixels == viewPixels ? $0.value : nil }
   }
 
   /// A surface from views of `viewPixels` pixels or more.

@@ -39,18 +39,18 @@ package struct Tiling {
   let reconstruction: Reconstruction
   let silhouettes: Silhouettes?
 
-  /// What all tiles have in common; `cloud` is the thinned cloud of the scene, `views` has all
-  /// points.
+  /// What all tiles have in common; `cloud` is the thinned cloud of the scene, `system` what it
+  /// determines, if that is known, and `views` has all points.
   func base(
-    _ cloud: PointCloud, support: SupportPlane?, _ views: FusedViews, _ context: StageContext
+    _ cloud: PointCloud, _ system: SurfaceSystem?, support: SupportPlane?, _ views: FusedViews,
+    _ context: StageContext
   ) throws -> TileBase {
-    let samples = try meshing.samples(
-      of: cloud, reconstruction, silhouettes: silhouettes, support: support,
-      context.part(from: 0, to: 0.3))
-    var poisson = PoissonSurface(options: meshing.options.poisson)
-    poisson.options.maximumDepth = meshing.options.maximumDepth
-    let solution = try poisson.solution(
-      of: samples.cloud, spacing: samples.voxelSize, context.part(from: 0.3, to: 0.8))
+    let system =
+      try system
+      ?? meshing.system(
+        of: cloud, reconstruction, silhouettes: silhouettes, support: support,
+        context.part(from: 0, to: 0.8))
+    let (samples, solution) = (system.samples, system.solution)
     var counts = CellCounts(
       cube: solution.cube, depth: min(options.latticeDepth, solution.depth))
     var (footprints, viewBoxes): ([Float], [CellBox?]) = ([], [])
@@ -64,6 +64,7 @@ package struct Tiling {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
     }
     let voxelSize = Double(footprint) * meshing.options.downsampling.voxelFootprints
+    var poisson = PoissonSurface(options: meshing.options.poisson)
     // Limit: the greatest depth of the kernel.
     poisson.options.maximumDepth = 14
     let depth = poisson.depth(
@@ -94,13 +95,14 @@ package struct Tiling {
   func solve(
     _ tile: Int, _ points: PointCloud, of base: TileBase, _ context: StageContext
   ) throws -> (solution: PoissonSolution, samples: PointCloud)? {
-    let kept = points.filtered(
-      by: try isOfScene(points, tile, base, context.control.part(from: 0, to: 0.1)))
+    let isKept = try isOfScene(points, tile, base, context.control.part(from: 0, to: 0.1))
     let downsampling = VoxelDownsampling(options: meshing.options.downsampling)
     let averaged = try downsampling.run(
-      kept, footprint: base.footprint, context.part(from: 0.1, to: 0.2))
-    let samples = try downsampling.withoutOutliers(
-      averaged, coarsest: base.coarsestFootprint, context.control.part(from: 0.2, to: 0.3))
+      points, keeping: isKept, footprint: base.footprint, context.part(from: 0.1, to: 0.2))
+    var samples = averaged.cloud
+    try downsampling.removeOutliers(
+      from: &samples, voxelSize: averaged.voxelSize, coarsest: base.coarsestFootprint,
+      context.control.part(from: 0.2, to: 0.3))
     guard samples.count >= meshing.options.poisson.minimumPoints else { return nil }
     let solution = try base.solution.refined(
       positions: samples.positions, normals: samples.normals, depth: base.depth,

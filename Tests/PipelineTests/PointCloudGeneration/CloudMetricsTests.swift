@@ -28,7 +28,8 @@ import Testing
     // On a point, within three footprints of one, and beyond.
     let sparse: [SIMD3<Double>] = [[0.5, 0.5, 0.2], [0.5, -0.29, 0.2], [0.5, -0.31, 0.2]]
     let notes = StageNotes()
-    let values = CloudMetrics().run(cloud, reconstruction(sparse, .gps), notes)
+    let values = try CloudMetrics().run(
+      cloud, reconstruction(sparse, .gps), StageContext(control: KernelControl(), notes: notes))
     #expect(values.points == 1001 && values.sparsePoints == 3)
     #expect(values.sparseCoverage == 2.0 / 3)
     #expect(values.pointsPerSparsePoint == 1001.0 / 3)
@@ -39,27 +40,27 @@ import Testing
     #expect(notes.details.count == 1)
   }
 
-  @Test func densityNeedsAUnitAndAVolume() {
-    let arbitrary = CloudMetrics().run(
-      cloud, reconstruction([[0, 0, 0]], .arbitrary), StageNotes())
+  @Test func densityNeedsAUnitAndAVolume() throws {
+    let arbitrary = try CloudMetrics().run(
+      cloud, reconstruction([[0, 0, 0]], .arbitrary), StageContext())
     #expect(arbitrary.pointsPerCubicMeter == nil)
     var flat = cloud
     for index in flat.positions.indices { flat.positions[index].z = 2 }
-    let values = CloudMetrics().run(flat, reconstruction([], .given), StageNotes())
+    let values = try CloudMetrics().run(flat, reconstruction([], .given), StageContext())
     #expect(values.pointsPerCubicMeter == nil)
     #expect(values.sparseCoverage == 0)
-    let empty = CloudMetrics().run(
-      PointCloud(), reconstruction([[0, 0, 0]], .gps), StageNotes())
+    let empty = try CloudMetrics().run(
+      PointCloud(), reconstruction([[0, 0, 0]], .gps), StageContext())
     #expect(empty.points == 0 && empty.sparsePoints == 1 && empty.sparseCoverage == 0)
     #expect(empty.pointsPerCubicMeter == nil && empty.pointsPerSparsePoint == 0)
   }
 
-  @Test func nonFinitePointsAreSkipped() {
+  @Test func nonFinitePointsAreSkipped() throws {
     var broken = cloud
     broken.positions[0] = [.nan, .infinity, 0]
     broken.positions[1] = [-1e30, 0, 0]
-    let values = CloudMetrics().run(
-      broken, reconstruction([[0.5, 0.5, 0.2], [.nan, 0, 0]], .arbitrary), StageNotes())
+    let values = try CloudMetrics().run(
+      broken, reconstruction([[0.5, 0.5, 0.2], [.nan, 0, 0]], .arbitrary), StageContext())
     #expect(values.sparseCoverage == 0.5)
   }
 }

@@ -60,7 +60,7 @@ import Testing
     let tiling = tiling(maximumPoints: maximumPoints, baseDepth: baseDepth)
     let context = StageContext(control: KernelControl(threadCount: threads))
     let source = FusedViews(count: 4) { [views] in views[$0] }
-    let base = try tiling.base(cloud, support: nil, source, context)
+    let base = try tiling.base(cloud, nil, support: nil, source, context)
     let folder = try TemporaryFolder()
     let surfaces = TileSurfaces(
       tiling: tiling, base: base, views: source,

@@ -43,10 +43,29 @@ import Testing
     #expect(all.filtered(by: [false, false, false, false]).photoOffsets == [0])
   }
 
+  @Test(arguments: [
+    [true, false, true, true], [false, false, false, true], [true, true, true, true],
+    [false, false, false, false],
+  ])
+  func retainingIsFilteringInPlace(_ isKept: [Bool]) {
+    let all = cloud([[1, 2], [3], [4, 5], []])
+    let filtered = all.filtered(by: isKept)
+    var retained = all
+    retained.retain(isKept)
+    #expect(retained.positions == filtered.positions && retained.normals == filtered.normals)
+    #expect(retained.colors == filtered.colors && retained.footprints == filtered.footprints)
+    #expect(retained.consistency == filtered.consistency)
+    #expect(retained.photoOffsets == filtered.photoOffsets)
+    #expect(retained.photoIndices == filtered.photoIndices)
+  }
+
   @Test func missingAttributesStayMissing() {
     let bare = PointCloud(positions: [[1, 0, 0], [2, 0, 0]], photoOffsets: [0, 0, 0])
     let some = bare.filtered(by: [false, true])
     #expect(some.positions == [[2, 0, 0]] && some.normals.isEmpty && some.colors.isEmpty)
     #expect(some.consistency.isEmpty && some.footprints.isEmpty)
+    var retained = bare
+    retained.retain([false, true])
+    #expect(retained.positions == [[2, 0, 0]] && retained.normals.isEmpty)
   }
 }

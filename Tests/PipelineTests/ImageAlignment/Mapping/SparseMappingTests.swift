@@ -100,18 +100,19 @@ import Testing
     #expect(result.poses == expected.poses)
   }
 
-  @Test func photoWithOnePairIsAddedAfterward() throws {
+  /// Photos from number `first` on have one pair with the photo before them.
+  @Test(arguments: [11, 8]) func photosWithOnePairAreAddedAfterward(_ first: Int) throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.3
     let scene = SyntheticScene(options)
     let graph = ViewGraph(
       photoCount: 12,
       pairs: scene.viewGraph.pairs.filter {
-        $0.pair.second.index != 11 || $0.pair.first.index == 10
+        $0.pair.second.index < first || $0.pair.second.index - $0.pair.first.index == 1
       })
     let notes = StageNotes()
     let result = try scene.mapped(.automatic, graph: graph, notes: notes)
-    #expect(notes.counts["globalPhotos"] == 11)
+    #expect(notes.counts["globalPhotos"] == Double(first))
     #expect(result.registered.count == 12)
     #expect(scene.comparison(result).maximumCenterError < 0.03)
   }
