@@ -26,10 +26,11 @@ struct DenseViews: Sendable {
 
   /// Throws `PipelineError.noSurface` if no two photos share enough points.
   init(
-    _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options
+    _ reconstruction: Reconstruction, images: ImageStore, options: PointCloudGeneration.Options,
+    _ control: KernelControl
   ) throws {
-    let sources = SourceSelection(options: options.sourceSelection)
-      .run(reconstruction, viewPixels: options.maximumPixelsPerView)
+    let sources = try SourceSelection(options: options.sourceSelection)
+      .run(reconstruction, viewPixels: options.maximumPixelsPerView, control)
     let photos = reconstruction.registered.filter {
       let detail = reconstruction.photos[$0.index].detail(at: options.maximumPixelsPerView)
       return !sources[$0.index].isEmpty && detail >= options.minimumDetail

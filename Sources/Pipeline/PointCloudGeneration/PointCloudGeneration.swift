@@ -30,9 +30,10 @@ package struct PointCloudGeneration {
     _ reconstruction: Reconstruction, images: ImageStore, folder: URL? = nil,
     _ context: StageContext
   ) throws -> PointCloud {
-    let views = try DenseViews(reconstruction, images: images, options: options)
+    let start = context.part(from: 0, to: 0).control
+    let views = try DenseViews(reconstruction, images: images, options: options, start)
     let workspace = try PatchWorkspace(folder: folder, temporaryParent: temporaryParent)
-    let plan = try DensePlan(.cloud, views, workspace, context.part(from: 0, to: 0).control)
+    let plan = try DensePlan(.cloud, views, workspace, start)
     try workspace.checkSpace(plan.byteCount(views))
     recordReuse(views.views.count - plan[.patches].count, views, context.notes)
     let steps = DenseSteps(
@@ -53,7 +54,7 @@ package struct PointCloudGeneration {
   func fusedViews(
     _ reconstruction: Reconstruction, images: ImageStore, folder: URL, _ control: KernelControl
   ) throws -> FusedViews {
-    let views = try DenseViews(reconstruction, images: images, options: options)
+    let views = try DenseViews(reconstruction, images: images, options: options, control)
     let workspace = try PatchWorkspace(folder: folder)
     let masks = masks(of: views, reconstruction, images)
     let steps = { @Sendable [options] (indices: [Int]) in
@@ -83,11 +84,12 @@ package struct PointCloudGeneration {
     guard share.count > 0, (0..<share.count).contains(share.index) else {
       throw KernelError.invalidArgument("there is no share \(share.index) of \(share.count)")
     }
-    let views = try DenseViews(reconstruction, images: images, options: options)
+    let start = context.part(from: 0, to: 0).control
+    let views = try DenseViews(reconstruction, images: images, options: options, start)
     let workspace = try PatchWorkspace(folder: folder)
     let own = views.indices.filter(share.contains)
     let plan = try DensePlan(
-      .patches, of: own, views, workspace, context.part(from: 0, to: 0).control)
+      .patches, of: own, views, workspace, start)
     try workspace.checkSpace(plan.byteCount(views))
     recordReuse(own.count - plan[.patches].count, views, context.notes)
     try DenseSteps(
@@ -101,11 +103,12 @@ package struct PointCloudGeneration {
     _ step: PatchWorkspace.Step, _ block: Block, of reconstruction: Reconstruction,
     images: ImageStore, folder: URL, _ context: StageContext
   ) throws {
-    let views = try DenseViews(reconstruction, images: images, options: options)
+    let start = context.part(from: 0, to: 0).control
+    let views = try DenseViews(reconstruction, images: images, options: options, start)
     let workspace = try PatchWorkspace(folder: folder)
     let own = Array(views.indices)[block.range(of: views.views.count)]
     let plan = try DensePlan(
-      step, of: Array(own), views, workspace, context.part(from: 0, to: 0).control)
+      step, of: Array(own), views, workspace, start)
     try workspace.checkSpace(plan.byteCount(views))
     try DenseSteps(views, workspace, plan, masks(of: views, reconstruction, images), options)
       .run(reconstruction, images, context)
@@ -116,10 +119,11 @@ package struct PointCloudGeneration {
   func coarseCloud(
     _ reconstruction: Reconstruction, images: ImageStore, _ context: StageContext
   ) throws -> PointCloud {
-    let views = try DenseViews(reconstruction, images: images, options: options)
+    let start = context.part(from: 0, to: 0).control
+    let views = try DenseViews(reconstruction, images: images, options: options, start)
     let workspace = try PatchWorkspace(folder: nil, temporaryParent: temporaryParent)
     let plan = try DensePlan(
-      .coarseCompleted, views, workspace, context.part(from: 0, to: 0).control)
+      .coarseCompleted, views, workspace, start)
     try workspace.checkSpace(plan.byteCount(views))
     let steps = DenseSteps(
       views, workspace, plan, masks(of: views, reconstruction, images), options)

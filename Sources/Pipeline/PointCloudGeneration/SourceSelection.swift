@@ -1,4 +1,5 @@
 import Foundation
+import Kernels
 import SceneModel
 
 /// Selects the source views of each reference view: those that share many sparse points seen at a
@@ -22,35 +23,46 @@ struct SourceSelection {
 
   /// The sources of each photo by id, best first; empty for photos that are not registered.
   /// Photos that are blurred at a size of `viewPixels` count less.
-  func run(_ reconstruction: Reconstruction, viewPixels: Int) -> [[ID<Photo>]] {
-    let count = reconstruction.photos.count
-    var scores = [[Double]](repeating: [Double](repeating: 0, count: count), count: count)
-    var shared = [[Int]](repeating: [Int](repeating: 0, count: count), count: count)
+  func run(
+    _ reconstruction: Reconstruction, viewPixels: Int, _ control: KernelControl = KernelControl()
+  ) throws -> [[ID<Photo>]] {
+    var points = [[Int32]](repeating: [], count: reconstruction.photos.count)
+    for (index, point) in reconstruction.points.enumerated() {
+      for observation in point.track { points[observation.photo.index].append(Int32(index)) }
+    }
     let centers = reconstruction.poses.map { $0?.center }
-    for point in reconstruction.points {
-      for (position, first) in point.track.enumerated() {
-        for second in point.track[(position + 1)...] {
-          let (a, b) = (first.photo.index, second.photo.index)
-          guard let c = centers[a], let d = centers[b] else { continue }
-          let weight = weight(of: point.position, from: c, and: d)
-          guard weight.isFinite else { continue }
-          scores[a][b] += weight
-          scores[b][a] += weight
-          shared[a][b] += 1
-          shared[b][a] += 1
-        }
+    let detail = reconstruction.photos.map { $0.detail(at: viewPixels) }
+    return try control.parallelMap(points.count, inUnitsOf: 16) { [points] photo in
+      sources(of: photo, seeing: points[photo], of: reconstruction, centers, detail)
+    }
+  }
+
+  /// The sources of a photo, given the numbers of the points that it observes, and the camera
+  /// centers and the detail of all photos.
+  private func sources(
+    of photo: Int, seeing points: [Int32], of reconstruction: Reconstruction,
+    _ centers: [SIMD3<Double>?], _ detail: [Double]
+  ) -> [ID<Photo>] {
+    guard let center = centers[photo] else { return [] }
+    var scores = [Double](repeating: 0, count: centers.count)
+    var shared = [Int](repeating: 0, count: centers.count)
+    var others: [Int] = []
+    for index in points {
+      let point = reconstruction.points[Int(index)]
+      for observation in point.track where observation.photo.index != photo {
+        let other = observation.photo.index
+        guard let otherCenter = centers[other] else { continue }
+        let weight = weight(of: point.position, from: center, and: otherCenter)
+        guard weight.isFinite else { continue }
+        if shared[other] == 0 { others.append(other) }
+        scores[other] += weight
+        shared[other] += 1
       }
     }
-    let detail = reconstruction.photos.map { $0.detail(at: viewPixels) }
-    for photo in 0..<count {
-      for source in 0..<count { scores[photo][source] *= detail[source] }
-    }
-    return (0..<count).map { photo in
-      (0..<count)
-        .filter { shared[photo][$0] >= options.minimumSharedPoints && scores[photo][$0] > 0 }
-        .sorted { (-scores[photo][$0], $0) < (-scores[photo][$1], $1) }
-        .prefix(options.maximumSources).map { ID($0) }
-    }
+    for other in others { scores[other] *= detail[other] }
+    return others.filter { shared[$0] >= options.minimumSharedPoints && scores[$0] > 0 }
+      .sorted { (-scores[$0], $0) < (-scores[$1], $1) }
+      .prefix(options.maximumSources).map { ID($0) }
   }
 
   /// Gaussian weight of the triangulation angle, times the squared ratio of distances.

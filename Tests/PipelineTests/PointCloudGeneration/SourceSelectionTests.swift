@@ -11,21 +11,21 @@ import Testing
     return scene
   }
 
-  @Test func blurredPhotosAreLastAmongTheSources() {
+  @Test func blurredPhotosAreLastAmongTheSources() throws {
     let selection = SourceSelection()
-    let sharp = selection.run(scene(), viewPixels: 100_000)
+    let sharp = try selection.run(scene(), viewPixels: 100_000)
     let best = sharp[0][0]
-    let sources = selection.run(scene(blurred: [best.index: 2000]), viewPixels: 100_000)
+    let sources = try selection.run(scene(blurred: [best.index: 2000]), viewPixels: 100_000)
     #expect(sources[0].first != best)
     // It has sharp sources itself.
     #expect(sources[best.index] == sharp[best.index])
   }
 
   /// A photo that is sharp enough for small views is as good as the others.
-  @Test func detailBeyondTheViewsDoesNotCount() {
+  @Test func detailBeyondTheViewsDoesNotCount() throws {
     let selection = SourceSelection()
-    let best = selection.run(scene(), viewPixels: 1000)[0][0]
-    let sources = selection.run(scene(blurred: [best.index: 2000]), viewPixels: 1000)
+    let best = try selection.run(scene(), viewPixels: 1000)[0][0]
+    let sources = try selection.run(scene(blurred: [best.index: 2000]), viewPixels: 1000)
     #expect(sources[0].first == best)
   }
 }
