@@ -101,9 +101,15 @@ struct Slurm: Sendable {
   }
 
   /// The largest number of processors of a node; nil if it is not known.
-  func processorsPerNode(partition: String?) -> Int? {
+  func processorsPerNode(partition: String?) -> Int? { largest("%c", partition) }
+
+  /// The memory of the largest node in megabytes; nil if it is not known.
+  func megabytesPerNode(partition: String?) -> Int? { largest("%m", partition) }
+
+  /// The largest number that `sinfo` prints of a field.
+  private func largest(_ field: String, _ partition: String?) -> Int? {
     let choice = partition.map { ["--partition=\($0)"] } ?? []
-    let output = try? run("sinfo", ["--noheader", "--format=%c"] + choice)
+    let output = try? run("sinfo", ["--noheader", "--format=\(field)"] + choice)
     return output?.split(separator: "\n").compactMap { Int($0.filter(\.isNumber)) }.max()
   }
 

@@ -12,7 +12,9 @@ extension SlurmSettings {
   /// The settings of a command with `arguments`. Throws a `CommandFailure` if Slurm is not
   /// installed.
   init(_ arguments: SlurmArguments, retries: Int) throws {
-    let processors = try Slurm().processorsPerNode(partition: arguments.partition)
+    let slurm = try Slurm()
+    let processors = slurm.processorsPerNode(partition: arguments.partition)
+    maximumMegabytes = slurm.megabytesPerNode(partition: arguments.partition)
     (options, self.retries) = (arguments.batchOptions, retries)
     maximumThreads = processors ?? .max
     program = try FileManager.default.destinationOfSymbolicLink(atPath: "/proc/self/exe")

@@ -153,7 +153,11 @@ struct SlurmRun: Sendable {
       status.map { try? folder.record($0, of: id) }
     }
     guard let status, status.isTransient, attempts <= settings.retries else { return nil }
-    if status.isShortOfMemory { resources.memoryMegabytes *= 2 }
+    if status.isShortOfMemory {
+      // Slurm refuses jobs that no machine has the memory for. What was killed may have had enough.
+      let limit = max(resources.memoryMegabytes, settings.maximumMegabytes ?? .max)
+      resources.memoryMegabytes = min(limit, 2 * resources.memoryMegabytes)
+    }
     return resources
   }
 

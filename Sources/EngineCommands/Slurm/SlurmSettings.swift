@@ -9,6 +9,8 @@ struct SlurmSettings: Codable, Equatable, Sendable {
   var retries: Int
   /// The largest number of processors of a job.
   var maximumThreads: Int
+  /// The memory of the largest machine; nil if it is not known.
+  var maximumMegabytes: Int?
   /// The program on all machines.
   var program: String
 }
