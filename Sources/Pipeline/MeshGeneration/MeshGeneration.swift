@@ -50,17 +50,19 @@ package struct MeshGeneration {
 
   /// The surface with normals and colors, in the frame of the cloud. If most photos have masks, the
   /// object is what `silhouettes` retain; `support` is what it stands on, and `surroundings` are
-  /// observed points around it, which prove that the space in front of them is free.
+  /// observed points around it, which prove that the space in front of them is free. `keep` gets
+  /// what the surface is made from.
   ///
   /// Throws `PipelineError.noSurface` if the cloud does not determine one.
-  package func run(
+  func run(
     _ cloud: PointCloud, _ reconstruction: Reconstruction, silhouettes: Silhouettes? = nil,
     support: SupportPlane? = nil, surroundings: PointCloud = PointCloud(),
-    _ context: StageContext
+    _ context: StageContext, keep: (SurfaceSystem) -> Void = { _ in }
   ) throws -> Mesh {
     let system = try system(
       of: cloud, reconstruction, silhouettes: silhouettes, support: support,
       context.part(from: 0, to: 0.66))
+    keep(system)
     return try mesh(
       of: system, cloud, reconstruction, silhouettes: silhouettes, surroundings: surroundings,
       context.part(from: 0.66, to: 1))
@@ -88,8 +90,8 @@ package struct MeshGeneration {
     return poisson
   }
 
-  /// The surface of a solved system of some cloud. Throws like `run`.
-  func mesh(
+  /// The surface of a solved system of a cloud. Throws like `run`.
+  private func mesh(
     of system: SurfaceSystem, _ cloud: PointCloud, _ reconstruction: Reconstruction,
     silhouettes: Silhouettes?, surroundings: PointCloud, _ context: StageContext
   ) throws -> Mesh {

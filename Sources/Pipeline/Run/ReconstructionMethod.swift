@@ -141,14 +141,13 @@ struct ReconstructionMethod {
           reconstruction, images: photos.images, context.control.part(from: 0, to: 0))
       }
       let share = configuration.photoRefinement == nil ? 1 : 0.4
-      let meshing = MeshGeneration(configuration.meshGeneration)
-      let system = try meshing.system(
-        of: cloud, reconstruction, silhouettes: silhouettes, support: scene.support,
-        context.part(from: 0, to: 0.66 * share))
-      if configuration.tiles != nil { cache.keep(system, viewPixels: viewPixels) }
-      let mesh = try meshing.mesh(
-        of: system, cloud, reconstruction, silhouettes: silhouettes,
-        surroundings: scene.surroundings, context.part(from: 0.66 * share, to: share))
+      let mesh = try MeshGeneration(configuration.meshGeneration)
+        .run(
+          cloud, reconstruction, silhouettes: silhouettes, support: scene.support,
+          surroundings: scene.surroundings, context.part(from: 0, to: share)
+        ) {
+          if configuration.tiles != nil { cache.keep($0, viewPixels: viewPixels) }
+        }
       guard let refinement = configuration.photoRefinement else { return mesh }
       return try PhotoRefinement(options: refinement).run(
         mesh, source: ViewSource(reconstruction, images: photos.images),

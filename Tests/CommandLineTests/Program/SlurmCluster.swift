@@ -32,6 +32,15 @@ final class SlurmCluster {
     ["SLURM_CONF": folder.url.appendingPathComponent("slurm.conf").path]
   }
 
+  /// The memory of a node.
+  func megabytesPerNode() throws -> Int {
+    let configuration = try String(
+      contentsOf: folder.url.appendingPathComponent("slurm.conf"), encoding: .utf8)
+    let value = configuration.components(separatedBy: "RealMemory=").last?.prefix { $0.isNumber }
+    guard let megabytes = value.flatMap({ Int($0) }) else { throw CocoaError(.fileReadCorruptFile) }
+    return megabytes
+  }
+
   /// Ends the daemon of a node, as if its machine had lost power.
   func kill(_ node: String) throws { try control("kill", node) }
 

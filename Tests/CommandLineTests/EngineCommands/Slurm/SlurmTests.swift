@@ -64,7 +64,8 @@ struct SlurmTests {
     let program = try PlanFolder(reading: url).plan.program
     let plan = try PlanFolder(writing: ChunkPlan(program: program, stages: stages), to: url)
     let settings = SlurmSettings(
-      options: [], retries: 2, maximumThreads: 1, program: CommandProcess.program.path)
+      options: [], retries: 2, maximumThreads: 1,
+      maximumMegabytes: try cluster.megabytesPerNode(), program: CommandProcess.program.path)
     try SlurmFolder(of: plan).write(settings)
     return plan
   }
@@ -123,6 +124,9 @@ struct SlurmTests {
     #expect(
       try Data(contentsOf: folder.appendingPathComponent("cluster.usdz"))
         == Data(contentsOf: folder.appendingPathComponent("here.usdz")))
+    let plan = try PlanFolder(reading: folder.appendingPathComponent("cluster.usdz.plan"))
+    #expect(
+      try SlurmFolder(of: plan).settings().maximumMegabytes == self.cluster.megabytesPerNode())
   }
 
   @Test func jobsContinueWithoutTheCommand() throws {
@@ -155,8 +159,11 @@ struct SlurmTests {
     #expect(plan.missing(in: plan.plan.stages[0]).isEmpty)
   }
 
+  /// A killed chunk may have been short of memory, but no node has twice as much.
   @Test func killedChunksAndNodesAreReplaced() throws {
-    let plan = try writePlan([("features", "features:1/1", 4)])
+    let memory = try cluster.megabytesPerNode()
+    let plan = try writePlan(
+      [("features", "features:1/1", 4)], memoryBytes: memory / 4 * 3 << 20)
     let watch = try BackgroundProcess(
       ["watch", "plan"], in: folder, environment: cluster.environment)
     let first = ChunkID(stage: "features", number: 1)
@@ -168,6 +175,8 @@ struct SlurmTests {
     try cluster.kill("s2")
     #expect(watch.wait() == 0, "\(watch.errors)")
     #expect(plan.missing(in: plan.plan.stages[0]).isEmpty)
+    let asked = try SlurmFolder(of: plan).submissions().map(\.resources.memoryMegabytes)
+    #expect(asked.contains(memory), "\(asked)")
     try cluster.revive("s2")
   }
 
