@@ -4,7 +4,7 @@
 
 #include "bundle/layout.h"
 #include "bundle/normal_equations.h"
-#include "bundle/reduced_system.h"
+#include "bundle/reduced_solver.h"
 #include "ck_bundle.h"
 #include "core/guard.h"
 #include "core/span.h"
@@ -30,7 +30,7 @@ class Adjustment {
         control_(control),
         equations_(bundle, layout_, options.huber_width, control),
         system_(layout_, control),
-        solver_(system_, options) {
+        solver_(system_, options, control) {
     for (size_t i = 0; i < bundle.camera_count; ++i) {
       parameters_.cameras.push_back(bundle.cameras[i]);
       aspects_.push_back(bundle.cameras[i].fy / bundle.cameras[i].fx);

@@ -65,27 +65,4 @@ class ReducedSystem {
   Eigen::VectorXd right;
 };
 
-/// Solves reduced camera systems with the same blocks: as dense matrices up to a number of poses,
-/// as sparse ones up to another, and by conjugate gradients above it.
-class ReducedSolver {
- public:
-  ReducedSolver(const ReducedSystem& system, const ck_bundle_options& options)
-      : system_(system), options_(options) {}
-
-  /// The solution; empty if the matrix is not positive definite.
-  Eigen::VectorXd solve();
-
- private:
-  Eigen::VectorXd solve_dense() const;
-  Eigen::VectorXd solve_sparse();
-  Eigen::VectorXd solve_iteratively() const;
-  /// The matrix times a vector.
-  Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
-
-  const ReducedSystem& system_;
-  const ck_bundle_options& options_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Upper> sparse_;
-  bool is_analyzed_ = false;
-};
-
 }  // namespace ck

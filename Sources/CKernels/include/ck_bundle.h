@@ -102,8 +102,9 @@ typedef struct {
   double function_tolerance;
   /// Reduced camera systems with more free photos than this are factorized as sparse matrices.
   int32_t dense_photo_limit;
-  /// Systems with more free photos than this are solved by preconditioned conjugate gradients.
-  int32_t direct_photo_limit;
+  /// Systems whose factorization takes more multiplications than this are solved by preconditioned
+  /// conjugate gradients.
+  double direct_work;
 } ck_bundle_options;
 
 /// Summary of a bundle adjustment.

@@ -106,17 +106,23 @@ typedef struct {
   int32_t neighbors;
   /// Search radius, in units of the coordinates; above 0, may be infinite.
   double maximum_distance;
-  /// Whether only the last of the neighbors is returned.
-  bool returns_last_only;
 } ck_nearest_options;
 
 /// Finds the nearest `neighbors` points within `maximum_distance` of every query. Points and
 /// queries are 3 floats each.
 ///
-/// `indices` and `distances` hold `neighbors` elements per query, the nearest first, or one element
-/// for the last of them; −1 and infinity where there are fewer.
+/// `indices` and `distances` hold `neighbors` elements per query, the nearest first; −1 and
+/// infinity where there are fewer.
 ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_options* options,
                             const ck_control* control, int32_t* indices, float* distances);
+
+/// Finds which of the points, 3 floats each, have at least `minimum` others up to a distance of
+/// their own.
+///
+/// `distances` holds one distance per point, and `have_neighbors` gets 1 or 0 per point; 0 for one
+/// that is not finite.
+ck_status ck_have_neighbors(ck_span points, const float* distances, size_t minimum,
+                            const ck_control* control, uint8_t* have_neighbors);
 
 /// An axis-aligned grid of cubic cells; x varies fastest.
 typedef struct {

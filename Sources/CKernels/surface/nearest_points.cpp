@@ -69,6 +69,33 @@ class Nearest {
   size_t found_ = 0;
 };
 
+/// Looks for a number of points near a position, whichever.
+class AnyNear {
+ public:
+  explicit AnyNear(size_t needed) : needed_(needed) {}
+
+  /// Starts a new search, for points up to a distance.
+  void clear(double distance) {
+    found_ = 0;
+    limit_ = std::nextafter(distance * distance, std::numeric_limits<double>::infinity());
+  }
+  void look_in(const Point*) {}
+
+  // What nanoflann calls.
+  using DistanceType = double;
+  bool full() const { return found_ >= needed_; }
+  double worstDist() const { return full() ? 0 : limit_; }
+  bool addPoint(double squared, uint32_t) {
+    if (squared < limit_) ++found_;
+    return !full();
+  }
+
+ private:
+  const size_t needed_;
+  double limit_ = 0;
+  size_t found_ = 0;
+};
+
 /// A part of the points with a tree, which nanoflann builds on one thread.
 class PartTree {
  public:
@@ -95,9 +122,10 @@ class PartTree {
     return sum;
   }
 
-  void search(const float* position, Nearest& nearest) const {
-    nearest.look_in(points_);
-    tree_.findNeighbors(nearest, position, nanoflann::SearchParams());
+  template <typename Results>
+  void search(const float* position, Results& results) const {
+    results.look_in(points_);
+    tree_.findNeighbors(results, position, nanoflann::SearchParams());
   }
 
   // What nanoflann calls.
@@ -139,8 +167,12 @@ class Forest {
     });
   }
 
-  void search(const float* position, Nearest& nearest) const {
-    nearest.clear();
+  /// The finite points, those of a part one behind the other.
+  const std::vector<Point>& points() const { return points_; }
+
+  /// Continues a search in all parts that may have points for it.
+  template <typename Results>
+  void search(const float* position, Results& results) const {
     if (trees_.empty()) return;
     size_t first = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -149,10 +181,10 @@ class Forest {
       if (squared < least) first = i;
       least = std::min(least, squared);
     }
-    trees_[first]->search(position, nearest);
+    trees_[first]->search(position, results);
     for (size_t i = 0; i < trees_.size(); ++i) {
-      if (i == first || !(trees_[i]->squared_distance(position) < nearest.worstDist())) continue;
-      trees_[i]->search(position, nearest);
+      if (i == first || !(trees_[i]->squared_distance(position) < results.worstDist())) continue;
+      trees_[i]->search(position, results);
     }
   }
 
@@ -201,8 +233,8 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
     const double reach = options->maximum_distance;
     ck::require(count > 0 && indices && distances, "invalid output");
     ck::require(reach > 0, "the distance must be positive");
-    const size_t first = options->returns_last_only ? static_cast<size_t>(count) - 1 : 0;
-    const size_t width = static_cast<size_t>(count) - first, query_count = queries.count;
+    const auto width = static_cast<size_t>(count);
+    const size_t query_count = queries.count;
     std::fill(indices, indices + query_count * width, -1);
     std::fill(distances, distances + query_count * width, std::numeric_limits<float>::infinity());
     ck::step(control, 0);
@@ -210,16 +242,41 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
     const ck::Strided<float> q(queries);
     ck::parallel_for(control, (query_count + kChunk - 1) / kChunk, [&](size_t chunk) {
       // The largest distance is included.
-      Nearest nearest(static_cast<size_t>(count),
+      Nearest nearest(width,
                       std::nextafter(reach * reach, std::numeric_limits<double>::infinity()));
       const size_t end = std::min(query_count, (chunk + 1) * kChunk);
       for (size_t i = chunk * kChunk; i < end; ++i) {
         if (!q.is_finite(i)) continue;
+        nearest.clear();
         forest.search(q[i], nearest);
-        for (size_t k = first; k < nearest.size(); ++k) {
-          indices[i * width + k - first] = nearest.index(k);
-          distances[i * width + k - first] = static_cast<float>(std::sqrt(nearest.squared(k)));
+        for (size_t k = 0; k < nearest.size(); ++k) {
+          indices[i * width + k] = nearest.index(k);
+          distances[i * width + k] = static_cast<float>(std::sqrt(nearest.squared(k)));
         }
+      }
+    });
+  });
+}
+
+ck_status ck_have_neighbors(ck_span points, const float* distances, size_t minimum,
+                            const ck_control* control, uint8_t* have_neighbors) {
+  return ck::guarded([&] {
+    ck::require(points.data || points.count == 0, "null pointer");
+    if (points.count == 0) return;
+    ck::require(distances && have_neighbors, "null pointer");
+    std::fill(have_neighbors, have_neighbors + points.count, 0);
+    ck::step(control, 0);
+    const Forest forest(points, control);
+    const size_t count = forest.points().size();
+    ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
+      // A point is near itself.
+      AnyNear near(minimum + 1);
+      const size_t end = std::min(count, (chunk + 1) * kChunk);
+      for (size_t i = chunk * kChunk; i < end; ++i) {
+        const Point& point = forest.points()[i];
+        near.clear(distances[point.index]);
+        forest.search(point.position.data(), near);
+        have_neighbors[point.index] = near.full();
       }
     });
   });

@@ -1,6 +1,6 @@
 import CKernels
 
-/// The k nearest points of a set for each query, or the k-th nearest.
+/// The k nearest points of a set for each query.
 package struct NearestPoints: Sendable {
   /// Number of neighbors that are returned per query.
   package let neighbors: Int
@@ -9,19 +9,17 @@ package struct NearestPoints: Sendable {
   /// The distances corresponding to `indices`; infinite if there are fewer.
   package let distances: [Float]
 
-  /// Finds the nearest `neighbors` of `points` within `maximumDistance` of every query, or, of
-  /// these, only the last one.
+  /// Finds the nearest `neighbors` of `points` within `maximumDistance` of every query.
   package init(
     of queries: [SIMD3<Float>], in points: [SIMD3<Float>], neighbors: Int = 1,
-    onlyLast: Bool = false, maximumDistance: Double = .infinity, _ control: KernelControl
+    maximumDistance: Double = .infinity, _ control: KernelControl
   ) throws {
-    let width = onlyLast ? 1 : max(1, neighbors)
+    let width = max(1, neighbors)
     var indices = [Int32](repeating: -1, count: queries.count * width)
     var distances = [Float](repeating: .infinity, count: queries.count * width)
     if !queries.isEmpty {
       var options = ck_nearest_options(
-        neighbors: Int32(max(1, neighbors)), maximum_distance: maximumDistance,
-        returns_last_only: onlyLast)
+        neighbors: Int32(width), maximum_distance: maximumDistance)
       try withKernel(control) { control in
         withSpans(points, queries) { points, queries in
           ck_nearest_points(points, queries, &options, control, &indices, &distances)

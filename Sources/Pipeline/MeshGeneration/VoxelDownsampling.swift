@@ -145,15 +145,11 @@ extension VoxelDownsampling {
     from cloud: inout PointCloud, voxelSize: Double, coarsest: Float? = nil,
     _ control: KernelControl
   ) throws {
-    let radius = Float(options.outlierRadius)
-    let coarsest = coarsest ?? cloud.footprints.quantile(0.99) ?? 0
-    let nearest = try NearestPoints(
-      of: cloud.positions, in: cloud.positions, neighbors: options.outlierNeighbors + 1,
-      onlyLast: true, maximumDistance: options.outlierRadius * max(voxelSize, Double(coarsest)),
-      control)
-    cloud.retain(
-      zip(nearest.distances, cloud.footprints).map { distance, footprint in
-        distance <= radius * max(Float(voxelSize), footprint)
-      })
+    let (radius, voxel) = (Float(options.outlierRadius), Float(voxelSize))
+    let coarsest = max(voxel, coarsest ?? cloud.footprints.quantile(0.99) ?? 0)
+    let areNear = try PointNeighbors.areEnough(
+      options.outlierNeighbors, of: cloud.positions,
+      within: cloud.footprints.map { radius * min(coarsest, max(voxel, $0)) }, control)
+    cloud.retain(areNear)
   }
 }

@@ -125,18 +125,19 @@ import Testing
     #expect(poses.maximumCenterError < 1e-3)
   }
 
-  /// Limits of photos for dense and for direct solvers: one for each of the three solvers.
-  static let solverLimits = [(60, 1000), (0, 1000), (0, 0)]
+  /// Limits of photos for the dense solver and of work for the direct one: one for each of the
+  /// three solvers.
+  static let solverLimits = [(60, 1e11), (0, 1e11), (0, 0)]
 
   @Test(arguments: solverLimits)
-  func resultDoesNotDependOnThreads(dense: Int, direct: Int) throws {
+  func resultDoesNotDependOnThreads(dense: Int, direct: Double) throws {
     var options = SyntheticScene.Options()
     options.pixelNoise = 0.5
     let scene = SyntheticScene(options)
     for start in [perturbed(scene), perturbedCameras(scene)] {
       var solver = BundleAdjustment()
       solver.options.densePhotoLimit = dense
-      solver.options.directPhotoLimit = direct
+      solver.options.directWork = direct
       let found = try [1, 2, 3, 8].map { threads in
         var problem = start
         try solver.run(&problem, control: KernelControl(threadCount: threads))
@@ -160,7 +161,7 @@ import Testing
         var problem = start
         var solver = BundleAdjustment()
         solver.options.densePhotoLimit = dense
-        solver.options.directPhotoLimit = direct
+        solver.options.directWork = direct
         solver.options.maximumIterations = 200
         solver.options.functionTolerance = 1e-9
         return try solver.run(&problem).finalCost
@@ -168,6 +169,57 @@ import Testing
       #expect(abs(costs[1] - costs[0]) < 1e-5 * costs[0])
       #expect(abs(costs[2] - costs[0]) < 1e-5 * costs[0])
     }
+  }
+
+  /// A street of photos, each of which shares points with a few others: the eliminated system is
+  /// sparse. Three cameras take turns; the start is perturbed.
+  private func street(photos count: Int) -> BundleAdjustment.Problem {
+    var random = SeededGenerator(seed: 5)
+    let centers = (0..<count).map { SIMD3(0.5 * Double($0), 0, 0) + 0.1 * random.normal3() }
+    let truth = centers.map {
+      RigidTransform(rotation: Quaternion(angle: 0.02, axis: random.normal3()), translation: -$0)
+    }
+    let points = (0..<40 * count).map { _ in
+      SIMD3(0.5 * Double(count) * random.uniform(), 2 * random.uniform() - 1, 5 + random.uniform())
+    }
+    var observations: [PointObservation] = []
+    for (index, point) in points.enumerated() {
+      for (photo, center) in centers.enumerated() where abs(center.x - point.x) < 1.5 {
+        observations.append(
+          PointObservation(
+            photo: Int32(photo), point: Int32(index), pixel: camera.project(truth[photo] * point)))
+      }
+    }
+    let photos = PosedPhotos(
+      cameras: Array(repeating: camera, count: 3), poses: truth.map { $0 },
+      cameraOfPhoto: (0..<count).map { Int32($0 % 3) })
+    var problem = BundleAdjustment.Problem(
+      photos: photos, points: points.map { $0 + 0.01 * random.normal3() },
+      observations: observations)
+    problem.cameraFreedom = Array(repeating: [.focalLength, .k1], count: 3)
+    problem.poseFreedom[0] = .constant
+    problem.poseFreedom[1] = .scaleFixed
+    return problem
+  }
+
+  /// A step with the sparse factorization is that with the dense one, with any number of threads.
+  @Test(arguments: [2, 3, 30, 200]) func sparseStepIsThatOfDense(photos count: Int) throws {
+    let start = street(photos: count)
+    func step(dense: Int, threads: Int) throws -> BundleAdjustment.Problem {
+      var problem = start
+      var solver = BundleAdjustment()
+      solver.options.densePhotoLimit = dense
+      solver.options.maximumIterations = 1
+      let summary = try solver.run(&problem, control: KernelControl(threadCount: threads))
+      #expect(summary.finalCost < 0.1 * summary.initialCost)
+      return problem
+    }
+    let dense = try step(dense: count, threads: 1)
+    let sparse = try [1, 3].map { try step(dense: 0, threads: $0) }
+    for (a, b) in zip(dense.points, sparse[0].points) { #expect((a - b).length < 1e-8) }
+    #expect(sparse[1].points == sparse[0].points)
+    #expect(sparse[1].photos.poses == sparse[0].photos.poses)
+    #expect(sparse[1].photos.cameras == sparse[0].photos.cameras)
   }
 
   /// At the minimum of a robust cost with outliers and priors, every small change raises the cost.

@@ -33,20 +33,6 @@ import Testing
     }
   }
 
-  @Test(arguments: [3, 100]) func lastNeighborIsThatOfAll(_ count: Int) throws {
-    let (points, queries) = (points(count, seed: 5), points(50, seed: 6))
-    let (all, last) = (
-      try NearestPoints(
-        of: queries, in: points, neighbors: 4, maximumDistance: 0.8, KernelControl()),
-      try NearestPoints(
-        of: queries, in: points, neighbors: 4, onlyLast: true, maximumDistance: 0.8,
-        KernelControl())
-    )
-    #expect(last.neighbors == 1)
-    #expect(last.indices == stride(from: 3, to: 200, by: 4).map { all.indices[$0] })
-    #expect(last.distances == stride(from: 3, to: 200, by: 4).map { all.distances[$0] })
-  }
-
   @Test func resultDoesNotDependOnThreads() throws {
     let (points, queries) = (points(80_000, seed: 3), points(20_000, seed: 4))
     let found = try [1, 2, 3, 8].map {
