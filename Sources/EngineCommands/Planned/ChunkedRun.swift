@@ -7,7 +7,9 @@ import SharedCommands
 struct ChunkedRun {
   /// Chunks of the photos for one of the pairs: a photo has about forty partners, and matching a
   /// pair takes a hundredth of the time of a photo's features. Chosen.
-  private static let chunksPerMatchChunk = 4
+  private static let chunksPerMatchChunk = 2
+  /// The number of chunks of the photos from which on pairs are chunks of their own. Chosen.
+  private static let leastChunksForMatches = 8
   /// Memory per photo of the chunks that hold the features of all photos, or the whole cloud.
   /// Measured: 2.4 GB for 1000 photos of synthetic features, with a reserve for real ones.
   private static let bytesPerPhoto = 6 << 20
@@ -88,14 +90,13 @@ struct ChunkedRun {
       ])
   }
 
-  /// The stages up to the cameras. Where one chunk would make all matches, that of the cameras
-  /// does.
+  /// The stages up to the cameras. Of few photos, the chunk of the cameras makes all matches.
   private func alignmentStages(_ blocks: Int) -> [ChunkStage] {
     let seconds = durations.seconds(of: [.imageAlignment])
     let masks = durations.seconds(of: [.objectMasking])
     let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
     let matchBlocks = blocks / Self.chunksPerMatchChunk
-    guard matchBlocks > 1 else {
+    guard blocks >= Self.leastChunksForMatches else {
       // Shares of alignment. Measured: in runs of 11, 32 and 40 photos.
       return [
         photos, stage("features", blocks: blocks, seconds: 0.4 * seconds),

@@ -19,7 +19,9 @@ extension ReconstructionMethod {
     case .surface:
       try tilePart(try scene(photos), in: geometry) { try prepareTiles($0, $1) }
     case .tiles(let part, let block):
-      try tilePart(try scene(photos), in: geometry) { try make(part, block, of: $0, $1) }
+      try tilePart(try scene(photos), in: geometry, for: (part, block)) {
+        try make(part, block, of: $0, $1)
+      }
     }
   }
 
@@ -51,13 +53,13 @@ extension ReconstructionMethod {
   }
 
   private func tilePart(
-    _ scene: ObjectScene, in geometry: ModelGeometry,
+    _ scene: ObjectScene, in geometry: ModelGeometry, for part: (TilePart, Block)? = nil,
     _ body: (TileInput, StageContext) throws -> Void
   ) throws {
     guard let output = configuration.tiles else {
       throw KernelError.invalidArgument("a part of the tiles needs a folder for them")
     }
-    let input = try tileInput(scene, in: geometry, to: output)
+    let input = try tileInput(scene, in: geometry, to: output, for: part)
     try recorder.run(.optimization, images: scene.photos.images) { try body(input, $0) }
   }
 

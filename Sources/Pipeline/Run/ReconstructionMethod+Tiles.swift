@@ -9,29 +9,29 @@ extension ReconstructionMethod {
     let geometry: ModelGeometry
     let output: TileOutput
     fileprivate let store: TileStore
-    /// What all tiles need: stored, or to be made from the cloud and the surface of the scene, and
-    /// what the surface was made from, if that is known.
     fileprivate let base: Base
 
+    /// What tiles need of the whole scene.
     fileprivate enum Base {
-      case stored(TileBase, TileSurroundings)
+      /// What other processes or runs have stored; surroundings, if they are needed.
+      case stored(TileBase, TileSurroundings?)
+      /// To be made from the cloud and the surface of the scene, and what that was made from, if it
+      /// is known.
       case made(from: PointCloud, Mesh, SurfaceSystem?)
     }
   }
 
-  /// Finds what the tiles of a scene are made from, or makes it. Its models contain the part of the
-  /// surface inside the crop box, moved by the transform.
+  /// Finds what a step of a block of the tiles, or all steps of all tiles, are made from, or makes
+  /// it. Models contain the part of the surface inside the crop box, moved by the transform.
   func tileInput(
-    _ scene: ObjectScene, in geometry: ModelGeometry, to output: TileOutput
+    _ scene: ObjectScene, in geometry: ModelGeometry, to output: TileOutput,
+    for part: (step: TilePart, block: Block)? = nil
   ) throws -> TileInput {
     let store = try cache.tileStore(of: scene.photos, configuration)
-    let base: TileInput.Base =
-      if let base = store.base, let surroundings = store.surroundings {
-        .stored(base, surroundings)
-      } else {
-        .made(
-          from: try densify(scene), try surface(scene), cache.system(viewPixels: viewPixels))
-      }
+    let base =
+      store.stored(for: part)
+      ?? .made(
+        from: try densify(scene), try surface(scene), cache.system(viewPixels: viewPixels))
     return TileInput(scene: scene, geometry: geometry, output: output, store: store, base: base)
   }
 
@@ -42,7 +42,7 @@ extension ReconstructionMethod {
     let models = try tileModels(input, own.part(from: 0, to: 0.1))
     try models.prepare()
     let count = models.surfaces.count
-    for tile in 0..<count {
+    for tile in 0..<count where !models.isWritten(tile) {
       try models.surfaces.solve(tile, own.part(from: 0.1, to: 0.3).part(tile, of: count))
     }
     var index = TileIndex(isMetric: input.scene.reconstruction.worldFrame.scale.isMetric)
@@ -63,18 +63,34 @@ extension ReconstructionMethod {
     _ part: TilePart, _ block: Block, of input: TileInput, _ context: StageContext
   ) throws {
     let own = StageContext(control: context.control)
-    let models = try tileModels(input, own.part(from: 0, to: 0.05))
-    let tiles = block.range(of: models.surfaces.count)
-    for tile in tiles {
-      let step = own.part(from: 0.05, to: 1).part(tile - tiles.lowerBound, of: tiles.count)
-      switch part {
-      case .tileSurfaces: try models.surfaces.solve(tile, step)
-      case .tiles: try models.write(tile, step)
-      }
+    let begin = own.part(from: 0, to: 0.05)
+    let steps = { (tiles: Range<Int>, tile: Int) in
+      own.part(from: 0.05, to: 1).part(tile - tiles.lowerBound, of: tiles.count)
+    }
+    switch part {
+    case .tileSurfaces:
+      let (surfaces, _) = try tileSurfaces(input, begin)
+      let tiles = surfaces.base.tiles(of: block)
+      for tile in tiles { try surfaces.solve(tile, steps(tiles, tile)) }
+    case .tiles:
+      let models = try tileModels(input, begin)
+      let tiles = models.surfaces.base.tiles(of: block)
+      for tile in tiles { try models.write(tile, steps(tiles, tile)) }
     }
   }
 
   private func tileModels(_ input: TileInput, _ context: StageContext) throws -> TileModels {
+    let (surfaces, surroundings) = try tileSurfaces(input, context)
+    guard let surroundings else {
+      throw KernelError.invalidArgument("models of tiles need what lies around them")
+    }
+    return try TileModels(
+      surfaces, surroundings, input.scene, in: input.geometry, to: input.output, configuration)
+  }
+
+  private func tileSurfaces(
+    _ input: TileInput, _ context: StageContext
+  ) throws -> (TileSurfaces, TileSurroundings?) {
     let (scene, control) = (input.scene, context.part(from: 0, to: 0).control)
     let tiling = Tiling(
       options: configuration.tiling, meshing: MeshGeneration(configuration.meshGeneration),
@@ -83,29 +99,53 @@ extension ReconstructionMethod {
     let views = try PointCloudGeneration(options: configuration.pointCloudGeneration)
       .fusedViews(
         scene.reconstruction, images: scene.photos.images, folder: try cache.viewFolder(), control)
-    let (base, surroundings) = try base(input, tiling, views, context)
-    return try TileModels(
-      TileSurfaces(tiling: tiling, base: base, views: views, store: input.store), surroundings,
-      scene, in: input.geometry, to: input.output, configuration)
+    switch input.base {
+    case .stored(let base, let surroundings):
+      let surfaces = TileSurfaces(
+        tiling: tiling, base: base, views: views, store: input.store, samples: nil)
+      return (surfaces, surroundings)
+    case .made(let cloud, let surface, let system):
+      let system =
+        try system
+        ?? tiling.meshing.system(
+          of: cloud, scene.reconstruction, silhouettes: tiling.silhouettes,
+          support: scene.support, context.part(from: 0, to: 0.8))
+      let base = try tiling.base(system, views, context.part(from: 0.8, to: 1))
+      let surfaces = TileSurfaces(
+        tiling: tiling, base: base, views: views, store: input.store, samples: system.samples)
+      return (surfaces, try storeBase(of: surfaces, around: surface, cloud, input, control))
+    }
   }
 
-  private func base(
-    _ input: TileInput, _ tiling: Tiling, _ views: FusedViews, _ context: StageContext
-  ) throws -> (TileBase, TileSurroundings) {
-    switch input.base {
-    case .stored(let base, let surroundings): return (base, surroundings)
-    case .made(let cloud, let surface, let system):
-      let base = try tiling.base(cloud, system, support: input.scene.support, views, context)
-      var observed = cloud
-      // Appending copies the cloud.
-      if input.scene.surroundings.count > 0 { observed.append(input.scene.surroundings) }
-      let surroundings = TileSurroundings(
-        observed: observed,
-        occluders: try surface.simplified(
-          maximumTriangles: configuration.textureMapping.occluderTriangles, KernelControl()))
-      try input.store.save(base, surroundings)
-      return (base, surroundings)
-    }
+  /// Stores what other processes need of the whole scene; returns what lies around tiles.
+  private func storeBase(
+    of surfaces: TileSurfaces, around surface: Mesh, _ cloud: PointCloud, _ input: TileInput,
+    _ control: KernelControl
+  ) throws -> TileSurroundings {
+    var observed = cloud
+    // Appending copies the cloud.
+    if input.scene.surroundings.count > 0 { observed.append(input.scene.surroundings) }
+    let surroundings = TileSurroundings(
+      observed: observed,
+      occluders: try surface.simplified(
+        maximumTriangles: configuration.textureMapping.occluderTriangles, KernelControl()))
+    if input.store.isShared { try surfaces.storeSamples(control) }
+    try input.store.save(surfaces.base, surroundings)
+    return surroundings
+  }
+}
+
+extension TileStore {
+  /// What is stored of the whole scene for a step of a block of tiles, or for all; nil if a part of
+  /// it is missing.
+  fileprivate func stored(
+    for part: (step: TilePart, block: Block)?
+  ) -> ReconstructionMethod.TileInput.Base? {
+    guard let base else { return nil }
+    let tiles = part.map { base.tiles(of: $0.block) } ?? 0..<base.grid.boxes.count
+    guard tiles.allSatisfy(hasSamples) else { return nil }
+    if part?.step == .tileSurfaces { return .stored(base, nil) }
+    return surroundings.map { .stored(base, $0) }
   }
 }
 

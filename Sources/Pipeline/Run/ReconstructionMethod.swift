@@ -56,7 +56,7 @@ struct ReconstructionMethod {
   func align(_ photos: PhotoSet) throws -> Reconstruction {
     try cache.aligned {
       let result = try source.cameras(of: photos, configuration, cache, recorder)
-      recorder.record(result.reconstruction)
+      if cache.isReported { recorder.record(result.reconstruction) }
       // Given cameras may have been read from the checkpoint.
       if source.isPhotosOnly { try cache.write(result.reconstruction) }
       return result

@@ -61,10 +61,12 @@ final class StageCache {
   /// Unlocks the checkpoint directory for other runs until this one continues.
   func unlock() { lock = nil }
 
-  /// Writes the report, unless it is that of a part of a run, or the directory is not locked and
-  /// may be in use by another run.
+  /// Whether results are reported: not by a part of a run, since the whole run reports them.
+  var isReported: Bool { access != .parts }
+
+  /// Writes the report, unless the directory is not locked and may be in use by another run.
   func writeReport() throws {
-    guard lock != nil, access != .parts else { return }
+    guard lock != nil, isReported else { return }
     try checkpoint?.write(recorder.report)
   }
 
@@ -80,7 +82,7 @@ final class StageCache {
 
   /// Writes the reconstruction for other tools, unless this is one of several parts of a run.
   func write(_ reconstruction: Reconstruction) throws {
-    if access != .parts { try checkpoint?.write(reconstruction) }
+    if isReported { try checkpoint?.write(reconstruction) }
   }
 
   /// The photos so far, with masks if there are any; nil before they are read.

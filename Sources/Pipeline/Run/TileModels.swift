@@ -51,6 +51,9 @@ struct TileModels {
     return written.tile
   }
 
+  /// Whether a tile was written, and its file is intact.
+  func isWritten(_ tile: Int) -> Bool { written(tile) != nil }
+
   /// Removes the index and the tiles of earlier runs, but for those that are as this one would
   /// write them. Throws `OutputError`.
   func prepare() throws {

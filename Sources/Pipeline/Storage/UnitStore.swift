@@ -11,7 +11,7 @@ struct UnitStore: Sendable {
   /// What a result is: the start of its file's name.
   enum Kind: String, Sendable {
     case photos, features, pairs, matches, morePairs
-    case tileBase, tileSurroundings, solvedTile, writtenTile
+    case tileBase, tileSamples, tileSurroundings, solvedTile, writtenTile
   }
 
   let folder: URL

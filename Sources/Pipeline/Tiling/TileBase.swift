@@ -4,8 +4,10 @@ import SceneModel
 
 /// What all tiles of a scene have in common.
 struct TileBase {
-  /// Of the thinned cloud.
-  let samples: SurfaceSamples
+  /// What the scene stands on.
+  let support: SupportPlane?
+  /// The footprint from which on all samples are isolated, in world units.
+  let coarsestFootprint: Float
   /// The coarse levels, which are solved for the whole scene.
   let solution: PoissonSolution
   let grid: TileGrid
@@ -20,14 +22,17 @@ struct TileBase {
 
   /// Spacing of the samples, or half a cell where cells are larger, in world units.
   var spacing: Double { max(voxelSize, grid.cube.side / exp2(Double(depth)) / 2) }
+}
 
-  /// The footprint of the coarsest samples, in world units.
-  var coarsestFootprint: Float { samples.cloud.footprints.quantile(0.99) ?? footprint }
+extension TileBase {
+  /// The tiles of a block, so that all blocks have about the same number of points.
+  func tiles(of block: Block) -> Range<Int> { block.range(ofWeights: grid.pointCounts) }
 }
 
 extension TileBase: UnitValue {
   private struct Record: LargeUnitValue {
-    var samples: SurfaceSamples
+    var support: SupportPlane?
+    var coarsestFootprint: Float
     var solution: Data
     var grid: TileGrid
     var viewBoxes: [CellBox?]
@@ -43,14 +48,16 @@ extension TileBase: UnitValue {
     }
     guard let solution else { return nil }
     self.init(
-      samples: record.samples, solution: solution, grid: record.grid, viewBoxes: record.viewBoxes,
-      depth: record.depth, footprint: record.footprint, voxelSize: record.voxelSize)
+      support: record.support, coarsestFootprint: record.coarsestFootprint, solution: solution,
+      grid: record.grid, viewBoxes: record.viewBoxes, depth: record.depth,
+      footprint: record.footprint, voxelSize: record.voxelSize)
   }
 
   func unitData() throws -> Data {
     try Record(
-      samples: samples, solution: Data(try solution.encoded(for: grid.whole)), grid: grid,
-      viewBoxes: viewBoxes, depth: depth, footprint: footprint, voxelSize: voxelSize
+      support: support, coarsestFootprint: coarsestFootprint,
+      solution: Data(try solution.encoded(for: grid.whole)), grid: grid, viewBoxes: viewBoxes,
+      depth: depth, footprint: footprint, voxelSize: voxelSize
     ).unitData()
   }
 }

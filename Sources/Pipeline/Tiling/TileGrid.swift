@@ -10,17 +10,21 @@ struct TileGrid: Hashable, Codable, Sendable {
   let depth: Int
   /// Boxes that fill the cube without overlap, each with points.
   private(set) var boxes: [CellBox]
+  /// The number of points in each box.
+  private(set) var pointCounts: [Int]
 
   /// Halves the box with too many points at the plane between cells that divides them best, across
   /// its longest side, until all have at most `maximumPoints` or are one cell.
   init(_ counts: CellCounts, maximumPoints: Int) {
     (cube, depth) = (counts.cube, counts.depth)
-    boxes = []
+    (boxes, pointCounts) = ([], [])
     var rest = [(Self.whole(counts.depth), counts.cells)]
     while let (box, cells) = rest.popLast() {
       let split = Self.split(cells.map { ($0.key, $0.value) }, maximumPoints)
       guard let split else {
-        if !cells.isEmpty { boxes.append(box) }
+        guard !cells.isEmpty else { continue }
+        boxes.append(box)
+        pointCounts.append(cells.values.reduce(0, +))
         continue
       }
       var (first, second) = (box, box)

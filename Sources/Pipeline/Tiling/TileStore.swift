@@ -17,6 +17,9 @@ struct TileStore: Sendable {
     self.inputs = inputs
   }
 
+  /// Whether other processes or runs may read the folder.
+  var isShared: Bool { shared.isWritten }
+
   /// The base that was stored; nil if there is none.
   var base: TileBase? { shared.find(.tileBase, madeFrom: inputs) }
   /// The surroundings that were stored; nil if there are none.
@@ -26,6 +29,17 @@ struct TileStore: Sendable {
   func save(_ base: TileBase, _ surroundings: TileSurroundings) throws {
     try shared.save(base, .tileBase, madeFrom: inputs)
     try shared.save(surroundings, .tileSurroundings, madeFrom: inputs)
+  }
+
+  /// The samples of the scene near a tile, stored or from `make`.
+  func samples(_ tile: Int, _ make: () throws -> NearbySamples) throws -> NearbySamples {
+    try shared.value(.tileSamples, madeFrom: key(tile), make)
+  }
+
+  /// Whether the samples of the scene near a tile are stored.
+  func hasSamples(_ tile: Int) -> Bool {
+    let found: NearbySamples? = shared.find(.tileSamples, madeFrom: key(tile))
+    return found != nil
   }
 
   /// The solution of a tile, stored or from `make`.

@@ -8,6 +8,8 @@ struct TileSurfaces {
   let base: TileBase
   let views: FusedViews
   let store: TileStore
+  /// The samples of the whole scene; nil if those near each tile are stored.
+  let samples: SurfaceSamples?
 
   var count: Int { base.grid.boxes.count }
 
@@ -15,10 +17,33 @@ struct TileSurfaces {
   @discardableResult
   func solve(_ tile: Int, _ context: StageContext) throws -> SolvedTile {
     try store.solved(tile) {
-      let solved = try tiling.solve(tile, try points(of: tile), of: base, context)
+      let solved = try tiling.solve(
+        try points(of: tile), near: try nearbySamples(tile), of: base, context)
       guard let (solution, samples) = solved else { return SolvedTile() }
       let box = base.grid.boxes[tile].dilated(by: tiling.halo(base))
       return SolvedTile(samples: samples, solution: Data(try solution.encoded(for: box)))
+    }
+  }
+
+  /// Stores the samples near each tile, for other processes. Throws `OutputError`.
+  func storeSamples(_ control: KernelControl) throws {
+    guard let samples else { return }
+    let (store, reach) = (store, tiling.options.sampleReach)
+    let corners = (0..<count).map { tiling.corners(of: $0, base) }
+    _ = try control.parallelMap(count) { tile in
+      try store.samples(tile) {
+        NearbySamples(of: samples, between: corners[tile], reach: reach)
+      }
+    }
+  }
+
+  private func nearbySamples(_ tile: Int) throws -> NearbySamples {
+    try store.samples(tile) {
+      guard let samples else {
+        throw KernelError.invalidArgument("the samples near tile \(tile + 1) are damaged")
+      }
+      return NearbySamples(
+        of: samples, between: tiling.corners(of: tile, base), reach: tiling.options.sampleReach)
     }
   }
 

@@ -21,17 +21,3 @@ struct TileSurroundings: LargeUnitValue {
       triangles: occluderTriangles.values(of: Triangle.self))
   }
 }
-
-extension Data {
-  fileprivate init(bytesOf values: [some BitwiseCopyable]) {
-    self = values.withUnsafeBytes { Data($0) }
-  }
-
-  fileprivate func values<Value: BitwiseCopyable>(of type: Value.Type) -> [Value] {
-    withUnsafeBytes { bytes in
-      (0..<bytes.count / MemoryLayout<Value>.stride).map {
-        bytes.loadUnaligned(fromByteOffset: $0 * MemoryLayout<Value>.stride, as: type)
-      }
-    }
-  }
-}

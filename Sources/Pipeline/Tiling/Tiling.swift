@@ -39,23 +39,17 @@ package struct Tiling {
   let reconstruction: Reconstruction
   let silhouettes: Silhouettes?
 
-  /// What all tiles have in common; `cloud` is the thinned cloud of the scene, `system` what it
-  /// determines, if that is known, and `views` has all points.
+  /// What all tiles have in common; `system` is that of the thinned cloud of the scene, and `views`
+  /// has all points.
   func base(
-    _ cloud: PointCloud, _ system: SurfaceSystem?, support: SupportPlane?, _ views: FusedViews,
-    _ context: StageContext
+    _ system: SurfaceSystem, _ views: FusedViews, _ context: StageContext
   ) throws -> TileBase {
-    let system =
-      try system
-      ?? meshing.system(
-        of: cloud, reconstruction, silhouettes: silhouettes, support: support,
-        context.part(from: 0, to: 0.8))
-    let (samples, solution) = (system.samples, system.solution)
+    let solution = system.solution
     var counts = CellCounts(
       cube: solution.cube, depth: min(options.latticeDepth, solution.depth))
     var (footprints, viewBoxes): ([Float], [CellBox?]) = ([], [])
     for view in 0..<views.count {
-      try context.control.step(0.8 + 0.2 * Double(view) / Double(views.count))
+      try context.control.step(Double(view) / Double(views.count))
       let points = try views.points(view)
       viewBoxes.append(counts.add(points.positions))
       if let median = points.medianFootprint { footprints.append(median) }
@@ -70,7 +64,9 @@ package struct Tiling {
     let depth = poisson.depth(
       extent: solution.cube.side / poisson.options.scale, spacing: voxelSize)
     return TileBase(
-      samples: samples, solution: solution,
+      support: system.samples.support,
+      coarsestFootprint: system.samples.cloud.footprints.quantile(0.99) ?? footprint,
+      solution: solution,
       grid: TileGrid(counts, maximumPoints: options.maximumPoints),
       viewBoxes: viewBoxes, depth: max(solution.depth, depth), footprint: footprint,
       voxelSize: voxelSize)
@@ -91,11 +87,11 @@ package struct Tiling {
   }
 
   /// The solution of a tile and of its surroundings, before seams are adjusted, and its samples;
-  /// nil if there are too few.
+  /// nil if there are too few. `points` are those in and around it, `scene` the samples there.
   func solve(
-    _ tile: Int, _ points: PointCloud, of base: TileBase, _ context: StageContext
+    _ points: PointCloud, near scene: NearbySamples, of base: TileBase, _ context: StageContext
   ) throws -> (solution: PoissonSolution, samples: PointCloud)? {
-    let isKept = try isOfScene(points, tile, base, context.control.part(from: 0, to: 0.1))
+    let isKept = try isOfScene(points, near: scene, context.control.part(from: 0, to: 0.1))
     let downsampling = VoxelDownsampling(options: meshing.options.downsampling)
     let averaged = try downsampling.run(
       points, keeping: isKept, footprint: base.footprint, context.part(from: 0.1, to: 0.2))
@@ -110,29 +106,20 @@ package struct Tiling {
     return (solution, samples)
   }
 
-  /// Whether points of a tile are near samples of the scene, and inside the masks.
+  /// The corners of the box that has all points that a tile is solved from.
+  func corners(of tile: Int, _ base: TileBase) -> (low: SIMD3<Double>, high: SIMD3<Double>) {
+    base.grid.corners(of: base.grid.boxes[tile].dilated(by: reach(base)))
+  }
+
+  /// Whether points are near samples of the scene, and inside the masks.
   private func isOfScene(
-    _ points: PointCloud, _ tile: Int, _ base: TileBase, _ control: KernelControl
+    _ points: PointCloud, near samples: NearbySamples, _ control: KernelControl
   ) throws -> [Bool] {
-    let limits = base.samples.cloud.footprints.map {
-      Float(options.sampleReach) * max(Float(base.samples.voxelSize), $0)
+    let areNear = try samples.reach(points.positions, control)
+    guard let isInside = try silhouettes?.areInside(points.positions, control) else {
+      return areNear
     }
-    // Only those that can be near enough.
-    let (low, high) = base.grid.corners(of: base.grid.boxes[tile].dilated(by: reach(base)))
-    let near = limits.indices.filter { index in
-      let (position, limit) = (base.samples.cloud.positions[index], limits[index])
-      return (0..<3).allSatisfy {
-        Double(position[$0] + limit) >= low[$0] && Double(position[$0] - limit) <= high[$0]
-      }
-    }
-    let nearest = try NearestPoints(
-      of: points.positions, in: near.map { base.samples.cloud.positions[$0] }, control)
-    let isInside = try silhouettes?.areInside(points.positions, control)
-    return points.positions.indices.map { index in
-      let sample = nearest.indices[index]
-      return sample >= 0 && isInside?[index] != false
-        && nearest.distances[index] <= limits[near[Int(sample)]]
-    }
+    return zip(areNear, isInside).map { $0 && $1 }
   }
 }
 
@@ -151,7 +138,7 @@ extension Tiling {
     trimming.options.holeFilling.fillsLarge = false
     let trimmed = try trimming.run(
       solved, samples: samples, scene: scene, spacing: base.spacing,
-      support: base.samples.support, silhouettes: silhouettes, part: part, reconstruction,
+      support: base.support, silhouettes: silhouettes, part: part, reconstruction,
       context.part(from: 0.2, to: 0.8))
     guard !trimmed.triangles.isEmpty else { return nil }
     var mesh = try MeshCleaning(options: meshing.options.cleaning).run(

@@ -71,12 +71,4 @@ import Testing
       _ = MatchBlock(unit: Data(copy))
     }
   }
-
-  @Test(arguments: [0, 1, 7, 100])
-  func blocksCoverEverythingOnce(total: Int) {
-    for count in 1...9 {
-      let indices = (0..<count).flatMap { Block(index: $0, of: count).range(of: total) }
-      #expect(indices == Array(0..<total))
-    }
-  }
 }

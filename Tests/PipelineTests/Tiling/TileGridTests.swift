@@ -41,10 +41,11 @@ import Testing
 
   @Test func boxesHaveFewEnoughPoints() throws {
     let grid = grid(1500)
-    for box in grid.boxes {
+    for (box, found) in zip(grid.boxes, grid.pointCounts) {
       let count = Self.points.count { point in
         Self.cube.cell(of: point, depth: 6).map { contains(box, $0) } == true
       }
+      #expect(found == count)
       let isOneCell = (0..<2).allSatisfy { box.high[$0] - box.low[$0] == 1 }
       #expect(count > 0 && (count <= 1500 || isOneCell))
     }

@@ -60,12 +60,18 @@ import Testing
     let tiling = tiling(maximumPoints: maximumPoints, baseDepth: baseDepth)
     let context = StageContext(control: KernelControl(threadCount: threads))
     let source = FusedViews(count: 4) { [views] in views[$0] }
-    let base = try tiling.base(cloud, nil, support: nil, source, context)
+    let system = try self.system(of: tiling, context)
+    let base = try tiling.base(system, source, context)
     let folder = try TemporaryFolder()
     let surfaces = TileSurfaces(
       tiling: tiling, base: base, views: source,
-      store: TileStore(folder: folder.url, isShared: false, inputs: 1))
+      store: TileStore(folder: folder.url, isShared: false, inputs: 1), samples: system.samples)
     return (base, try meshes(of: surfaces, context))
+  }
+
+  private func system(of tiling: Tiling, _ context: StageContext) throws -> SurfaceSystem {
+    try tiling.meshing.system(
+      of: cloud, tiling.reconstruction, silhouettes: nil, support: nil, context)
   }
 
   private func meshes(of surfaces: TileSurfaces, _ context: StageContext) throws -> [Mesh] {
@@ -129,23 +135,30 @@ import Testing
     let (base, meshes) = try tiles(maximumPoints: 5000)
     let folder = try TemporaryFolder()
     let store = TileStore(folder: folder.url, isShared: true, inputs: 1)
+    let context = StageContext(control: KernelControl())
+    let tiling = tiling(baseDepth: 5)
+    #expect(!store.hasSamples(0))
+    try TileSurfaces(
+      tiling: tiling, base: base, views: FusedViews(count: 0) { [views] in views[$0] },
+      store: store, samples: try system(of: tiling, context).samples
+    ).storeSamples(context.control)
+    #expect((0..<base.grid.boxes.count).allSatisfy(store.hasSamples))
     try store.save(base, TileSurroundings(observed: cloud, occluders: meshes[0]))
     let stored = try #require(store.base)
     #expect(stored.grid == base.grid && stored.viewBoxes == base.viewBoxes)
-    #expect(stored.samples.cloud.positions == base.samples.cloud.positions)
+    #expect(stored.coarsestFootprint == base.coarsestFootprint)
     let surroundings = try #require(store.surroundings)
     #expect(surroundings.observed.positions == cloud.positions)
     #expect(surroundings.occluders.positions == meshes[0].positions)
     #expect(surroundings.occluders.triangles == meshes[0].triangles)
-    let context = StageContext(control: KernelControl())
     var isRead = false
     for _ in 0..<2 {
       let surfaces = TileSurfaces(
-        tiling: tiling(baseDepth: 5), base: stored,
+        tiling: tiling, base: stored,
         views: FusedViews(count: 4) { [views, isRead] in
           #expect(!isRead, "A tile was solved although its solution was stored.")
           return views[$0]
-        }, store: store)
+        }, store: store, samples: nil)
       let same = try self.meshes(of: surfaces, context)
       #expect(same.map(\.positions) == meshes.map(\.positions))
       #expect(same.map(\.triangles) == meshes.map(\.triangles))
