@@ -52,7 +52,7 @@ guard !target.hasPrefix("-") else {
 }
 let folder = URL(fileURLWithPath: target, isDirectory: true)
 let words = Array(CommandLine.arguments.dropFirst(2))
-let control = KernelControl(threadCount: 2)
+let control = KernelControl(threadCount: ProcessInfo.processInfo.activeProcessorCount)
 
 switch words.first {
 case "faint":

@@ -7,6 +7,8 @@ import SharedCommands
 struct LocalChunks: Sendable {
   private struct State {
     var open: [ChunkID] = []
+    /// Of each chunk: those of a stage with fewer chunks than jobs get more.
+    var threads = 1
     var attempts: [ChunkID: Int] = [:]
     var running: [ChunkID: ChunkRun] = [:]
     var reporter: PlanReporter
@@ -28,7 +30,11 @@ struct LocalChunks: Sendable {
   func run() async throws {
     let interrupts = InterruptHandler { stop() }
     for stage in folder.isComplete ? [] : folder.plan.stages {
-      state.withLock { $0.open = folder.missing(in: stage).reversed() }
+      let missing = folder.missing(in: stage)
+      state.withLock { state in
+        state.open = missing.reversed()
+        state.threads = max(1, ProcessorShare.current.threads / max(1, min(jobs, missing.count)))
+      }
       try await withThrowingTaskGroup(of: Void.self) { group in
         for _ in 0..<jobs {
           group.addTask { while try await makeNext() {} }
@@ -52,10 +58,9 @@ struct LocalChunks: Sendable {
 
   /// Makes a chunk; returns false if none is left.
   private func makeNext() async throws -> Bool {
-    let threads = max(1, ProcessorShare.current.threads / jobs)
     let next: (ChunkID, ChunkRun)? = state.withLock { state in
       guard !state.isStopped, let id = state.open.popLast() else { return nil }
-      let run = ChunkRun(id, of: folder, threads: threads)
+      let run = ChunkRun(id, of: folder, threads: state.threads)
       state.running[id] = run
       state.attempts[id, default: 0] += 1
       return (id, run)
