@@ -26,7 +26,9 @@ struct ChunkOutput: Codable, Equatable, Sendable {
     var isFolder: ObjCBool = false
     guard FileManager.default.fileExists(atPath: path, isDirectory: &isFolder), isFolder.boolValue
     else { return [path] }
-    let names = (try? FileManager.default.subpathsOfDirectory(atPath: path)) ?? []
+    // `subpathsOfDirectory` does not follow a symbolic link.
+    let folder = URL(fileURLWithPath: path).resolvingSymlinksInPath()
+    let names = (try? FileManager.default.subpathsOfDirectory(atPath: folder.path)) ?? []
     return names.sorted().map { path + "/" + $0 }.filter { file in
       var isFolder: ObjCBool = false
       return FileManager.default.fileExists(atPath: file, isDirectory: &isFolder)
