@@ -213,9 +213,10 @@ struct SlurmRun: Sendable {
         order += 1
       }
     }
+    try submitFollowUp(after: jobs)
+    // From here on the jobs continue without this process.
     logger.info(
       "Submitted \(open.count) of \(stage.chunks.count) chunks of \(stage.name) to Slurm.")
-    try submitFollowUp(after: jobs)
   }
 
   private func submit(
