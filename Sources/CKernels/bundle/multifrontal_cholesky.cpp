@@ -12,24 +12,33 @@ MultifrontalCholesky::MultifrontalCholesky(const ReducedSystem& system) : system
   order();
   find_fronts(structure());
   link_fronts();
-  add_entries();
+}
+
+/// Calls `body(kind, row, index, row_node, column_node)` for every block of the system.
+template <typename Body>
+void MultifrontalCholesky::for_each_block(Body&& body) const {
+  const size_t poses = system_.poses.size();
+  const auto visit = [&](Kind kind, const std::vector<int32_t>& columns, size_t row,
+                         size_t row_node, size_t first_column) {
+    for (size_t k = 0; k < columns.size(); ++k) {
+      body(kind, row, k, row_node, first_column + size_t(columns[k]));
+    }
+  };
+  for (size_t i = 0; i < poses; ++i) {
+    visit(Kind::pose_pose, system_.poses[i].columns, i, i, 0);
+    visit(Kind::pose_camera, system_.pose_cameras[i].columns, i, i, poses);
+  }
+  for (size_t i = 0; i < system_.cameras.size(); ++i) {
+    visit(Kind::camera_camera, system_.cameras[i].columns, i, poses + i, poses);
+  }
 }
 
 /// Orders the nodes by approximate minimum degree.
 void MultifrontalCholesky::order() {
   std::vector<Eigen::Triplet<char>> links;
-  const auto poses = int32_t(system_.poses.size());
-  for (size_t i = 0; i < system_.poses.size(); ++i) {
-    for (const int32_t k : system_.poses[i].columns) links.emplace_back(int(i), k, 1);
-    for (const int32_t k : system_.pose_cameras[i].columns) {
-      links.emplace_back(int(i), poses + k, 1);
-    }
-  }
-  for (size_t i = 0; i < system_.cameras.size(); ++i) {
-    for (const int32_t k : system_.cameras[i].columns) {
-      links.emplace_back(poses + int(i), poses + k, 1);
-    }
-  }
+  for_each_block([&](Kind, size_t, size_t, size_t row_node, size_t column_node) {
+    links.emplace_back(int(row_node), int(column_node), 1);
+  });
   const auto count = Eigen::Index(node_count());
   Eigen::SparseMatrix<char> pattern(count, count);
   pattern.setFromTriplets(links.begin(), links.end());
@@ -47,18 +56,10 @@ void MultifrontalCholesky::order() {
 /// For each place, the later ones with which it is linked once those before it are eliminated.
 MultifrontalCholesky::Structure MultifrontalCholesky::structure() const {
   Structure found(node_count());
-  const auto link = [&](size_t first, size_t second) {
-    const auto [low, high] = std::minmax(places_[first], places_[second]);
+  for_each_block([&](Kind, size_t, size_t, size_t row_node, size_t column_node) {
+    const auto [low, high] = std::minmax(places_[row_node], places_[column_node]);
     if (low != high) found[low].push_back(int32_t(high));
-  };
-  const size_t poses = system_.poses.size();
-  for (size_t i = 0; i < poses; ++i) {
-    for (const int32_t k : system_.poses[i].columns) link(i, size_t(k));
-    for (const int32_t k : system_.pose_cameras[i].columns) link(i, poses + size_t(k));
-  }
-  for (size_t i = 0; i < system_.cameras.size(); ++i) {
-    for (const int32_t k : system_.cameras[i].columns) link(poses + i, poses + size_t(k));
-  }
+  });
   for (auto& own : found) {
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -123,34 +124,17 @@ Eigen::Index MultifrontalCholesky::offset(const Front& front, size_t place) cons
 
 /// Assigns each block of the system to the front that eliminates it.
 void MultifrontalCholesky::add_entries() {
-  const size_t poses = system_.poses.size();
-  for (size_t i = 0; i < poses; ++i) {
-    const auto& columns = system_.poses[i].columns;
-    for (size_t k = 0; k < columns.size(); ++k) {
-      add_entry(Kind::pose_pose, i, k, i, size_t(columns[k]));
-    }
-    const auto& cameras = system_.pose_cameras[i].columns;
-    for (size_t k = 0; k < cameras.size(); ++k) {
-      add_entry(Kind::pose_camera, i, k, i, poses + size_t(cameras[k]));
-    }
-  }
-  for (size_t i = 0; i < system_.cameras.size(); ++i) {
-    const auto& columns = system_.cameras[i].columns;
-    for (size_t k = 0; k < columns.size(); ++k) {
-      add_entry(Kind::camera_camera, i, k, poses + i, poses + size_t(columns[k]));
-    }
-  }
-}
-
-void MultifrontalCholesky::add_entry(Kind kind, size_t row, size_t index, size_t row_node,
-                                     size_t column_node) {
-  const auto [low, high] = std::minmax(places_[row_node], places_[column_node]);
-  Front& front = fronts_[front_of_place_[low]];
-  front.entries.push_back({kind, low == places_[row_node], row, index, offset(front, high),
-                           starts_[low] - starts_[front.begin]});
+  for_each_block([&](Kind kind, size_t row, size_t index, size_t row_node, size_t column_node) {
+    const auto [low, high] = std::minmax(places_[row_node], places_[column_node]);
+    Front& front = fronts_[front_of_place_[low]];
+    front.entries.push_back({kind, low == places_[row_node], row, index, offset(front, high),
+                             starts_[low] - starts_[front.begin]});
+  });
 }
 
 bool MultifrontalCholesky::factorize(const ck_control* control) {
+  // Not needed if only the work is asked for, and large where all photos show the same points.
+  if (fronts_.front().entries.empty()) add_entries();
   const ck_control quiet{nullptr, nullptr, thread_count(control)};
   std::atomic<bool> succeeds{true};
   for (const auto& level : levels_) {
@@ -167,22 +151,9 @@ bool MultifrontalCholesky::eliminate(Front& front) {
   front.columns.setZero(pivots + updates, pivots);
   front.update.setZero(updates, updates);
   for (const Entry& entry : front.entries) add(entry, front);
-  for (const size_t child_index : front.children) {
-    Front& child = fronts_[child_index];
-    const size_t count = child.rows.size();
-    Eigen::Index column_start = 0;
-    for (size_t column = 0; column < count; ++column) {
-      const Eigen::Index width = node_size(nodes_[size_t(child.rows[column])]);
-      Eigen::Index row_start = column_start;
-      for (size_t row = column; row < count; ++row) {
-        const Eigen::Index height = node_size(nodes_[size_t(child.rows[row])]);
-        add(child.update.block(row_start, column_start, height, width), child.targets[row],
-            child.targets[column], front);
-        row_start += height;
-      }
-      column_start += width;
-    }
-    child.update.resize(0, 0);
+  for (const size_t child : front.children) {
+    add_update(fronts_[child], front);
+    fronts_[child].update.resize(0, 0);
   }
   auto top = front.columns.topRows(pivots);
   auto bottom = front.columns.bottomRows(updates);
@@ -192,6 +163,22 @@ bool MultifrontalCholesky::eliminate(Front& front) {
   top.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(bottom);
   front.update.selfadjointView<Eigen::Lower>().rankUpdate(bottom, -1);
   return true;
+}
+
+/// Adds the update of a child to its parent.
+void MultifrontalCholesky::add_update(const Front& child, Front& front) const {
+  Eigen::Index column_start = 0;
+  for (size_t column = 0; column < child.rows.size(); ++column) {
+    const Eigen::Index width = node_size(nodes_[size_t(child.rows[column])]);
+    Eigen::Index row_start = column_start;
+    for (size_t row = column; row < child.rows.size(); ++row) {
+      const Eigen::Index height = node_size(nodes_[size_t(child.rows[row])]);
+      add(child.update.block(row_start, column_start, height, width), child.targets[row],
+          child.targets[column], front);
+      row_start += height;
+    }
+    column_start += width;
+  }
 }
 
 template <typename Block>
@@ -224,48 +211,47 @@ void MultifrontalCholesky::add(const Entry& entry, Front& front) const {
 }
 
 Eigen::VectorXd MultifrontalCholesky::solve() const {
-  Eigen::VectorXd x(system_.size());
-  const auto for_each_node = [&](auto&& body) {
-    for (size_t i = 0; i < nodes_.size(); ++i) {
-      body(starts_[i], node_offset(nodes_[i]), node_size(nodes_[i]));
-    }
-  };
-  const auto for_each_row = [&](const Front& front, auto&& body) {
-    Eigen::Index start = 0;
-    for (const int32_t row : front.rows) {
-      const Eigen::Index size = node_size(nodes_[size_t(row)]);
-      body(starts_[size_t(row)], start, size);
-      start += size;
-    }
-  };
-  for_each_node([&](Eigen::Index start, Eigen::Index offset, Eigen::Index size) {
-    x.segment(start, size) = system_.right.segment(offset, size);
-  });
-  for (const Front& front : fronts_) {
-    auto own = x.segment(starts_[front.begin], front.pivots);
-    front.columns.topRows(front.pivots).triangularView<Eigen::Lower>().solveInPlace(own);
-    const Eigen::VectorXd change = front.columns.bottomRows(front.updates) * own;
-    for_each_row(front, [&](Eigen::Index place, Eigen::Index start, Eigen::Index size) {
-      x.segment(place, size) -= change.segment(start, size);
-    });
+  Eigen::VectorXd x(system_.size()), solution(system_.size());
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Eigen::Index size = node_size(nodes_[i]);
+    x.segment(starts_[i], size) = system_.right.segment(node_offset(nodes_[i]), size);
   }
+  for (const Front& front : fronts_) substitute_forward(front, x);
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
-    Eigen::VectorXd later(front->updates);
-    for_each_row(*front, [&](Eigen::Index place, Eigen::Index start, Eigen::Index size) {
-      later.segment(start, size) = x.segment(place, size);
-    });
-    auto own = x.segment(starts_[front->begin], front->pivots);
-    own -= front->columns.bottomRows(front->updates).transpose() * later;
-    front->columns.topRows(front->pivots)
-        .triangularView<Eigen::Lower>()
-        .transpose()
-        .solveInPlace(own);
+    substitute_backward(*front, x);
   }
-  Eigen::VectorXd solution(system_.size());
-  for_each_node([&](Eigen::Index start, Eigen::Index offset, Eigen::Index size) {
-    solution.segment(offset, size) = x.segment(start, size);
-  });
+  for (size_t i = 0; i < nodes_.size(); ++i) {
+    const Eigen::Index size = node_size(nodes_[i]);
+    solution.segment(node_offset(nodes_[i]), size) = x.segment(starts_[i], size);
+  }
   return solution;
+}
+
+/// Solves for the pivots of a front, and removes them from the later equations.
+void MultifrontalCholesky::substitute_forward(const Front& front, Eigen::VectorXd& x) const {
+  auto own = x.segment(starts_[front.begin], front.pivots);
+  front.columns.topRows(front.pivots).triangularView<Eigen::Lower>().solveInPlace(own);
+  const Eigen::VectorXd change = front.columns.bottomRows(front.updates) * own;
+  Eigen::Index start = 0;
+  for (const int32_t row : front.rows) {
+    const Eigen::Index size = node_size(nodes_[size_t(row)]);
+    x.segment(starts_[size_t(row)], size) -= change.segment(start, size);
+    start += size;
+  }
+}
+
+/// Solves for the pivots of a front with the transposed factor.
+void MultifrontalCholesky::substitute_backward(const Front& front, Eigen::VectorXd& x) const {
+  Eigen::VectorXd later(front.updates);
+  Eigen::Index start = 0;
+  for (const int32_t row : front.rows) {
+    const Eigen::Index size = node_size(nodes_[size_t(row)]);
+    later.segment(start, size) = x.segment(starts_[size_t(row)], size);
+    start += size;
+  }
+  auto own = x.segment(starts_[front.begin], front.pivots);
+  own -= front.columns.bottomRows(front.updates).transpose() * later;
+  front.columns.topRows(front.pivots).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
 }
 
 }  // namespace ck

@@ -54,6 +54,7 @@ class MultifrontalCholesky {
     Eigen::MatrixXd columns, update;
   };
 
+  /// For each place in the order, later ones.
   using Structure = std::vector<std::vector<int32_t>>;
 
   void order();
@@ -61,10 +62,14 @@ class MultifrontalCholesky {
   void find_fronts(Structure structure);
   void link_fronts();
   void add_entries();
-  void add_entry(Kind kind, size_t row, size_t index, size_t row_node, size_t column_node);
+  template <typename Body>
+  void for_each_block(Body&& body) const;
   /// Where a place is among the unknowns of a front.
   Eigen::Index offset(const Front& front, size_t place) const;
   bool eliminate(Front& front);
+  void add_update(const Front& child, Front& front) const;
+  void substitute_forward(const Front& front, Eigen::VectorXd& x) const;
+  void substitute_backward(const Front& front, Eigen::VectorXd& x) const;
   /// Adds a block at a position of the lower triangle of a front.
   template <typename Block>
   static void add(const Block& block, Eigen::Index row, Eigen::Index column, Front& front);

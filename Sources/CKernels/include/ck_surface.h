@@ -116,12 +116,12 @@ typedef struct {
 ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_options* options,
                             const ck_control* control, int32_t* indices, float* distances);
 
-/// Finds which of the points, 3 floats each, have at least `minimum` others up to a distance of
+/// Finds which of the points, 3 floats each, have at least `minimum` others within a radius of
 /// their own.
 ///
-/// `distances` holds one distance per point, and `have_neighbors` gets 1 or 0 per point; 0 for one
-/// that is not finite.
-ck_status ck_have_neighbors(ck_span points, const float* distances, size_t minimum,
+/// `radii` holds one radius per point, in units of the coordinates, and `have_neighbors` gets 1 or
+/// 0 per point; 0 for one that is not finite.
+ck_status ck_have_neighbors(ck_span points, const float* radii, size_t minimum,
                             const ck_control* control, uint8_t* have_neighbors);
 
 /// An axis-aligned grid of cubic cells; x varies fastest.

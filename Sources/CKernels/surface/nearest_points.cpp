@@ -74,10 +74,10 @@ class AnyNear {
  public:
   explicit AnyNear(size_t needed) : needed_(needed) {}
 
-  /// Starts a new search, for points up to a distance.
-  void clear(double distance) {
+  /// Starts a new search, for points within a radius.
+  void clear(double radius) {
     found_ = 0;
-    limit_ = std::nextafter(distance * distance, std::numeric_limits<double>::infinity());
+    limit_ = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
   }
   void look_in(const Point*) {}
 
@@ -258,12 +258,12 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
   });
 }
 
-ck_status ck_have_neighbors(ck_span points, const float* distances, size_t minimum,
+ck_status ck_have_neighbors(ck_span points, const float* radii, size_t minimum,
                             const ck_control* control, uint8_t* have_neighbors) {
   return ck::guarded([&] {
     ck::require(points.data || points.count == 0, "null pointer");
     if (points.count == 0) return;
-    ck::require(distances && have_neighbors, "null pointer");
+    ck::require(radii && have_neighbors, "null pointer");
     std::fill(have_neighbors, have_neighbors + points.count, 0);
     ck::step(control, 0);
     const Forest forest(points, control);
@@ -274,7 +274,7 @@ ck_status ck_have_neighbors(ck_span points, const float* distances, size_t minim
       const size_t end = std::min(count, (chunk + 1) * kChunk);
       for (size_t i = chunk * kChunk; i < end; ++i) {
         const Point& point = forest.points()[i];
-        near.clear(distances[point.index]);
+        near.clear(radii[point.index]);
         forest.search(point.position.data(), near);
         have_neighbors[point.index] = near.full();
       }

@@ -139,17 +139,18 @@ struct VoxelDownsampling {
 }
 
 extension VoxelDownsampling {
-  /// Removes isolated mean points. `coarsest` is the footprint from which on all are isolated; it
-  /// stands for that of nearly all points for a part of a cloud.
+  /// Removes isolated mean points, those with few others within a radius. It grows with their
+  /// footprint up to `coarsest`, by default that of nearly all points; a part of a cloud needs that
+  /// of the whole.
   func removeOutliers(
     from cloud: inout PointCloud, voxelSize: Double, coarsest: Float? = nil,
     _ control: KernelControl
   ) throws {
     let (radius, voxel) = (Float(options.outlierRadius), Float(voxelSize))
     let coarsest = max(voxel, coarsest ?? cloud.footprints.quantile(0.99) ?? 0)
-    let areNear = try PointNeighbors.areEnough(
+    let isKept = try PointNeighbors.atLeast(
       options.outlierNeighbors, of: cloud.positions,
       within: cloud.footprints.map { radius * min(coarsest, max(voxel, $0)) }, control)
-    cloud.retain(areNear)
+    cloud.retain(isKept)
   }
 }

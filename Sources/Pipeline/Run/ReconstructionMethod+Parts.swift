@@ -19,7 +19,7 @@ extension ReconstructionMethod {
     case .surface:
       try tilePart(try scene(photos), in: geometry) { try prepareTiles($0, $1) }
     case .tiles(let part, let block):
-      try tilePart(try scene(photos), in: geometry, for: (part, block)) {
+      try tilePart(try scene(photos), in: geometry, for: part) {
         try make(part, block, of: $0, $1)
       }
     }
@@ -53,13 +53,13 @@ extension ReconstructionMethod {
   }
 
   private func tilePart(
-    _ scene: ObjectScene, in geometry: ModelGeometry, for part: (TilePart, Block)? = nil,
+    _ scene: ObjectScene, in geometry: ModelGeometry, for step: TilePart? = nil,
     _ body: (TileInput, StageContext) throws -> Void
   ) throws {
     guard let output = configuration.tiles else {
       throw KernelError.invalidArgument("a part of the tiles needs a folder for them")
     }
-    let input = try tileInput(scene, in: geometry, to: output, for: part)
+    let input = try tileInput(scene, in: geometry, to: output, for: step)
     try recorder.run(.optimization, images: scene.photos.images) { try body(input, $0) }
   }
 

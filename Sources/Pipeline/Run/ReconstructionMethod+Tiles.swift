@@ -21,15 +21,15 @@ extension ReconstructionMethod {
     }
   }
 
-  /// Finds what a step of a block of the tiles, or all steps of all tiles, are made from, or makes
-  /// it. Models contain the part of the surface inside the crop box, moved by the transform.
+  /// Finds what a step of the tiles, or all of them, are made from, or makes it. Models contain the
+  /// part of the surface inside the crop box, moved by the transform.
   func tileInput(
     _ scene: ObjectScene, in geometry: ModelGeometry, to output: TileOutput,
-    for part: (step: TilePart, block: Block)? = nil
+    for step: TilePart? = nil
   ) throws -> TileInput {
     let store = try cache.tileStore(of: scene.photos, configuration)
     let base =
-      store.stored(for: part)
+      store.stored(for: step)
       ?? .made(
         from: try densify(scene), try surface(scene), cache.system(viewPixels: viewPixels))
     return TileInput(scene: scene, geometry: geometry, output: output, store: store, base: base)
@@ -40,14 +40,15 @@ extension ReconstructionMethod {
     // What is noted of a tile concerns no other.
     let own = StageContext(control: context.control)
     let models = try tileModels(input, own.part(from: 0, to: 0.1))
-    try models.prepare()
-    let count = models.surfaces.count
-    for tile in 0..<count where !models.isWritten(tile) {
+    let written = try models.prepare()
+    let count = written.count
+    for tile in 0..<count where written[tile] == nil {
       try models.surfaces.solve(tile, own.part(from: 0.1, to: 0.3).part(tile, of: count))
     }
     var index = TileIndex(isMetric: input.scene.reconstruction.worldFrame.scale.isMetric)
-    index.tiles = try (0..<count).compactMap {
-      try models.write($0, own.part(from: 0.3, to: 1).part($0, of: count))
+    index.tiles = try (0..<count).compactMap { tile in
+      try written[tile].map(\.tile)
+        ?? models.write(tile, own.part(from: 0.3, to: 1).part(tile, of: count))
     }
     try input.output.write(index)
     context.notes.record("tiles", Double(index.tiles.count))
@@ -99,52 +100,51 @@ extension ReconstructionMethod {
     let views = try PointCloudGeneration(options: configuration.pointCloudGeneration)
       .fusedViews(
         scene.reconstruction, images: scene.photos.images, folder: try cache.viewFolder(), control)
+    func system(of cloud: PointCloud) throws -> SurfaceSystem {
+      try tiling.meshing.system(
+        of: cloud, scene.reconstruction, silhouettes: tiling.silhouettes, support: scene.support,
+        context.part(from: 0, to: 0.8))
+    }
     switch input.base {
     case .stored(let base, let surroundings):
-      let surfaces = TileSurfaces(
-        tiling: tiling, base: base, views: views, store: input.store, samples: nil)
+      let surfaces = TileSurfaces(tiling: tiling, base: base, views: views, store: input.store) {
+        // Only for tiles whose file is damaged.
+        try system(of: try densify(scene)).samples
+      }
       return (surfaces, surroundings)
-    case .made(let cloud, let surface, let system):
-      let system =
-        try system
-        ?? tiling.meshing.system(
-          of: cloud, scene.reconstruction, silhouettes: tiling.silhouettes,
-          support: scene.support, context.part(from: 0, to: 0.8))
+    case .made(let cloud, let surface, let known):
+      let system = try known ?? system(of: cloud)
       let base = try tiling.base(system, views, context.part(from: 0.8, to: 1))
-      let surfaces = TileSurfaces(
-        tiling: tiling, base: base, views: views, store: input.store, samples: system.samples)
-      return (surfaces, try storeBase(of: surfaces, around: surface, cloud, input, control))
+      let surfaces = TileSurfaces(tiling: tiling, base: base, views: views, store: input.store) {
+        system.samples
+      }
+      if input.store.isShared { try surfaces.storeSamples(of: system.samples, control) }
+      let surroundings = try surroundings(of: surface, cloud, scene)
+      try input.store.save(base, surroundings)
+      return (surfaces, surroundings)
     }
   }
 
-  /// Stores what other processes need of the whole scene; returns what lies around tiles.
-  private func storeBase(
-    of surfaces: TileSurfaces, around surface: Mesh, _ cloud: PointCloud, _ input: TileInput,
-    _ control: KernelControl
+  /// What lies around tiles.
+  private func surroundings(
+    of surface: Mesh, _ cloud: PointCloud, _ scene: ObjectScene
   ) throws -> TileSurroundings {
     var observed = cloud
     // Appending copies the cloud.
-    if input.scene.surroundings.count > 0 { observed.append(input.scene.surroundings) }
-    let surroundings = TileSurroundings(
+    if scene.surroundings.count > 0 { observed.append(scene.surroundings) }
+    return TileSurroundings(
       observed: observed,
       occluders: try surface.simplified(
         maximumTriangles: configuration.textureMapping.occluderTriangles, KernelControl()))
-    if input.store.isShared { try surfaces.storeSamples(control) }
-    try input.store.save(surfaces.base, surroundings)
-    return surroundings
   }
 }
 
 extension TileStore {
-  /// What is stored of the whole scene for a step of a block of tiles, or for all; nil if a part of
-  /// it is missing.
-  fileprivate func stored(
-    for part: (step: TilePart, block: Block)?
-  ) -> ReconstructionMethod.TileInput.Base? {
+  /// What is stored of the whole scene for a step of the tiles, or for all; nil if a part of it is
+  /// missing.
+  fileprivate func stored(for step: TilePart?) -> ReconstructionMethod.TileInput.Base? {
     guard let base else { return nil }
-    let tiles = part.map { base.tiles(of: $0.block) } ?? 0..<base.grid.boxes.count
-    guard tiles.allSatisfy(hasSamples) else { return nil }
-    if part?.step == .tileSurfaces { return .stored(base, nil) }
+    if step == .tileSurfaces { return .stored(base, nil) }
     return surroundings.map { .stored(base, $0) }
   }
 }

@@ -51,14 +51,13 @@ struct TileModels {
     return written.tile
   }
 
-  /// Whether a tile was written, and its file is intact.
-  func isWritten(_ tile: Int) -> Bool { written(tile) != nil }
-
   /// Removes the index and the tiles of earlier runs, but for those that are as this one would
-  /// write them. Throws `OutputError`.
-  func prepare() throws {
-    let kept = (0..<surfaces.count).compactMap { written($0)?.tile?.file }
-    try output.prepare(keeping: Set(kept))
+  /// write them; returns these, nil for each of the others. Throws `OutputError`.
+  @discardableResult
+  func prepare() throws -> [WrittenTile?] {
+    let kept = (0..<surfaces.count).map(written)
+    try output.prepare(keeping: Set(kept.compactMap { $0?.tile?.file }))
+    return kept
   }
 
   private func written(_ tile: Int) -> WrittenTile? {

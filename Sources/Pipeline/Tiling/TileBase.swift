@@ -6,7 +6,7 @@ import SceneModel
 struct TileBase {
   /// What the scene stands on.
   let support: SupportPlane?
-  /// The footprint from which on all samples are isolated, in world units.
+  /// The footprint up to which coarser samples may be farther from others, in world units.
   let coarsestFootprint: Float
   /// The coarse levels, which are solved for the whole scene.
   let solution: PoissonSolution
@@ -22,9 +22,7 @@ struct TileBase {
 
   /// Spacing of the samples, or half a cell where cells are larger, in world units.
   var spacing: Double { max(voxelSize, grid.cube.side / exp2(Double(depth)) / 2) }
-}
 
-extension TileBase {
   /// The tiles of a block, so that all blocks have about the same number of points.
   func tiles(of block: Block) -> Range<Int> { block.range(ofWeights: grid.pointCounts) }
 }

@@ -36,12 +36,6 @@ struct TileStore: Sendable {
     try shared.value(.tileSamples, madeFrom: key(tile), make)
   }
 
-  /// Whether the samples of the scene near a tile are stored.
-  func hasSamples(_ tile: Int) -> Bool {
-    let found: NearbySamples? = shared.find(.tileSamples, madeFrom: key(tile))
-    return found != nil
-  }
-
   /// The solution of a tile, stored or from `make`.
   func solved(_ tile: Int, _ make: () throws -> SolvedTile) throws -> SolvedTile {
     try units.value(.solvedTile, madeFrom: key(tile), make)

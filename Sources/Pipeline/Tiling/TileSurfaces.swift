@@ -8,8 +8,8 @@ struct TileSurfaces {
   let base: TileBase
   let views: FusedViews
   let store: TileStore
-  /// The samples of the whole scene; nil if those near each tile are stored.
-  let samples: SurfaceSamples?
+  /// The samples of the whole scene, where those near a tile are not stored.
+  let samples: () throws -> SurfaceSamples
 
   var count: Int { base.grid.boxes.count }
 
@@ -25,9 +25,8 @@ struct TileSurfaces {
     }
   }
 
-  /// Stores the samples near each tile, for other processes. Throws `OutputError`.
-  func storeSamples(_ control: KernelControl) throws {
-    guard let samples else { return }
+  /// Stores the samples of the scene near each tile, for other processes. Throws `OutputError`.
+  func storeSamples(of samples: SurfaceSamples, _ control: KernelControl) throws {
     let (store, reach) = (store, tiling.options.sampleReach)
     let corners = (0..<count).map { tiling.corners(of: $0, base) }
     _ = try control.parallelMap(count) { tile in
@@ -39,11 +38,9 @@ struct TileSurfaces {
 
   private func nearbySamples(_ tile: Int) throws -> NearbySamples {
     try store.samples(tile) {
-      guard let samples else {
-        throw KernelError.invalidArgument("the samples near tile \(tile + 1) are damaged")
-      }
-      return NearbySamples(
-        of: samples, between: tiling.corners(of: tile, base), reach: tiling.options.sampleReach)
+      NearbySamples(
+        of: try samples(), between: tiling.corners(of: tile, base),
+        reach: tiling.options.sampleReach)
     }
   }
 

@@ -9,21 +9,23 @@ import Testing
   func neighborsAreThoseOfTheNearestSearch(count: Int) throws {
     var random = SeededGenerator(seed: 7)
     var points = (0..<count).map { _ in SIMD3<Float>(random.normal3()) }
-    let distances = (0..<count).map { _ in Float(0.01 + 0.49 * random.uniform()) }
+    let radii = (0..<count).map { _ in Float(0.01 + 0.49 * random.uniform()) }
     points[count / 2].y = .nan
     let found = try [1, 3].map {
-      try PointNeighbors.areEnough(
-        4, of: points, within: distances, KernelControl(threadCount: $0))
+      try PointNeighbors.atLeast(
+        4, of: points, within: radii, KernelControl(threadCount: $0))
     }
     let nearest = try NearestPoints(of: points, in: points, neighbors: 5, KernelControl())
-    #expect(found[0] == (0..<count).map { nearest.distances[5 * $0 + 4] <= distances[$0] })
+    #expect(found[0] == (0..<count).map { nearest.distances[5 * $0 + 4] <= radii[$0] })
     #expect(found[1] == found[0])
+    let finite = try PointNeighbors.atLeast(0, of: points, within: radii, KernelControl())
+    #expect(finite == points.map(\.isFinite))
   }
 
   @Test func numbersMustAgree() throws {
     #expect(throws: KernelError.self) {
-      try PointNeighbors.areEnough(1, of: [.zero], within: [], KernelControl())
+      try PointNeighbors.atLeast(1, of: [.zero], within: [], KernelControl())
     }
-    #expect(try PointNeighbors.areEnough(1, of: [], within: [], KernelControl()).isEmpty)
+    #expect(try PointNeighbors.atLeast(1, of: [], within: [], KernelControl()).isEmpty)
   }
 }

@@ -65,7 +65,8 @@ import Testing
     let folder = try TemporaryFolder()
     let surfaces = TileSurfaces(
       tiling: tiling, base: base, views: source,
-      store: TileStore(folder: folder.url, isShared: false, inputs: 1), samples: system.samples)
+      store: TileStore(folder: folder.url, isShared: false, inputs: 1)
+    ) { system.samples }
     return (base, try meshes(of: surfaces, context))
   }
 
@@ -130,19 +131,14 @@ import Testing
     }
   }
 
-  /// Another process has the base from a file, and solutions of tiles that still others made.
+  /// Another process has the base from a file, the samples near each tile, and solutions of tiles
+  /// that still others made. What is damaged is made again.
   @Test func storedResultsGiveTheSameTiles() throws {
     let (base, meshes) = try tiles(maximumPoints: 5000)
     let folder = try TemporaryFolder()
     let store = TileStore(folder: folder.url, isShared: true, inputs: 1)
-    let context = StageContext(control: KernelControl())
-    let tiling = tiling(baseDepth: 5)
-    #expect(!store.hasSamples(0))
-    try TileSurfaces(
-      tiling: tiling, base: base, views: FusedViews(count: 0) { [views] in views[$0] },
-      store: store, samples: try system(of: tiling, context).samples
-    ).storeSamples(context.control)
-    #expect((0..<base.grid.boxes.count).allSatisfy(store.hasSamples))
+    let (context, tiling) = (StageContext(control: KernelControl()), tiling(baseDepth: 5))
+    let samples = try system(of: tiling, context).samples
     try store.save(base, TileSurroundings(observed: cloud, occluders: meshes[0]))
     let stored = try #require(store.base)
     #expect(stored.grid == base.grid && stored.viewBoxes == base.viewBoxes)
@@ -151,19 +147,43 @@ import Testing
     #expect(surroundings.observed.positions == cloud.positions)
     #expect(surroundings.occluders.positions == meshes[0].positions)
     #expect(surroundings.occluders.triangles == meshes[0].triangles)
-    var isRead = false
-    for _ in 0..<2 {
-      let surfaces = TileSurfaces(
-        tiling: tiling, base: stored,
-        views: FusedViews(count: 4) { [views, isRead] in
-          #expect(!isRead, "A tile was solved although its solution was stored.")
-          return views[$0]
-        }, store: store, samples: nil)
+
+    /// The uses of samples of the scene, and of views, until all tiles are there.
+    func uses() throws -> (samples: Int, views: Int) {
+      var uses = (samples: 0, views: 0)
+      let readViews = Locked(0)
+      let views = FusedViews(count: 4) { [views] in
+        readViews.withLock { $0 += 1 }
+        return views[$0]
+      }
+      let surfaces = TileSurfaces(tiling: tiling, base: stored, views: views, store: store) {
+        uses.samples += 1
+        return samples
+      }
       let same = try self.meshes(of: surfaces, context)
       #expect(same.map(\.positions) == meshes.map(\.positions))
       #expect(same.map(\.triangles) == meshes.map(\.triangles))
-      isRead = true
+      uses.views = readViews.withLock { $0 }
+      return uses
     }
+    func damage(_ kind: String) throws {
+      let names = try FileManager.default.contentsOfDirectory(atPath: folder.url.path)
+      let name = try #require(names.sorted().first { $0.hasPrefix(kind) })
+      try Data([0]).write(to: folder.url.appendingPathComponent(name))
+    }
+    try TileSurfaces(
+      tiling: tiling, base: stored, views: FusedViews(count: 0) { [views] in views[$0] },
+      store: store
+    ) { samples }.storeSamples(of: samples, context.control)
+    let first = try uses()
+    #expect(first.samples == 0 && first.views > 0)
+    let second = try uses()
+    #expect(second.samples == 0 && second.views == 0)
+    try damage("solvedTile")
+    #expect(try uses().samples == 0)
+    try damage("solvedTile")
+    try damage("tileSamples")
+    _ = try uses()
     #expect(TileStore(folder: folder.url, isShared: true, inputs: 2).base == nil)
   }
 }
