@@ -2,23 +2,27 @@ import ArgumentParser
 import Pipeline
 
 /// A part of a run, such as `pairs`, or `features:2/8` for the second of eight blocks.
-struct PartArgument: ExpressibleByArgument {
-  let part: RunPart
+enum PartArgument: Equatable, ExpressibleByArgument {
+  case part(RunPart)
+  /// What an ordinary run makes of the parts before, but for tiles, which others make meanwhile.
+  case model
 
   init?(argument: String) {
     let words = argument.split(separator: ":", omittingEmptySubsequences: false).map(String.init)
     let block = words.count == 2 ? JobArgument(argument: words[1])?.share : nil
     let parts: [String: RunPart] = [
       "photos": .photos, "pairs": .pairs, "morePairs": .morePairs, "cameras": .cameras,
-      "surface": .surface,
+      "tileBase": .tileBase, "surface": .surface, "tileIndex": .tileIndex,
     ]
-    if words.count == 1, let part = parts[words[0]] {
-      self.part = part
+    if argument == "model" {
+      self = .model
+    } else if words.count == 1, let part = parts[words[0]] {
+      self = .part(part)
     } else if let block {
       guard let part = Self.part(words[0], Block(index: block.index, of: block.count)) else {
         return nil
       }
-      self.part = part
+      self = .part(part)
     } else {
       return nil
     }

@@ -77,7 +77,9 @@ package struct PipelineArguments: EngineArguments {
     session.engineOptions.maskFolder = try masking.folder
     session.engineOptions.maskOutput = try maskOutput.folder(photos: folder)
     session.engineOptions.previewFile = try preview.file()
-    session.engineOptions.tiles = try tiles.output()
+    let isBesideTiles = part == .model
+    session.engineOptions.tiles = try isBesideTiles ? nil : tiles.output()
+    session.engineOptions.sharesCheckpoint = isBesideTiles
     session.engineOptions.keepsReportMaterial =
       try viewer.viewer || runArguments.reportFile()?.isPage == true
     session.engineOptions.compressesGLB = compression.compress

@@ -33,6 +33,11 @@ struct ChunkPlan: Codable, Equatable, Sendable {
     return stage.chunks[id.number - 1]
   }
 
+  /// The chunks whose files are what the work is for; the others' files are for these only.
+  var results: [ChunkID] {
+    stages.flatMap { stage in zip(stage.ids, stage.chunks).filter { !$1.areSealed }.map(\.0) }
+  }
+
   /// The number of chunks of all stages.
   var count: Int { stages.reduce(0) { $0 + $1.chunks.count } }
 }

@@ -17,10 +17,10 @@ extension PlanFolder {
       """)
   }
 
-  /// Reports the warnings and the files of the last stage. Throws a `CommandFailure` if a chunk is
+  /// Reports the warnings and the files of the results. Throws a `CommandFailure` if a chunk is
   /// missing: the reason why the first of them failed.
   func conclude(_ reporter: RunReporter) throws {
-    guard let first = missing.first else { return reportLastStage(reporter) }
+    guard let first = missing.first else { return reportResults(reporter) }
     guard let status = status(of: first), let error = status.error else {
       let names = missing.prefix(5).map(\.description).joined(separator: ", ")
       throw CommandFailure.run(
@@ -33,14 +33,15 @@ extension PlanFolder {
       isTransient: status.isTransient)
   }
 
-  private func reportLastStage(_ reporter: RunReporter) {
-    let statuses = plan.stages.last?.ids.compactMap(status) ?? []
+  private func reportResults(_ reporter: RunReporter) {
+    let statuses = plan.results.compactMap(status)
     let logger = Logger(label: "photogrammetry-cli")
     for warning in statuses.flatMap(\.warnings) { logger.warning("\(warning)") }
     for event in statuses.flatMap(\.written) {
       if let kind = event.kind, let path = event.path { reporter.wrote(kind, path) }
     }
-    var event = statuses.last?.result ?? RunEvent("complete")
+    // The first is that of the model.
+    var event = statuses.first?.result ?? RunEvent("complete")
     event.seconds = reporter.elapsed
     reporter.event(event)
   }

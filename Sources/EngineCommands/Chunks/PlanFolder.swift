@@ -116,8 +116,8 @@ extension PlanFolder {
     return damaged
   }
 
-  /// Whether the last stage is done: then those before it are of no use any more.
-  var isComplete: Bool { plan.stages.last.map { missing(in: $0).isEmpty } ?? true }
+  /// Whether all results are there: then the other chunks are of no use any more.
+  var isComplete: Bool { plan.results.allSatisfy { doneStatus(of: $0) != nil } }
 
   /// The chunks that have to be made.
   var missing: [ChunkID] { isComplete ? [] : plan.stages.flatMap(missing) }

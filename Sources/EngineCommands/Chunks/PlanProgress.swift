@@ -20,7 +20,7 @@ struct PlanProgress: Equatable, Sendable {
   init(_ folder: PlanFolder, known: inout [ChunkID: ChunkStatus], running active: Set<ChunkID>) {
     if folder.isComplete {
       fraction = 1
-      for id in folder.plan.stages.last?.ids ?? [] { known[id] = folder.doneStatus(of: id) }
+      for id in folder.plan.results { known[id] = folder.doneStatus(of: id) }
       return
     }
     var (work, finished, expected, measured) = (0.0, 0.0, 0.0, 0.0)

@@ -13,8 +13,8 @@ extension PipelineEngine {
   ) async throws -> Bool {
     if arguments.engine.isDryRun {
       try dryRun(arguments, photos: photos, output: output, reporter)
-    } else if let part = arguments.engine.part {
-      try make(part.part, arguments, photos: photos, reporter)
+    } else if case .part(let part) = arguments.engine.part {
+      try make(part, arguments, photos: photos, reporter)
     } else if arguments.engine.slurm.isUsed {
       try await ChunkedRun(arguments, photos: photos, output: output).run(reporter)
     } else {
@@ -73,12 +73,12 @@ extension RunPart {
     case .cameras: [.preProcessing, .imageAlignment, .objectMasking]
     case .views:
       [.preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration]
-    case .surface:
+    case .tileBase, .surface:
       [
         .preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration, .meshGeneration,
         .optimization,
       ]
-    case .tiles: [.preProcessing, .imageAlignment, .objectMasking, .optimization]
+    case .tiles, .tileIndex: [.preProcessing, .imageAlignment, .objectMasking, .optimization]
     }
   }
 
@@ -86,7 +86,7 @@ extension RunPart {
   fileprivate var hasCameras: Bool {
     switch self {
     case .photos, .features, .pairs, .matches, .morePairs, .moreMatches, .cameras: false
-    case .views, .surface, .tiles: true
+    case .views, .tileBase, .surface, .tiles, .tileIndex: true
     }
   }
 }

@@ -77,19 +77,17 @@ struct ChunkedRun {
       stage(part.rawValue, blocks: blocks, seconds: part.cost * dense)
     }
     return ChunkPlan(
-      stages: alignmentStages(blocks) + views + tileStages(blocks) + [
-        ChunkStage(
-          name: "model",
-          chunks: [
-            chunk(
-              "model", part: nil,
-              seconds: durations.seconds(of: [.textureMapping])
-                + (hasTiles
-                  ? withoutTiles.seconds(of: [.optimization])
-                  : durations.seconds(of: [.meshGeneration, .optimization])),
-              holdsAll: true)
-          ])
-      ])
+      stages: alignmentStages(blocks) + views
+        + (hasTiles ? tileStages(blocks) : [ChunkStage(name: "model", chunks: [model])]))
+  }
+
+  /// The chunk of the model, which makes its surface, too, unless a chunk before it did.
+  private var model: Chunk {
+    var stages: [PipelineStage] = [.textureMapping, .optimization]
+    if !hasTiles { stages.append(.meshGeneration) }
+    return chunk(
+      "model", part: hasTiles ? "model" : nil, seconds: withoutTiles.seconds(of: stages),
+      holdsAll: true)
   }
 
   /// The stages up to the cameras. Of few photos, the chunk of the cameras makes all matches.
@@ -124,17 +122,27 @@ struct ChunkedRun {
     return result
   }
 
-  /// The stages that make tiles, and before them the surface that hides tiles from photos.
+  /// The stages that make tiles. Beside their surfaces that of the scene is made, which hides tiles
+  /// from photos, and beside the tiles the model.
   private func tileStages(_ blocks: Int) -> [ChunkStage] {
-    guard hasTiles else { return [] }
     let seconds =
       durations.seconds(of: [.optimization]) - withoutTiles.seconds(of: [.optimization])
+    let surface = durations.seconds(of: [.meshGeneration]) / 2
+    func tiles(_ part: TilePart, beside other: Chunk) -> ChunkStage {
+      var result = stage(
+        part.rawValue, blocks: blocks, seconds: part.cost * seconds, holdsAll: true)
+      // The longest chunk begins first.
+      result.chunks.insert(other, at: 0)
+      return result
+    }
     return [
-      stage("surface", seconds: durations.seconds(of: [.meshGeneration]), holdsAll: true)
+      stage("tileBase", seconds: surface, holdsAll: true),
+      tiles(
+        .tileSurfaces,
+        beside: chunk("surface", part: "surface", seconds: surface, holdsAll: true)),
+      tiles(.tiles, beside: model),
+      stage("tileIndex", seconds: 1),
     ]
-      + TilePart.allCases.map {
-        stage($0.rawValue, blocks: blocks, seconds: $0.cost * seconds, holdsAll: true)
-      }
   }
 
   /// A stage of `blocks` chunks, which take `seconds` together; of a single chunk without a number
@@ -167,29 +175,40 @@ struct ChunkedRun {
       + ["--json", "--until-input-ends", "--checkpoint-directory", work]
       + (part.map { ["--part", $0] } ?? [])
     let memory = arguments.detail.detail.expectedMemoryBytes + Chunk.spareMemory
+    let isLast = part == nil || part == "tileIndex"
     return Chunk(
       name: name, arguments: words, directory: FileManager.default.currentDirectoryPath,
       reads: [photos.standardizedFileURL.path, work],
-      writes: part == nil ? results : [work] + tileFolder(part),
-      areSealed: part != nil, scratch: part == nil && !isKept ? work : nil,
+      writes: files(of: part) ?? [work] + (writesTiles(part) ? tileFolder : []),
+      areSealed: files(of: part) == nil, scratch: isLast && !isKept ? work : nil,
       fingerprint: InputFingerprint.text(of: [], options: words + [input]),
       expectedSeconds: seconds, threads: threads,
       memoryBytes: memory + (holdsAll ? count * Self.bytesPerPhoto : 0))
   }
 
-  /// The folder that the chunks of tiles write to.
-  private func tileFolder(_ part: String?) -> [String] {
-    guard part?.hasPrefix(TilePart.tiles.rawValue + ":") == true else { return [] }
-    return arguments.engine.tiles.tiles.map { [URL(fileURLWithPath: $0).standardizedFileURL.path] }
-      ?? []
+  /// What a part makes for the user; nil if only other parts need its files.
+  private func files(of part: String?) -> [String]? {
+    switch part {
+    case nil, "model": results
+    case "tileIndex": tileFolder
+    default: nil
+    }
   }
 
-  /// The paths of the files that the run writes.
+  private func writesTiles(_ part: String?) -> Bool {
+    part?.hasPrefix(TilePart.tiles.rawValue + ":") == true
+  }
+
+  private var tileFolder: [String] {
+    arguments.engine.tiles.tiles.map { [URL(fileURLWithPath: $0).standardizedFileURL.path] } ?? []
+  }
+
+  /// The paths of the files that the run writes, without tiles.
   private var results: [String] {
     let coarser = (try? CoarserModel.all(arguments.detail, nextTo: output)) ?? []
     let companions = [
       arguments.poses, arguments.pointCloud, arguments.engine.preview.preview,
-      arguments.engine.runArguments.report, arguments.engine.tiles.tiles,
+      arguments.engine.runArguments.report,
     ].compactMap(\.self).map { URL(fileURLWithPath: $0) }
     return ([output.url] + coarser.map(\.output.url) + companions).map(\.standardizedFileURL.path)
   }

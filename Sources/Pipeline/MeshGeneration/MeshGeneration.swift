@@ -64,8 +64,13 @@ package struct MeshGeneration {
       context.part(from: 0, to: 0.66))
     keep(system)
     return try mesh(
-      of: system, cloud, reconstruction, silhouettes: silhouettes, surroundings: surroundings,
-      context.part(from: 0.66, to: 1))
+      of: system, observed: observed(cloud, surroundings), reconstruction,
+      silhouettes: silhouettes, context.part(from: 0.66, to: 1))
+  }
+
+  /// Of all that the photos observe, what proves that the space in front of it is free.
+  func observed(_ cloud: PointCloud, _ surroundings: PointCloud) -> PointCloud {
+    SurfaceTrimming(options: options.trimming).rayTargets(in: [cloud, surroundings])
   }
 
   /// The samples of a cloud, and the solved system that they determine. Throws and uses masks and
@@ -90,24 +95,21 @@ package struct MeshGeneration {
     return poisson
   }
 
-  /// The surface of a solved system of a cloud. Throws like `run`.
-  private func mesh(
-    of system: SurfaceSystem, _ cloud: PointCloud, _ reconstruction: Reconstruction,
-    silhouettes: Silhouettes?, surroundings: PointCloud, _ context: StageContext
+  /// The surface of a solved system. Throws like `run`.
+  func mesh(
+    of system: SurfaceSystem, observed: PointCloud, _ reconstruction: Reconstruction,
+    silhouettes: Silhouettes?, _ context: StageContext
   ) throws -> Mesh {
     let (samples, notes) = (system.samples, context.notes)
     let (closed, cell) = try notes.step("poisson") {
       try poisson.surface(
         of: system.solution, samples.cloud, context.control.part(from: 0, to: 0.55))
     }
-    var scene = cloud
-    // Appending copies the cloud.
-    if surroundings.count > 0 { scene.append(surroundings) }
     var trimming = SurfaceTrimming(options: options.trimming)
     trimming.options.holeFilling.fillsLarge = samples.isObject && options.closesObject
     let trimmed = try trimming.run(
       // Where cells are larger than usual the surface is as far from its samples.
-      closed, samples: samples.cloud, scene: scene,
+      closed, samples: samples.cloud, scene: observed,
       spacing: max(samples.voxelSize, cell / 2),
       support: samples.support, silhouettes: silhouettes, reconstruction,
       context.part(from: 0.55, to: 0.9))

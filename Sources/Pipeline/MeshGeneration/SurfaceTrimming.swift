@@ -92,15 +92,27 @@ struct SurfaceTrimming {
       && !evidence.isSeenThrough(face)
   }
 
+  /// The points of a scene's clouds that rays are cast to. Of these, all are taken.
+  func rayTargets(in clouds: [PointCloud]) -> PointCloud {
+    let step = max(1, clouds.reduce(0) { $0 + $1.count } / max(1, options.maximumRayPoints))
+    var (targets, next) = (PointCloud(), 0)
+    for cloud in clouds {
+      while next < cloud.count {
+        targets.append(cloud, next)
+        next += step
+      }
+      next -= cloud.count
+    }
+    return targets
+  }
+
   /// Casts rays from the camera centers to a subset of the scene's points, and counts the photos
   /// that see through each cell.
   private func freeSpace(
     _ bounds: (min: SIMD3<Float>, max: SIMD3<Float>), _ part: SurfacePart?, _ scene: PointCloud,
     _ spacing: Double, _ reconstruction: Reconstruction, _ control: KernelControl
   ) throws -> FreeSpace {
-    let step = max(1, scene.count / max(1, options.maximumRayPoints))
-    var targets = PointCloud()
-    for index in stride(from: 0, to: scene.count, by: step) { targets.append(scene, index) }
+    let targets = rayTargets(in: [scene])
     let clearances = targets.footprints.map {
       Float(options.clearanceSpacings) * max(Float(spacing), $0)
     }

@@ -51,14 +51,19 @@ struct EstimatedMasks: Codable, Sendable {
   }
 
   /// Whether all files are present and unchanged.
+  var areIntact: Bool { masks.areIntact }
+
+  /// Whether there is no mask.
+  var isEmpty: Bool { masks.allSatisfy { $0 == nil } }
+}
+
+extension [PhotoMask?] {
+  /// Whether all files of masks are present and unchanged.
   var areIntact: Bool {
-    masks.allSatisfy { mask in
+    allSatisfy { mask in
       guard let mask, let file = mask.file else { return true }
       return FileManager.default.contents(atPath: file.path).map { XXHash64.hash([UInt8]($0)) }
         == mask.contentHash
     }
   }
-
-  /// Whether there is no mask.
-  var isEmpty: Bool { masks.allSatisfy { $0 == nil } }
 }

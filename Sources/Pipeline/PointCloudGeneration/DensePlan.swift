@@ -25,6 +25,11 @@ struct DensePlan: Sendable {
   /// Indices of the views that lack the file of `step`.
   subscript(step: PatchWorkspace.Step) -> [Int] { missing[step] ?? [] }
 
+  /// Whether the views have the sparse points that missing files are computed from.
+  func isFeasible(for views: DenseViews) -> Bool {
+    self[.coarse].allSatisfy { views.points[$0] != nil }
+  }
+
   /// Approximate size of the missing files in bytes.
   func byteCount(_ views: DenseViews) -> Int {
     missing.reduce(0) { sum, entry in

@@ -64,12 +64,15 @@ struct DenseSteps {
   private func makeCoarsePatches(_ context: StageContext) throws {
     try forEach(.coarse, context) { [self] index, control in
       let view = views.views[index]
+      guard let points = views.points[index] else {
+        throw KernelError.invalidArgument("coarse patches need sparse points")
+      }
       let half = try half(index)
       var map = PatchMapBuilder(view: half)
       do {
         try PatchStereo.reconstruct(
           &map, sources: try view.sources.map(self.half),
-          seeds: view.points.compactMap { half.seed(at: $0) }, options: options.patches,
+          seeds: points.compactMap { half.seed(at: $0) }, options: options.patches,
           control: control)
       } catch KernelError.degenerate {
         // A view without visible sparse points gets patches from other views only.

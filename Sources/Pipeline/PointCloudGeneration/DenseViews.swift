@@ -4,15 +4,13 @@ import SceneModel
 
 /// The views that take part in the dense stage, with their cameras, sources and file fingerprints.
 struct DenseViews: Sendable {
-  struct View: Sendable {
+  struct View: Codable, Sendable {
     var photo: ID<Photo>
     /// Pinhole camera without distortion, at the stage's resolution.
     var camera: Camera
     var cameraFromWorld: RigidTransform
     /// Indices in `views` of the source views, best first.
     var sources: [Int]
-    /// Sparse points that the photo observes, in world coordinates.
-    var points: [SIMD3<Double>]
     /// Share of the photo inside its mask, 0…1.
     var objectShare: Double
 
@@ -21,8 +19,11 @@ struct DenseViews: Sendable {
 
   /// In photo order.
   let views: [View]
+  /// Sparse points that each view's photo observes, in world coordinates: what the first step
+  /// starts from. Nil if they were not read with views that another process selected.
+  var points: [[SIMD3<Double>]?]
   /// For each step, the fingerprint of each view's file.
-  private let fingerprints: [PatchWorkspace.Step: [UInt64]]
+  let fingerprints: [PatchWorkspace.Step: [UInt64]]
 
   /// Throws `PipelineError.noSurface` if no two photos share enough points.
   init(
@@ -38,7 +39,6 @@ struct DenseViews: Sendable {
     guard !photos.isEmpty else {
       throw PipelineError.noSurface(reason: "no two photos share enough points.")
     }
-    let points = Self.points(of: reconstruction)
     let position = Dictionary(uniqueKeysWithValues: photos.enumerated().map { ($1, $0) })
     views = try photos.map { photo in
       let limit = reconstruction.photos[photo.index].sharpPixels ?? .max
@@ -47,10 +47,19 @@ struct DenseViews: Sendable {
         camera: try images.pinholeCamera(
           of: photo, in: reconstruction, maximumPixels: min(limit, options.maximumPixelsPerView)),
         cameraFromWorld: reconstruction.poses[photo.index] ?? .identity,
-        sources: sources[photo.index].compactMap { position[$0] }, points: points[photo.index],
+        sources: sources[photo.index].compactMap { position[$0] },
         objectShare: reconstruction.photos[photo.index].mask?.coverage ?? 1)
     }
-    fingerprints = try Self.fingerprints(views, reconstruction, images, options)
+    let observed = Self.points(of: reconstruction)
+    let points = photos.map { observed[$0.index] }
+    self.points = points
+    fingerprints = try Self.fingerprints(views, points, reconstruction, images, options)
+  }
+
+  /// Views that another process selected, without points.
+  init(_ views: [View], _ fingerprints: [PatchWorkspace.Step: [UInt64]]) {
+    (self.views, self.fingerprints) = (views, fingerprints)
+    points = Array(repeating: nil, count: views.count)
   }
 
   var indices: Range<Int> { views.indices }
@@ -90,8 +99,8 @@ extension DenseViews {
   /// Each step's fingerprint includes those of its input files, so that exactly the files that
   /// depend on a change are recomputed.
   private static func fingerprints(
-    _ views: [View], _ reconstruction: Reconstruction, _ images: ImageStore,
-    _ options: PointCloudGeneration.Options
+    _ views: [View], _ points: [[SIMD3<Double>]], _ reconstruction: Reconstruction,
+    _ images: ImageStore, _ options: PointCloudGeneration.Options
   ) throws -> [PatchWorkspace.Step: [UInt64]] {
     let patchOptions = try Fingerprint.content(of: options.patches)
     let (filterOptions, coarseFilter) = (
@@ -102,8 +111,8 @@ extension DenseViews {
     }
     let coarse = chain(photos, views) { fingerprint, view in
       fingerprint.add(patchOptions)
-      fingerprint.add(view.points.count)
-      view.points.forEach { fingerprint.add($0) }
+      fingerprint.add(points[view].count)
+      points[view].forEach { fingerprint.add($0) }
     }
     let coarseStates = chain(coarse, views) { fingerprint, _ in fingerprint.add(coarseFilter) }
     let completes = options.completes ? 1 : 0
@@ -116,9 +125,7 @@ extension DenseViews {
     let completedStates = chain(completed, views)
     let clouds = chain(completedStates, views) { fingerprint, view in
       // Points list the photos that observe them.
-      for photo in [view.photo] + view.sources.map({ views[$0].photo }) {
-        fingerprint.add(photo.index)
-      }
+      for view in [view] + views[view].sources { fingerprint.add(views[view].photo.index) }
     }
     return [
       .view: photos, .coarse: coarse, .coarseStates: coarseStates,
@@ -131,14 +138,14 @@ extension DenseViews {
   /// further inputs.
   private static func chain(
     _ inputs: [UInt64], _ views: [View],
-    _ add: (inout Fingerprint, View) -> Void = { _, _ in }
+    _ add: (inout Fingerprint, _ view: Int) -> Void = { _, _ in }
   ) -> [UInt64] {
     views.indices.map { index in
       var fingerprint = Fingerprint()
       fingerprint.add(inputs[index])
       fingerprint.add(views[index].sources.count)
       views[index].sources.forEach { fingerprint.add(inputs[$0]) }
-      add(&fingerprint, views[index])
+      add(&fingerprint, index)
       return fingerprint.value
     }
   }

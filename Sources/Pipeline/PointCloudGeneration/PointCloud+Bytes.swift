@@ -18,6 +18,15 @@ extension PointCloud: Codable {
   }
 }
 
+extension PointCloud: UnitValue {
+  init?(unit: Data) {
+    self.init()
+    guard append(encoded: [UInt8](unit)[...]) else { return nil }
+  }
+
+  func unitData() throws -> Data { Data(encoded()) }
+}
+
 extension PointCloud {
   /// Serializes the cloud: counts of points and of photo indices, then one array after the other.
   func encoded() -> [UInt8] {

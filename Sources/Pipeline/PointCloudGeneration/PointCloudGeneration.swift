@@ -50,22 +50,21 @@ package struct PointCloudGeneration {
   }
 
   /// The points of each view in `folder`, which are read when they are used; those of a file that
-  /// is missing or damaged are computed again.
+  /// is missing or damaged are computed again, if necessary from the views of `withPoints`.
   func fusedViews(
-    _ reconstruction: Reconstruction, images: ImageStore, folder: URL, _ control: KernelControl
+    of views: DenseViews, _ reconstruction: Reconstruction, images: ImageStore, folder: URL,
+    _ control: KernelControl, withPoints: @escaping () throws -> DenseViews
   ) throws -> FusedViews {
-    let views = try DenseViews(reconstruction, images: images, options: options, control)
     let workspace = try PatchWorkspace(folder: folder)
     let masks = masks(of: views, reconstruction, images)
-    let steps = { @Sendable [options] (indices: [Int]) in
-      DenseSteps(
-        views, workspace, try DensePlan(.cloud, of: indices, views, workspace, control), masks,
-        options)
+    let steps = { [options] (views: DenseViews, plan: DensePlan) in
+      DenseSteps(views, workspace, plan, masks, options)
     }
-    let complete = try steps([])
+    let complete = steps(views, try DensePlan(.cloud, of: [], views, workspace, control))
     return FusedViews(count: views.views.count) { view in
       if let found = try? complete.fusedView(view) { return found.cloud }
-      let missing = try steps([view])
+      let plan = try DensePlan(.cloud, of: [view], views, workspace, control)
+      let missing = steps(plan.isFeasible(for: views) ? views : try withPoints(), plan)
       try missing.run(reconstruction, images, StageContext(control: control))
       return try missing.fusedView(view).cloud
     }
@@ -98,20 +97,22 @@ package struct PointCloudGeneration {
   }
 
   /// Computes the results of a step for a block of the views, with whatever they require and is
-  /// missing, and leaves all in `folder`.
+  /// missing, and leaves all in `folder`. Returns false, with nothing computed, if that takes
+  /// sparse points that the views lack.
   func make(
-    _ step: PatchWorkspace.Step, _ block: Block, of reconstruction: Reconstruction,
-    images: ImageStore, folder: URL, _ context: StageContext
-  ) throws {
+    _ step: PatchWorkspace.Step, _ block: Block, of views: DenseViews,
+    _ reconstruction: Reconstruction, images: ImageStore, folder: URL, _ context: StageContext
+  ) throws -> Bool {
     let start = context.part(from: 0, to: 0).control
-    let views = try DenseViews(reconstruction, images: images, options: options, start)
     let workspace = try PatchWorkspace(folder: folder)
     let own = Array(views.indices)[block.range(of: views.views.count)]
     let plan = try DensePlan(
       step, of: Array(own), views, workspace, start)
+    guard plan.isFeasible(for: views) else { return false }
     try workspace.checkSpace(plan.byteCount(views))
     try DenseSteps(views, workspace, plan, masks(of: views, reconstruction, images), options)
       .run(reconstruction, images, context)
+    return true
   }
 
   /// Computes a cloud from the patches at half the resolution of the views, in the reconstruction's

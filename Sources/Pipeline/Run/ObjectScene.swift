@@ -16,11 +16,16 @@ struct ObjectScene: Sendable {
 
   /// The photos with estimated masks.
   init(_ photos: PhotoSet, _ reconstruction: Reconstruction, _ estimated: EstimatedMasks) {
-    self.init(photos.masked(by: estimated.masks), reconstruction)
+    self.init(photos, reconstruction, masks: estimated.masks)
     support = estimated.support
     surroundings = estimated.surroundings
+  }
+
+  /// The photos with masks, by photo ID.
+  init(_ photos: PhotoSet, _ reconstruction: Reconstruction, masks: [PhotoMask?]) {
+    self.init(photos.masked(by: masks), reconstruction)
     for index in self.reconstruction.photos.indices {
-      self.reconstruction.photos[index].mask = estimated.masks[index]
+      self.reconstruction.photos[index].mask = masks[index]
     }
   }
 }

@@ -14,19 +14,31 @@ extension ReconstructionMethod {
     case .matches(let block): try alignmentPart(photos) { try $0.match(block, $1) }
     case .morePairs: try alignmentPart(photos) { try $0.selectMorePairs($1) }
     case .moreMatches(let block): try alignmentPart(photos) { try $0.matchMore(block, $1) }
-    case .cameras: _ = try scene(photos)
-    case .views(let part, let block): try make(part, block, of: try scene(photos))
-    case .surface:
-      try tilePart(try scene(photos), in: geometry) { try prepareTiles($0, $1) }
+    case .cameras:
+      let scene = try scene(photos)
+      try cache.sceneStore(of: photos, configuration)?.save(scene, try denseViews(of: scene))
+    case .views(let part, let block): try make(part, block, of: photos)
+    case .tileBase: try makeTileBase(of: try scene(photos), in: geometry, for: try tileOutput)
+    case .surface: try makeSurface(of: try scene(photos))
     case .tiles(let part, let block):
-      try tilePart(try scene(photos), in: geometry, for: part) {
-        try make(part, block, of: $0, $1)
-      }
+      try tilePart(photos, in: geometry, for: part) { try make(part, block, of: $0, $1) }
+    case .tileIndex:
+      try tilePart(photos, in: geometry, for: .tiles) { try writeTiles($0, $1) }
     }
   }
 
-  private func scene(_ photos: PhotoSet) throws -> ObjectScene {
+  /// The scene with all that is known of it.
+  func scene(_ photos: PhotoSet) throws -> ObjectScene {
     try maskObject(photos, try align(photos))
+  }
+
+  /// The views of a scene's dense stage.
+  func denseViews(of scene: ObjectScene) throws -> DenseViews {
+    try recorder.recordingErrors {
+      try DenseViews(
+        scene.reconstruction, images: scene.photos.images,
+        options: configuration.pointCloudGeneration, recorder.control)
+    }
   }
 
   private func alignmentPart(
@@ -42,25 +54,44 @@ extension ReconstructionMethod {
     }
   }
 
-  private func make(_ part: DensePart, _ block: Block, of scene: ObjectScene) throws {
+  /// Only the first step needs sparse points, and later ones if what they read is damaged.
+  private func make(_ part: DensePart, _ block: Block, of photos: PhotoSet) throws {
+    let stored = try cache.sceneStore(of: photos, configuration)?
+      .scene(of: photos, withPointsOf: part == .coarse ? block : nil)
+    if let stored, try make(part, block, of: stored.views, in: stored.scene) { return }
+    let scene = try scene(photos)
+    _ = try make(part, block, of: try denseViews(of: scene), in: scene)
+  }
+
+  private func make(
+    _ part: DensePart, _ block: Block, of views: DenseViews, in scene: ObjectScene
+  ) throws -> Bool {
     guard let folder = cache.checkpoint?.views else { throw Self.noDirectory }
-    try recorder.run(.pointCloudGeneration, images: scene.photos.images) { context in
+    let images = scene.photos.images
+    return try recorder.run(.pointCloudGeneration, images: images) { context in
       try PointCloudGeneration(options: configuration.pointCloudGeneration)
         .make(
-          part.step, block, of: scene.reconstruction, images: scene.photos.images, folder: folder,
+          part.step, block, of: views, scene.reconstruction, images: images, folder: folder,
           context)
     }
   }
 
   private func tilePart(
-    _ scene: ObjectScene, in geometry: ModelGeometry, for step: TilePart? = nil,
+    _ photos: PhotoSet, in geometry: ModelGeometry, for step: TilePart,
     _ body: (TileInput, StageContext) throws -> Void
   ) throws {
-    guard let output = configuration.tiles else {
+    let output = try tileOutput
+    let input =
+      try storedTileInput(photos, in: geometry, to: output, for: step)
+      ?? tileInput(try scene(photos), in: geometry, to: output)
+    try recorder.run(.optimization, images: input.scene.photos.images) { try body(input, $0) }
+  }
+
+  private var tileOutput: TileOutput {
+    get throws {
+      if let output = configuration.tiles { return output }
       throw KernelError.invalidArgument("a part of the tiles needs a folder for them")
     }
-    let input = try tileInput(scene, in: geometry, to: output, for: step)
-    try recorder.run(.optimization, images: scene.photos.images) { try body(input, $0) }
   }
 
   private static var noDirectory: KernelError {

@@ -5,7 +5,9 @@ import SceneModel
 extension ReconstructionMethod {
   /// What the tiles of a scene are made from.
   struct TileInput {
+    /// Without sparse points and surroundings, if its base is stored.
     let scene: ObjectScene
+    fileprivate let views: DenseViews
     let geometry: ModelGeometry
     let output: TileOutput
     fileprivate let store: TileStore
@@ -15,24 +17,40 @@ extension ReconstructionMethod {
     fileprivate enum Base {
       /// What other processes or runs have stored; surroundings, if they are needed.
       case stored(TileBase, TileSurroundings?)
-      /// To be made from the cloud and the surface of the scene, and what that was made from, if it
-      /// is known.
-      case made(from: PointCloud, Mesh, SurfaceSystem?)
+      /// To be made from the cloud of the scene, its surface if that is needed, and what the
+      /// surface is made from, if it is known.
+      case made(from: PointCloud, Mesh?, SurfaceSystem?)
     }
   }
 
-  /// Finds what a step of the tiles, or all of them, are made from, or makes it. Models contain the
-  /// part of the surface inside the crop box, moved by the transform.
+  /// Finds what all tiles are made from, or makes it. Models contain the part of the surface inside
+  /// the crop box, moved by the transform.
   func tileInput(
-    _ scene: ObjectScene, in geometry: ModelGeometry, to output: TileOutput,
-    for step: TilePart? = nil
+    _ scene: ObjectScene, in geometry: ModelGeometry, to output: TileOutput
   ) throws -> TileInput {
     let store = try cache.tileStore(of: scene.photos, configuration)
-    let base =
-      store.stored(for: step)
-      ?? .made(
-        from: try densify(scene), try surface(scene), cache.system(viewPixels: viewPixels))
-    return TileInput(scene: scene, geometry: geometry, output: output, store: store, base: base)
+    let views = try denseViews(of: scene)
+    func input(_ base: TileInput.Base) -> TileInput {
+      TileInput(
+        scene: scene, views: views, geometry: geometry, output: output, store: store, base: base)
+    }
+    // Not `??`: the compiler (Swift 6.3) leaves the stack misaligned if what follows it throws.
+    if let stored = store.stored(for: nil) { return input(stored) }
+    let (cloud, surface) = (try densify(scene), try surface(scene))
+    return input(.made(from: cloud, surface, cache.system(viewPixels: viewPixels)))
+  }
+
+  /// What a step of the tiles is made from, if earlier parts of the run have stored all of it.
+  func storedTileInput(
+    _ photos: PhotoSet, in geometry: ModelGeometry, to output: TileOutput, for step: TilePart
+  ) throws -> TileInput? {
+    guard let (scene, views) = try cache.sceneStore(of: photos, configuration)?.scene(of: photos)
+    else { return nil }
+    let store = try cache.tileStore(of: scene.photos, configuration)
+    return store.stored(for: step).map {
+      TileInput(
+        scene: scene, views: views, geometry: geometry, output: output, store: store, base: $0)
+    }
   }
 
   /// Makes the surface of the scene in tiles of full detail, textures each and writes it.
@@ -54,9 +72,51 @@ extension ReconstructionMethod {
     context.notes.record("tiles", Double(index.tiles.count))
   }
 
-  /// Makes what all tiles need, and stores it.
-  func prepareTiles(_ input: TileInput, _ context: StageContext) throws {
-    try tileModels(input, StageContext(control: context.control)).prepare()
+  /// Makes what tiles and the surface of the scene are made from, and stores it.
+  func makeTileBase(
+    of scene: ObjectScene, in geometry: ModelGeometry, for output: TileOutput
+  ) throws {
+    let store = try cache.tileStore(of: scene.photos, configuration)
+    let cloud = try densify(scene)
+    let system = try recorder.run(.meshGeneration, images: scene.photos.images) { context in
+      try MeshGeneration(configuration.meshGeneration).system(
+        of: cloud, scene.reconstruction, silhouettes: try silhouettes(of: scene, context),
+        support: scene.support, context)
+    }
+    let notes = { SavedNotes(recorder.notes[$0] ?? StageNotes()) }
+    try cache.sceneStore(of: scene.photos, configuration)?.save(
+      SampleRecord(
+        samples: system.samples, denseNotes: notes(.pointCloudGeneration),
+        notes: notes(.meshGeneration)))
+    let input = TileInput(
+      scene: scene, views: try denseViews(of: scene), geometry: geometry, output: output,
+      store: store, base: .made(from: cloud, nil, system))
+    try recorder.run(.optimization, images: scene.photos.images) { context in
+      _ = try tileModels(input, StageContext(control: context.control)).prepare()
+    }
+  }
+
+  /// Makes the surface of the scene, and stores what hides tiles.
+  func makeSurface(of scene: ObjectScene) throws {
+    try cache.tileStore(of: scene.photos, configuration)
+      .save(occluders: try occluders(try surface(scene)))
+  }
+
+  /// The surface of the samples that another process stored; nil if none did.
+  func meshOfStoredSamples(_ scene: ObjectScene) throws -> Mesh? {
+    guard configuration.tiles != nil else { return nil }
+    let store = try cache.tileStore(of: scene.photos, configuration)
+    let scenes = try cache.sceneStore(of: scene.photos, configuration)
+    guard let record = scenes?.samples, let base = store.base, let observed = store.observed else {
+      return nil
+    }
+    try recorder.run(.pointCloudGeneration) { record.denseNotes.replay(to: $0.notes) }
+    return try mesh(scene) { meshing, silhouettes, context in
+      record.notes.replay(to: context.notes)
+      return try meshing.mesh(
+        of: SurfaceSystem(samples: record.samples, solution: base.solution), observed: observed,
+        scene.reconstruction, silhouettes: silhouettes, context)
+    }
   }
 
   /// Makes a step of a block of the tiles.
@@ -82,9 +142,6 @@ extension ReconstructionMethod {
 
   private func tileModels(_ input: TileInput, _ context: StageContext) throws -> TileModels {
     let (surfaces, surroundings) = try tileSurfaces(input, context)
-    guard let surroundings else {
-      throw KernelError.invalidArgument("models of tiles need what lies around them")
-    }
     return try TileModels(
       surfaces, surroundings, input.scene, in: input.geometry, to: input.output, configuration)
   }
@@ -97,10 +154,14 @@ extension ReconstructionMethod {
       options: configuration.tiling, meshing: MeshGeneration(configuration.meshGeneration),
       reconstruction: scene.reconstruction,
       silhouettes: try Silhouettes(scene.reconstruction, images: scene.photos.images, control))
+    // What is missing or damaged is made again from the whole scene.
+    let wholeScene = { try self.scene(try ingest()) }
     let views = try PointCloudGeneration(options: configuration.pointCloudGeneration)
       .fusedViews(
-        scene.reconstruction, images: scene.photos.images, folder: try cache.viewFolder(), control)
-    func system(of cloud: PointCloud) throws -> SurfaceSystem {
+        of: input.views, scene.reconstruction, images: scene.photos.images,
+        folder: try cache.viewFolder(), control
+      ) { try denseViews(of: try wholeScene()) }
+    func system(of cloud: PointCloud, _ scene: ObjectScene) throws -> SurfaceSystem {
       try tiling.meshing.system(
         of: cloud, scene.reconstruction, silhouettes: tiling.silhouettes, support: scene.support,
         context.part(from: 0, to: 0.8))
@@ -108,34 +169,30 @@ extension ReconstructionMethod {
     switch input.base {
     case .stored(let base, let surroundings):
       let surfaces = TileSurfaces(tiling: tiling, base: base, views: views, store: input.store) {
-        // Only for tiles whose file is damaged.
-        try system(of: try densify(scene)).samples
+        let scene = try wholeScene()
+        return try system(of: try densify(scene), scene).samples
       }
       return (surfaces, surroundings)
     case .made(let cloud, let surface, let known):
-      let system = try known ?? system(of: cloud)
+      let system = try known ?? system(of: cloud, scene)
       let base = try tiling.base(system, views, context.part(from: 0.8, to: 1))
       let surfaces = TileSurfaces(tiling: tiling, base: base, views: views, store: input.store) {
         system.samples
       }
       if input.store.isShared { try surfaces.storeSamples(of: system.samples, control) }
-      let surroundings = try surroundings(of: surface, cloud, scene)
-      try input.store.save(base, surroundings)
-      return (surfaces, surroundings)
+      let observed = tiling.meshing.observed(cloud, scene.surroundings)
+      try input.store.save(base, observed: observed)
+      guard let surface else { return (surfaces, nil) }
+      let occluders = try occluders(surface)
+      try input.store.save(occluders: occluders)
+      return (surfaces, TileSurroundings(observed: observed, occluders: occluders))
     }
   }
 
-  /// What lies around tiles.
-  private func surroundings(
-    of surface: Mesh, _ cloud: PointCloud, _ scene: ObjectScene
-  ) throws -> TileSurroundings {
-    var observed = cloud
-    // Appending copies the cloud.
-    if scene.surroundings.count > 0 { observed.append(scene.surroundings) }
-    return TileSurroundings(
-      observed: observed,
-      occluders: try surface.simplified(
-        maximumTriangles: configuration.textureMapping.occluderTriangles, KernelControl()))
+  /// What hides tiles from photos.
+  private func occluders(_ surface: Mesh) throws -> Mesh {
+    try surface.simplified(
+      maximumTriangles: configuration.textureMapping.occluderTriangles, recorder.control)
   }
 }
 

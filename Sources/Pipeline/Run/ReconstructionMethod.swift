@@ -124,7 +124,7 @@ struct ReconstructionMethod {
     try cache.surface(viewPixels: viewPixels) {
       if case .savedRun(let saved) = source { return saved.surface(viewPixels, recorder) }
       let surface = try cache.sealedSurface(of: scene.photos, configuration) {
-        try mesh(try densify(scene), scene)
+        try meshOfStoredSamples(scene) ?? mesh(try densify(scene), scene)
       }
       try cache.writeSurfaceRecord(
         of: scene.photos, scene.reconstruction, in: source.photoFolder, viewPixels: viewPixels)
@@ -132,26 +132,38 @@ struct ReconstructionMethod {
     }
   }
 
-  /// Meshes the cloud, and refines the mesh if configured, which takes three fifths of the stage.
+  /// Meshes the cloud.
   private func mesh(_ cloud: PointCloud, _ scene: ObjectScene) throws -> Mesh {
-    let (photos, reconstruction) = (scene.photos, scene.reconstruction)
-    return try recorder.run(.meshGeneration, images: photos.images) { context in
-      let silhouettes = try context.notes.step("silhouettes") {
-        try Silhouettes(
-          reconstruction, images: photos.images, context.control.part(from: 0, to: 0))
+    try mesh(scene) { meshing, silhouettes, context in
+      try meshing.run(
+        cloud, scene.reconstruction, silhouettes: silhouettes, support: scene.support,
+        surroundings: scene.surroundings, context
+      ) {
+        if configuration.tiles != nil { cache.keep($0, viewPixels: viewPixels) }
       }
+    }
+  }
+
+  /// Makes a mesh, and refines it if configured, which takes three fifths of the stage.
+  func mesh(
+    _ scene: ObjectScene, _ make: (MeshGeneration, Silhouettes?, StageContext) throws -> Mesh
+  ) throws -> Mesh {
+    let (images, reconstruction) = (scene.photos.images, scene.reconstruction)
+    return try recorder.run(.meshGeneration, images: images) { context in
       let share = configuration.photoRefinement == nil ? 1 : 0.4
-      let mesh = try MeshGeneration(configuration.meshGeneration)
-        .run(
-          cloud, reconstruction, silhouettes: silhouettes, support: scene.support,
-          surroundings: scene.surroundings, context.part(from: 0, to: share)
-        ) {
-          if configuration.tiles != nil { cache.keep($0, viewPixels: viewPixels) }
-        }
+      let mesh = try make(
+        MeshGeneration(configuration.meshGeneration), try silhouettes(of: scene, context),
+        context.part(from: 0, to: share))
       guard let refinement = configuration.photoRefinement else { return mesh }
       return try PhotoRefinement(options: refinement).run(
-        mesh, source: ViewSource(reconstruction, images: photos.images),
-        context.part(from: share, to: 1))
+        mesh, source: ViewSource(reconstruction, images: images), context.part(from: share, to: 1))
+    }
+  }
+
+  func silhouettes(of scene: ObjectScene, _ context: StageContext) throws -> Silhouettes? {
+    try context.notes.step("silhouettes") {
+      try Silhouettes(
+        scene.reconstruction, images: scene.photos.images, context.control.part(from: 0, to: 0))
     }
   }
 

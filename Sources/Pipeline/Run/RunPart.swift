@@ -19,8 +19,12 @@ package enum RunPart: Hashable, Sendable {
   case cameras
   /// A step of the dense stage for a block of the views.
   case views(DensePart, Block)
-  /// The surface of the whole scene, and what all its tiles need.
+  /// What the surface of the whole scene and all its tiles are made from.
+  case tileBase
+  /// The surface of the whole scene.
   case surface
   /// A step of the work on tiles for a block of them.
   case tiles(TilePart, Block)
+  /// The list of all tiles.
+  case tileIndex
 }

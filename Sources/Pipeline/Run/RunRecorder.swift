@@ -49,6 +49,9 @@ final class RunRecorder {
     }
   }
 
+  /// For work between stages, which has no progress.
+  var control: KernelControl { KernelControl(threadCount: threadCount, flag: flag) }
+
   /// Runs a stage with separate progress and notes, and adds its cost to the report. `images` is
   /// the store that the stage decodes photos with.
   func run<Value>(

@@ -227,6 +227,16 @@ extension StageCache {
     return mesh
   }
 
+  /// What earlier parts of the run stored of its scene; nil if there are none.
+  func sceneStore(
+    of photos: PhotoSet, _ configuration: PipelineConfiguration
+  ) throws -> SceneStore? {
+    guard sealsStages else { return nil }
+    return try units.map {
+      SceneStore(units: $0, inputs: try RunInputs(photos, configuration).surface)
+    }
+  }
+
   private func store(
     _ photos: PhotoSet, _ configuration: PipelineConfiguration
   ) throws -> StageStore? {

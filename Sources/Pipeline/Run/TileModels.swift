@@ -5,7 +5,8 @@ import SceneModel
 /// The textured models of a scene's tiles, each in a file.
 struct TileModels {
   let surfaces: TileSurfaces
-  let surroundings: TileSurroundings
+  /// Nil if no model is made.
+  let surroundings: TileSurroundings?
   let scene: ObjectScene
   let output: TileOutput
   /// The models contain the part of the surface inside its crop box, moved by its transform.
@@ -16,7 +17,7 @@ struct TileModels {
   private let options: UInt64
 
   init(
-    _ surfaces: TileSurfaces, _ surroundings: TileSurroundings, _ scene: ObjectScene,
+    _ surfaces: TileSurfaces, _ surroundings: TileSurroundings?, _ scene: ObjectScene,
     in geometry: ModelGeometry, to output: TileOutput, _ configuration: PipelineConfiguration
   ) throws {
     (self.surfaces, self.surroundings, self.scene) = (surfaces, surroundings, scene)
@@ -69,6 +70,9 @@ struct TileModels {
   private func model(
     _ tile: Int, _ context: StageContext
   ) throws -> (mesh: TexturedMesh, photos: Int)? {
+    guard let surroundings else {
+      throw KernelError.invalidArgument("models of tiles need what lies around them")
+    }
     let found = try surfaces.surface(
       tile, observed: surroundings.observed, context.part(from: 0, to: 0.3))
     guard let (surface, photos) = found else { return nil }

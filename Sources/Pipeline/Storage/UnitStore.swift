@@ -10,8 +10,8 @@ import Kernels
 struct UnitStore: Sendable {
   /// What a result is: the start of its file's name.
   enum Kind: String, Sendable {
-    case photos, features, pairs, matches, morePairs
-    case tileBase, tileSamples, tileSurroundings, solvedTile, writtenTile
+    case photos, features, pairs, matches, morePairs, scene, viewPoints
+    case sceneSamples, observed, occluders, tileBase, tileSamples, solvedTile, writtenTile
   }
 
   let folder: URL

@@ -22,13 +22,26 @@ struct TileStore: Sendable {
 
   /// The base that was stored; nil if there is none.
   var base: TileBase? { shared.find(.tileBase, madeFrom: inputs) }
-  /// The surroundings that were stored; nil if there are none.
-  var surroundings: TileSurroundings? { shared.find(.tileSurroundings, madeFrom: inputs) }
+  /// The points that were stored and prove that space is free; nil if there are none.
+  var observed: PointCloud? { shared.find(.observed, madeFrom: inputs) }
 
-  /// Stores what all tiles need. Throws `OutputError`.
-  func save(_ base: TileBase, _ surroundings: TileSurroundings) throws {
+  /// What was stored that lies around tiles; nil if a part of it is missing.
+  var surroundings: TileSurroundings? {
+    guard let occluders: OccluderRecord = shared.find(.occluders, madeFrom: inputs) else {
+      return nil
+    }
+    return observed.map { TileSurroundings(observed: $0, occluders: occluders.mesh) }
+  }
+
+  /// Stores what tiles and the surface of the scene are made from. Throws `OutputError`.
+  func save(_ base: TileBase, observed: PointCloud) throws {
     try shared.save(base, .tileBase, madeFrom: inputs)
-    try shared.save(surroundings, .tileSurroundings, madeFrom: inputs)
+    try shared.save(observed, .observed, madeFrom: inputs)
+  }
+
+  /// Stores what hides tiles from photos. Throws `OutputError`.
+  func save(occluders: Mesh) throws {
+    try shared.save(OccluderRecord(occluders), .occluders, madeFrom: inputs)
   }
 
   /// The samples of the scene near a tile, stored or from `make`.

@@ -22,7 +22,9 @@ final class ReconstructionEngine: SessionEngine {
     case .folder(let url):
       samples = nil
       pipeline = ReconstructionPipeline(
-        .photos(in: url), configuration: configuration, flag: flag, onEvent: onEvent)
+        .photos(in: url), configuration: configuration,
+        checkpointAccess: task.options.sharesCheckpoint ? .shared : .exclusive, flag: flag,
+        onEvent: onEvent)
     case .samples(let samples):
       self.samples = samples
       let folder = try samples.write(flag: flag, onEvent: onEvent)

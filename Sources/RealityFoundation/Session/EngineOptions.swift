@@ -29,6 +29,8 @@ package struct EngineOptions: Equatable, Sendable {
   package var maskOutput: URL?
   /// Where the scene is written in tiles of full detail, too; nil makes none.
   package var tiles: TileOutput?
+  /// Whether other processes use the checkpoint directory at the same time.
+  package var sharesCheckpoint = false
   /// Options of the configuration with another value, for measurements.
   package var overrides: [OptionOverride] = []
 

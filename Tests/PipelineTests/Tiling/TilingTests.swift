@@ -139,7 +139,9 @@ import Testing
     let store = TileStore(folder: folder.url, isShared: true, inputs: 1)
     let (context, tiling) = (StageContext(control: KernelControl()), tiling(baseDepth: 5))
     let samples = try system(of: tiling, context).samples
-    try store.save(base, TileSurroundings(observed: cloud, occluders: meshes[0]))
+    try store.save(base, observed: cloud)
+    #expect(store.surroundings == nil)
+    try store.save(occluders: meshes[0])
     let stored = try #require(store.base)
     #expect(stored.grid == base.grid && stored.viewBoxes == base.viewBoxes)
     #expect(stored.coarsestFootprint == base.coarsestFootprint)
