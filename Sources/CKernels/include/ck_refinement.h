@@ -50,7 +50,8 @@ typedef struct {
 /// is set to 1 for each location whose square lies within the photo and has texture in two
 /// directions, to 0 for the others.
 ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_location* locations,
-                               size_t location_count, uint16_t* samples, uint8_t* valid);
+                               size_t location_count, ck_instructions instructions,
+                               uint16_t* samples, uint8_t* valid);
 
 /// Locates templates in a photo by least squares matching (Gruen, "Adaptive least squares
 /// correlation", 1985) of position, gain and offset, in the inverse compositional form (Baker and
@@ -59,7 +60,8 @@ ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_locatio
 /// `samples` holds those of `template_count` templates, `matches` one element per search.
 ck_status ck_match_templates(const ck_pixels* photo, const uint16_t* samples, size_t template_count,
                              const ck_template_search* searches, size_t search_count,
-                             double maximum_shift, ck_template_match* matches);
+                             double maximum_shift, ck_instructions instructions,
+                             ck_template_match* matches);
 
 #ifdef __cplusplus
 }

@@ -13,6 +13,7 @@ namespace {
 constexpr int kSide = CK_TEMPLATE_SIDE - 2;
 /// Number of samples of the comparison window.
 constexpr int kCount = kSide * kSide;
+static_assert(CK_TEMPLATE_SIDE <= kMaximumSamplesPerSide);
 /// Standard deviation in samples of the weights of the window. Chosen.
 constexpr float kSigma = 0.5f * (kSide / 2 + 1);
 /// Largest number of iterations of a search. Chosen.
@@ -150,21 +151,22 @@ ck_template_match search(const LumaPyramid& image, const Template& model,
   return nothing;
 }
 
-LumaPyramid pyramid_of(const ck_pixels& photo) {
+LumaPyramid pyramid_of(const ck_pixels& photo, ck_instructions instructions) {
   const auto [pixels, width, height, channels, row_stride] = photo;
   require(pixels && width > 0 && height > 0, "an image is needed");
   require(channels == 1 || channels == 3 || channels == 4, "1, 3 or 4 channels are needed");
   require(row_stride >= static_cast<size_t>(width) * channels, "the row stride is too small");
-  return LumaPyramid(pixels, width, height, channels, row_stride);
+  return LumaPyramid(pixels, width, height, channels, row_stride, instructions);
 }
 
 }  // namespace
 }  // namespace ck
 
 ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_location* locations,
-                               size_t location_count, uint16_t* samples, uint8_t* valid) {
+                               size_t location_count, ck_instructions instructions,
+                               uint16_t* samples, uint8_t* valid) {
   return ck::guarded([&] {
-    const ck::LumaPyramid image = ck::pyramid_of(*photo);
+    const ck::LumaPyramid image = ck::pyramid_of(*photo, instructions);
     for (size_t i = 0; i < location_count; ++i) {
       const ck_template_location& p = locations[i];
       float values[CK_TEMPLATE_SAMPLES];
@@ -183,9 +185,10 @@ ck_status ck_extract_templates(const ck_pixels* photo, const ck_template_locatio
 
 ck_status ck_match_templates(const ck_pixels* photo, const uint16_t* samples, size_t template_count,
                              const ck_template_search* searches, size_t search_count,
-                             double maximum_shift, ck_template_match* matches) {
+                             double maximum_shift, ck_instructions instructions,
+                             ck_template_match* matches) {
   return ck::guarded([&] {
-    const ck::LumaPyramid image = ck::pyramid_of(*photo);
+    const ck::LumaPyramid image = ck::pyramid_of(*photo, instructions);
     for (size_t i = 0; i < search_count; ++i) {
       const ck_template_search& s = searches[i];
       ck::require(s.index >= 0 && static_cast<size_t>(s.index) < template_count,

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 #include "core/halve.h"
+#include "core/instructions.h"
 #include "core/opencv.h"
 
 namespace ck {
@@ -17,25 +17,12 @@ constexpr int kLevels = 4;
 /// template.
 constexpr int kMinimumSide = 32;
 
-using Float4 = float __attribute__((vector_size(16)));
-using Byte4 = uint8_t __attribute__((vector_size(4)));
-
-inline Float4 load(const uint8_t* pixels) {
-  Byte4 bytes;
-  std::memcpy(&bytes, pixels, sizeof bytes);
-  return __builtin_convertvector(bytes, Float4);
-}
-
-/// Weights of four adjacent pixels (Keys, "Cubic convolution interpolation", 1981).
-inline Float4 cubic_weights(float t) {
-  return Float4{((-0.5f * t + 1) * t - 0.5f) * t, (1.5f * t - 2.5f) * t * t + 1,
-                ((-1.5f * t + 2) * t + 0.5f) * t, (0.5f * t - 0.5f) * t * t};
-}
-
 }  // namespace
 
-LumaPyramid::LumaPyramid(const uint8_t* pixels, int width, int height, int channels,
-                         size_t stride) {
+LumaPyramid::LumaPyramid(const uint8_t* pixels, int width, int height, int channels, size_t stride,
+                         ck_instructions instructions)
+    : sampler_(chosen_instructions(instructions) == ck_instructions_portable ? sample_cubic
+                                                                             : sample_cubic_avx2) {
   Level base{width, height, std::vector<uint8_t>(static_cast<size_t>(width) * height)};
   const cv::Mat photo(height, width, CV_8UC(channels), const_cast<uint8_t*>(pixels), stride);
   cv::Mat luma(height, width, CV_8UC1, base.pixels.data());
@@ -83,21 +70,8 @@ bool LumaPyramid::sample_grid(int level, double x, double y, double ax, double a
         cy + reach_y < image.height - 2)) {
     return false;
   }
-  const size_t stride = static_cast<size_t>(image.width);
-  for (int j = 0; j < side; ++j) {
-    for (int i = 0; i < side; ++i) {
-      const float px = static_cast<float>(cx + (i - half) * ax + (j - half) * bx);
-      const float py = static_cast<float>(cy + (i - half) * ay + (j - half) * by);
-      const int column = static_cast<int>(px), row = static_cast<int>(py);
-      const uint8_t* p = image.pixels.data() + static_cast<size_t>(row - 1) * stride + column - 1;
-      const Float4 wx = cubic_weights(px - static_cast<float>(column));
-      const Float4 wy = cubic_weights(py - static_cast<float>(row));
-      const Float4 sum = (load(p) * wy[0] + load(p + stride) * wy[1] +
-                          load(p + 2 * stride) * wy[2] + load(p + 3 * stride) * wy[3]) *
-                         wx;
-      *values++ = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-    }
-  }
+  sampler_({image.pixels.data(), static_cast<size_t>(image.width), side, cx, cy, ax, ay, bx, by},
+           values);
   return true;
 }
 

@@ -23,7 +23,7 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
 
   /// Sampled textures of squares, in the order of their locations.
   package struct Templates: Sendable {
-    fileprivate var samples: [UInt16]
+    package fileprivate(set) var samples: [UInt16]
     /// Whether each lies within its photo and has texture in two directions.
     package fileprivate(set) var isValid: [Bool]
 
@@ -79,19 +79,22 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
 
   /// Maximum distance in pixels from the expected center. Chosen.
   package var maximumShift = 3.0
+  /// All instruction sets give the same result.
+  package var instructions = Instructions.automatic
 
   package init() {}
 
   /// Samples the templates of one photo.
   package static func templates(
-    of locations: [Location], in image: RasterImage
+    of locations: [Location], in image: RasterImage, instructions: Instructions = .automatic
   ) throws -> Templates {
     var templates = Templates(count: locations.count)
     var valid = [UInt8](repeating: 0, count: locations.count)
     let raw = locations.map { ck_template_location(x: $0.center.x, y: $0.center.y, step: $0.step) }
     try withKernel(KernelControl()) { _ in
       image.withKernelPixels {
-        ck_extract_templates($0, raw, raw.count, &templates.samples, &valid)
+        ck_extract_templates(
+          $0, raw, raw.count, instructions.raw, &templates.samples, &valid)
       }
     }
     templates.isValid = valid.map { $0 != 0 }
@@ -113,7 +116,8 @@ package struct TemplateMatching: Hashable, Codable, Sendable {
     try withKernel(KernelControl()) { _ in
       image.withKernelPixels {
         ck_match_templates(
-          $0, templates.samples, templates.isValid.count, raw, raw.count, maximumShift, &matches)
+          $0, templates.samples, templates.isValid.count, raw, raw.count, maximumShift,
+          instructions.raw, &matches)
       }
     }
     return matches.map {

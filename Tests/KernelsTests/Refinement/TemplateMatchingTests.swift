@@ -58,6 +58,37 @@ import Testing
     #expect((match.center - expected).length < 0.03)
   }
 
+  /// On noise, at places up to the border of the photo.
+  @Test(arguments: [1, 2, 3] as [UInt64])
+  func allInstructionSetsGiveTheSameResult(seed: UInt64) throws {
+    var random = SplitMix64(seed: seed)
+    var image = RasterImage(width: 90, height: 70, channels: 1)
+    for pixel in image.pixels.indices { image.pixels[pixel] = .random(in: 0...255, using: &random) }
+    func number(_ range: ClosedRange<Double>) -> Double { .random(in: range, using: &random) }
+    let locations = (0..<200).map { _ in
+      TemplateMatching.Location(center: [number(0...90), number(0...70)], step: number(1...5))
+    }
+    let searches = (0..<200).map { template in
+      TemplateMatching.Search(
+        template: template, step: locations[template].step,
+        warp: [number(0.8...1.2), number(-0.3...0.3), number(-0.3...0.3), number(0.8...1.2)],
+        expected: locations[template].center + [number(-1...1), number(-1...1)])
+    }
+    var matching = TemplateMatching()
+    matching.instructions = .portable
+    let templates = try TemplateMatching.templates(
+      of: locations, in: image, instructions: .portable)
+    let matches = try matching.matches(searches, of: templates, in: image)
+    #expect(matches.count { $0 != nil } > 10)
+    for instructions in [Instructions.avx2, .avx512] where instructions.isSupported {
+      let others = try TemplateMatching.templates(
+        of: locations, in: image, instructions: instructions)
+      #expect(others.samples == templates.samples && others.isValid == templates.isValid)
+      matching.instructions = instructions
+      #expect(try matching.matches(searches, of: others, in: image) == matches)
+    }
+  }
+
   @Test func unlocatableTemplatesAreInvalid() throws {
     let flat = RasterImage(width: 40, height: 40, channels: 1, filledWith: 90)
     var stripes = flat
