@@ -175,7 +175,7 @@ private func summary(of result: PhotogrammetrySession.Result) -> String {
     let component: any Component = Transform.identity
     #expect(component is Transform && ModelEntity().name.isEmpty)
     #expect(Session.limits.maximumInputImageDimension >= 8192)
-    #expect((100...1000).contains(Session.limits.maximumNumberOfInputImages))
+    #expect((100...65_535).contains(Session.limits.maximumNumberOfInputImages))
     #expect(CGImagePropertyOrientation(rawValue: 6) == .right)
   }
 }

@@ -10,7 +10,7 @@ enum MachineLimits {
     let limits = Machine.current.limits
     return [
       ("ingestion.memoryBudget", limits.imageMemory),
-      ("ingestion.maximumPhotos", max(photos, limits.maximumPhotos)),
+      ("ingestion.maximumPhotos", min(max(photos, limits.maximumPhotos), MemoryLimits.mostPhotos)),
       ("ingestion.inspection.limits.maximumSide", limits.maximumPhotoSide),
       ("pointCloudGeneration.maximumPoints", limits.cloudPoints),
       ("meshGeneration.poisson.maximumBytes", limits.surfaceMemory),

@@ -147,6 +147,9 @@ package final class ImageStore: Sendable {
     return image
   }
 
+  /// Whether a photo has a mask.
+  func hasMask(_ id: ID<Photo>) -> Bool { usesMasks && source.hasMask(id) }
+
   /// Whether some photo has a mask.
   package var hasMasks: Bool { usesMasks && source.hasMasks }
 

@@ -48,6 +48,10 @@ struct PhotoFiles: PhotoPixels {
     return try decoded(mask, of: photo).turned(byOrientation: mask.orientation)
   }
 
+  func hasMask(_ id: ID<Photo>) -> Bool {
+    photos.indices.contains(id.index) && photos[id.index].mask != nil
+  }
+
   func fingerprint(of id: ID<Photo>) throws -> UInt64 {
     let photo = try photo(id)
     var fingerprint = Fingerprint()

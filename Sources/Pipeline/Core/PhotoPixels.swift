@@ -16,6 +16,9 @@ package protocol PhotoPixels: Sendable {
   /// none.
   func mask(of id: ID<Photo>) throws -> RasterImage?
 
+  /// Whether a photo has a mask.
+  func hasMask(_ id: ID<Photo>) -> Bool
+
   /// Whether some photo has a mask.
   var hasMasks: Bool { get }
 

@@ -5,7 +5,8 @@ import SceneModel
 /// not part of the object (visual hull; Laurentini, PAMI 1994).
 ///
 /// A single photo is not sufficient, since masks contain errors and may exclude a hand in front of
-/// the object.
+/// the object. A mask is read when a point may be in its photo: for a part of a scene, those of few
+/// photos are.
 package struct Silhouettes: Sendable {
   package struct Options: Hashable, Codable, Sendable {
     /// The maximum number of pixels of a mask. Chosen.
@@ -27,30 +28,45 @@ package struct Silhouettes: Sendable {
     let rotation: Matrix3
     let translation: SIMD3<Double>
     let camera: Camera
-    /// Dilated by the margin.
-    let mask: RasterImage
+    private let readMask: @Sendable () throws -> RasterImage
+    private let kept = Locked<RasterImage?>(nil)
 
     /// The plane of the camera and the sides of the frame, in the world frame: inward unit normals,
     /// and how far inside the origin is. A pixel of margin allows for rounding.
     private let sides: [(normal: SIMD3<Double>, offset: Double)]
 
-    init(pose: RigidTransform, camera: Camera, mask: RasterImage) {
+    /// `readMask` returns a mask of the camera's size.
+    init(
+      pose: RigidTransform, camera: Camera, readMask: @escaping @Sendable () throws -> RasterImage
+    ) {
       let (rotation, translation) = (pose.rotation.matrix, pose.translation)
       let (f, near) = (camera.focalLength, camera.principalPoint + 1)
-      let far = SIMD2(Double(mask.width), Double(mask.height)) + 2 - near
+      let far = SIMD2(Double(camera.width), Double(camera.height)) + 2 - near
       let normals: [SIMD3<Double>] = [
         [0, 0, 1], [f.x, 0, near.x], [0, f.y, near.y], [-f.x, 0, far.x], [0, -f.y, far.y],
       ]
       sides = normals.map(\.normalized).map { (rotation.transpose * $0, $0.dot(translation)) }
       (self.rotation, self.translation) = (rotation, translation)
-      (self.camera, self.mask) = (camera, mask)
+      (self.camera, self.readMask) = (camera, readMask)
+    }
+
+    var mask: RasterImage {
+      get throws {
+        try kept.withLock { image in
+          if let image { return image }
+          let mask = try readMask()
+          image = mask
+          return mask
+        }
+      }
     }
 
     /// Counts, for each point, this view in `seen` if the point is in its frame, and in `outside`
     /// if its mask excludes the point, too.
     func count(
       _ points: [SIMD3<Double>], seen: inout [Int32], outside: inout [Int32]
-    ) {
+    ) throws {
+      let mask = try mask
       let (width, height) = (mask.width, mask.height)
       mask.pixels.withUnsafeBufferPointer { pixels in
         for index in points.indices {
@@ -80,36 +96,43 @@ package struct Silhouettes: Sendable {
 
   /// Nil if no registered photo has a mask.
   package init?(
-    _ reconstruction: Reconstruction, images: ImageStore, options: Options = Options(),
-    _ control: KernelControl = KernelControl()
+    _ reconstruction: Reconstruction, images: ImageStore, options: Options = Options()
   ) throws {
     guard images.hasMasks else { return nil }
     let registered = reconstruction.registered
-    views = try control.parallelMap(registered.count) { index -> View? in
-      let photo = registered[index]
-      guard let pose = reconstruction.poses[photo.index],
-        let mask = try images.pinholeMask(
-          photo, of: reconstruction, maximumPixels: options.maximumPixels)
-      else { return nil }
+    var scene = reconstruction
+    scene.points = []
+    views = try registered.compactMap { [scene] photo -> View? in
+      guard let pose = scene.poses[photo.index], images.hasMask(photo) else { return nil }
       let camera = try images.pinholeCamera(
-        of: photo, in: reconstruction, maximumPixels: options.maximumPixels)
-      let margin = max(1, options.margin * Double(max(mask.width, mask.height)))
-      return View(
-        pose: pose, camera: camera, mask: try mask.dilated(by: Int(margin.rounded())))
-    }.compactMap { $0 }
+        of: photo, in: scene, maximumPixels: options.maximumPixels)
+      let margin = max(1, options.margin * Double(max(camera.width, camera.height)))
+      return View(pose: pose, camera: camera) {
+        let mask = try images.pinholeMask(photo, of: scene, maximumPixels: options.maximumPixels)
+        guard let mask else { throw KernelError.invalidArgument("a photo has lost its mask") }
+        return try mask.dilated(by: Int(margin.rounded()))
+      }
+    }
     guard !views.isEmpty else { return nil }
     share = Double(views.count) / Double(registered.count)
     self.options = options
   }
 
+  /// Reads all masks: their files may change.
+  func readMasks(_ control: KernelControl) throws {
+    _ = try control.parallelMap(views.count) { [views] in _ = try views[$0].mask }
+  }
+
   /// Whether a point may be part of the object.
-  func isInside(_ point: SIMD3<Double>) -> Bool { areInside([point], views)[0] }
+  func isInside(_ point: SIMD3<Float>) throws -> Bool {
+    try areInside([SIMD3<Double>(point)], views(near: [point]))[0]
+  }
 
   /// The same for several points that no other views have in their frame.
-  private func areInside(_ points: [SIMD3<Double>], _ views: [View]) -> [Bool] {
+  private func areInside(_ points: [SIMD3<Double>], _ views: [View]) throws -> [Bool] {
     var seen = [Int32](repeating: 0, count: points.count)
     var outside = seen
-    for view in views { view.count(points, seen: &seen, outside: &outside) }
+    for view in views { try view.count(points, seen: &seen, outside: &outside) }
     return zip(seen, outside).map { seen, outside in
       outside < options.minimumPhotos
         || Double(outside) < options.minimumShare * Double(seen)
@@ -123,7 +146,7 @@ package struct Silhouettes: Sendable {
     let blocks = (points.count + size - 1) / size
     return try control.parallelMap(blocks, inUnitsOf: 32) { block in
       let own = points[block * size..<min((block + 1) * size, points.count)]
-      return areInside(own.map { SIMD3<Double>($0) }, views(near: own))
+      return try areInside(own.map { SIMD3<Double>($0) }, views(near: own))
     }.flatMap(\.self)
   }
 

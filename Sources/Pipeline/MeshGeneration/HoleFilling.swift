@@ -47,8 +47,8 @@ struct HoleFilling {
   /// object stands on, if any.
   func run(
     _ mesh: Mesh, isRemoved: [Bool], support: SupportPlane? = nil,
-    isFree: (SIMD3<Float>) -> Bool
-  ) -> Mesh {
+    isFree: (SIMD3<Float>) throws -> Bool
+  ) rethrows -> Mesh {
     guard let bounds = mesh.bounds, isRemoved.contains(true) else { return mesh }
     let size = options.extent ?? (bounds.max - bounds.min).length
     // A surface that leaves the solved cube is open there; with caps added, it fills holes too.
@@ -59,7 +59,9 @@ struct HoleFilling {
     var (result, isDropped) = (mesh, isRemoved)
     for hole in 0..<holes.count where holes.isEnclosed[hole] {
       let faces = holes.faces(of: hole)
-      guard let isOpen = fill(faces, hole, holes, size, contact, &result, isFree) else { continue }
+      guard let isOpen = try fill(faces, hole, holes, size, contact, &result, isFree) else {
+        continue
+      }
       for (face, isOpen) in zip(faces, isOpen) { isDropped[face] = isOpen }
     }
     result.triangles = mesh.triangles.indices.filter { !isDropped[$0] }.map { mesh.triangles[$0] }
@@ -70,8 +72,8 @@ struct HoleFilling {
   /// of them do.
   private func fill(
     _ faces: [Int], _ hole: Int, _ holes: SurfaceHoles, _ size: Float, _ contact: Contact?,
-    _ mesh: inout Mesh, _ isFree: (SIMD3<Float>) -> Bool
-  ) -> [Bool]? {
+    _ mesh: inout Mesh, _ isFree: (SIMD3<Float>) throws -> Bool
+  ) rethrows -> [Bool]? {
     let triangles = faces.map { mesh.triangles[$0] }
     let closed = triangles.map { _ in false }
     let share = mesh.extent(of: triangles).map { Double($0 / size) } ?? 1
@@ -79,23 +81,27 @@ struct HoleFilling {
     guard isSmall || options.fillsLarge else { return nil }
     // A bulge with more area than the surface around it isn't a hole: stray samples caused it.
     if isSmall, holes.areas[hole] > holes.adjacentAreas[hole] { return nil }
-    func freeShare(_ contact: Contact? = nil) -> Double {
-      mesh.freeShare(of: triangles, contact, depth: options.depth, isFree)
+    let depth = options.depth
+    if isSmall,
+      try mesh.freeShare(of: triangles, nil, depth: depth, isFree) < options.smallFreeShare
+    {
+      return closed
     }
-    if isSmall, freeShare() < options.smallFreeShare { return closed }
     relax(triangles, of: &mesh, holes.isBoundary, contact)
     if share < options.tinyShare && options.fillsLarge { return closed }
-    guard freeShare(contact) < options.membraneFreeShare else { return nil }
-    return openings(of: triangles, in: mesh, contact, isFree)
+    let freeShare = try mesh.freeShare(of: triangles, contact, depth: depth, isFree)
+    guard freeShare < options.membraneFreeShare else { return nil }
+    return try openings(of: triangles, in: mesh, contact, isFree)
   }
 
   /// Which faces of a membrane photos see through, in regions of sufficient size with smooth
   /// boundaries.
   private func openings(
-    of faces: [Triangle], in mesh: Mesh, _ contact: Contact?, _ isFree: (SIMD3<Float>) -> Bool
-  ) -> [Bool] {
-    let isContradicted = faces.map {
-      mesh.freeShare(of: [$0], contact, depth: options.depth, isFree) > 0
+    of faces: [Triangle], in mesh: Mesh, _ contact: Contact?,
+    _ isFree: (SIMD3<Float>) throws -> Bool
+  ) rethrows -> [Bool] {
+    let isContradicted = try faces.map {
+      try mesh.freeShare(of: [$0], contact, depth: options.depth, isFree) > 0
     }
     let membrane = Mesh(positions: mesh.positions, triangles: faces)
     var isOpen = BoundarySmoothing().run(membrane, isRemoved: isContradicted) { _ in true }
@@ -162,8 +168,8 @@ extension Mesh {
   /// The share of some faces' area that lies in free space and not in contact with the support.
   fileprivate func freeShare(
     of faces: [Triangle], _ contact: Contact?, depth: Float,
-    _ isFree: (SIMD3<Float>) -> Bool
-  ) -> Double {
+    _ isFree: (SIMD3<Float>) throws -> Bool
+  ) rethrows -> Double {
     var (free, all) = (0.0, 0.0)
     for face in faces {
       let (a, b, c) = corners(of: face)
@@ -171,7 +177,7 @@ extension Mesh {
       let area = Double(normal.length)
       all += area
       if let contact, contact.touches(a), contact.touches(b), contact.touches(c) { continue }
-      if isFree(center(of: face) - depth * normal.normalized) { free += area }
+      if try isFree(center(of: face) - depth * normal.normalized) { free += area }
     }
     return all > 0 ? free / all : 0
   }

@@ -31,11 +31,11 @@ struct SceneTrimming {
     let limit = median * Float(options.maximumFootprints)
     let centers = reconstruction.poses.map { $0?.center }
     let minimumCosine = cos(options.minimumParallaxDegrees * .pi / 180)
-    var isKept = cloud.positions.indices.map { index in
-      cloud.footprints[index] <= limit
-        && hasParallax(cloud, index, centers, minimumCosine)
+    let unit = 8192  // Points of a unit of parallel work. Chosen.
+    let control = context.control.part(from: 0, to: 0.4)
+    var isKept = try control.parallelMap(cloud.count, inUnitsOf: unit) { index in
+      cloud.footprints[index] <= limit && hasParallax(cloud, index, centers, minimumCosine)
     }
-    try context.control.step(0.4)
     let indices = isKept.indices.filter { isKept[$0] }
     let grid = try VoxelGrid(
       indices.map { cloud.positions[$0] },

@@ -70,9 +70,9 @@ struct SurfaceTrimming {
     var holeFilling = HoleFilling(options: options.holeFilling)
     holeFilling.options.depth = Float(freeSpace.cellSize)
     holeFilling.options.extent = part?.extent
-    return notes.step("holeFilling") {
-      holeFilling.run(mesh, isRemoved: isRemoved, support: support) { point in
-        isSeenThrough(point) || silhouettes?.isInside(SIMD3<Double>(point)) == false
+    return try notes.step("holeFilling") {
+      try holeFilling.run(mesh, isRemoved: isRemoved, support: support) { point in
+        try isSeenThrough(point) || silhouettes?.isInside(point) == false
       }
     }
   }

@@ -52,12 +52,15 @@ struct VoxelDownsampling {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
     }
     let size = Double(footprint) * options.voxelFootprints
-    let levels = cloud.footprints.map { value -> Int8 in
-      value > footprint * 2 && value.isFinite
-        ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
-    }
+    let unit = 8192  // Points of a unit of parallel work. Chosen.
+    let levels = try context.control.part(from: 0, to: 0.1)
+      .parallelMap(cloud.count, inUnitsOf: unit) { index -> Int8 in
+        let value = cloud.footprints[index]
+        return value > footprint * 2 && value.isFinite
+          ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
+      }
     let grid = try VoxelGrid(
-      kept.positions, cellSize: size, levels: levels, context.control.part(from: 0, to: 0.7))
+      kept.positions, cellSize: size, levels: levels, context.control.part(from: 0.1, to: 0.7))
     kept = PointCloud()
     try context.control.step(0.7)
     return try average(cloud, grid, size, context.control.part(from: 0.7, to: 1))

@@ -1,3 +1,4 @@
+import Kernels
 import SceneModel
 
 /// Photos between which the object was not moved, aligned by themselves, with their masks.
@@ -20,6 +21,8 @@ struct MaskedPlacement: Sendable {
     guard let silhouettes = try Silhouettes(part, images: images),
       let toJoined = SimilarityTransform.fitting(pairs.map(\.0), to: pairs.map(\.1))
     else { return nil }
+    // The masks of all placements together get the same files.
+    try silhouettes.readMasks(KernelControl())
     return MaskPrior.Placement(
       photos: Set(photos), silhouettes: silhouettes, points: masks.points.transformed(by: toJoined))
   }

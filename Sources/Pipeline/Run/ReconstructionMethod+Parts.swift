@@ -81,9 +81,13 @@ extension ReconstructionMethod {
     _ body: (TileInput, StageContext) throws -> Void
   ) throws {
     let output = try tileOutput
-    let input =
-      try storedTileInput(photos, in: geometry, to: output, for: step)
-      ?? tileInput(try scene(photos), in: geometry, to: output)
+    let input: TileInput
+    // Not `??`, as in `tileInput`.
+    if let stored = try storedTileInput(photos, in: geometry, to: output, for: step) {
+      input = stored
+    } else {
+      input = try tileInput(try scene(photos), in: geometry, to: output)
+    }
     try recorder.run(.optimization, images: input.scene.photos.images) { try body(input, $0) }
   }
 

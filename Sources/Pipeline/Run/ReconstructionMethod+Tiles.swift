@@ -78,10 +78,12 @@ extension ReconstructionMethod {
   ) throws {
     let store = try cache.tileStore(of: scene.photos, configuration)
     let cloud = try densify(scene)
-    let system = try recorder.run(.meshGeneration, images: scene.photos.images) { context in
+    let images = scene.photos.images
+    let system = try recorder.run(.meshGeneration, images: images) { context in
       try MeshGeneration(configuration.meshGeneration).system(
-        of: cloud, scene.reconstruction, silhouettes: try silhouettes(of: scene, context),
-        support: scene.support, context)
+        of: cloud, scene.reconstruction,
+        silhouettes: try Silhouettes(scene.reconstruction, images: images), support: scene.support,
+        context)
     }
     let notes = { SavedNotes(recorder.notes[$0] ?? StageNotes()) }
     try cache.sceneStore(of: scene.photos, configuration)?.save(
@@ -91,7 +93,7 @@ extension ReconstructionMethod {
     let input = TileInput(
       scene: scene, views: try denseViews(of: scene), geometry: geometry, output: output,
       store: store, base: .made(from: cloud, nil, system))
-    try recorder.run(.optimization, images: scene.photos.images) { context in
+    try recorder.run(.optimization, images: images) { context in
       _ = try tileModels(input, StageContext(control: context.control)).prepare()
     }
   }
@@ -153,7 +155,7 @@ extension ReconstructionMethod {
     let tiling = Tiling(
       options: configuration.tiling, meshing: MeshGeneration(configuration.meshGeneration),
       reconstruction: scene.reconstruction,
-      silhouettes: try Silhouettes(scene.reconstruction, images: scene.photos.images, control))
+      silhouettes: try Silhouettes(scene.reconstruction, images: scene.photos.images))
     // What is missing or damaged is made again from the whole scene.
     let wholeScene = { try self.scene(try ingest()) }
     let views = try PointCloudGeneration(options: configuration.pointCloudGeneration)

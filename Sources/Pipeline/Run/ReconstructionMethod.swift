@@ -152,18 +152,11 @@ struct ReconstructionMethod {
     return try recorder.run(.meshGeneration, images: images) { context in
       let share = configuration.photoRefinement == nil ? 1 : 0.4
       let mesh = try make(
-        MeshGeneration(configuration.meshGeneration), try silhouettes(of: scene, context),
-        context.part(from: 0, to: share))
+        MeshGeneration(configuration.meshGeneration),
+        try Silhouettes(reconstruction, images: images), context.part(from: 0, to: share))
       guard let refinement = configuration.photoRefinement else { return mesh }
       return try PhotoRefinement(options: refinement).run(
         mesh, source: ViewSource(reconstruction, images: images), context.part(from: share, to: 1))
-    }
-  }
-
-  func silhouettes(of scene: ObjectScene, _ context: StageContext) throws -> Silhouettes? {
-    try context.notes.step("silhouettes") {
-      try Silhouettes(
-        scene.reconstruction, images: scene.photos.images, context.control.part(from: 0, to: 0))
     }
   }
 

@@ -5,9 +5,24 @@ import SceneModel
 struct CellCounts: Sendable {
   let cube: Cube
   let depth: Int
-  private(set) var cells: [SIMD3<Int32>: Int] = [:]
+  /// In the order of x, y and z.
+  private var counts: [Int32]
 
-  init(cube: Cube, depth: Int) { (self.cube, self.depth) = (cube, depth) }
+  init(cube: Cube, depth: Int) {
+    (self.cube, self.depth) = (cube, depth)
+    counts = Array(repeating: 0, count: 1 << (3 * depth))
+  }
+
+  /// The numbers of points of the cells that have some.
+  var cells: [SIMD3<Int32>: Int] {
+    let last = (1 << depth) - 1
+    var cells: [SIMD3<Int32>: Int] = [:]
+    for (index, count) in counts.enumerated() where count > 0 {
+      let cell = SIMD3(index >> (2 * depth), index >> depth & last, index & last)
+      cells[SIMD3<Int32>(truncatingIfNeeded: cell)] = Int(count)
+    }
+    return cells
+  }
 
   /// Counts points; those outside the cube are ignored. Returns the box around their cells.
   @discardableResult
@@ -15,7 +30,7 @@ struct CellCounts: Sendable {
     var box: CellBox?
     for position in positions {
       guard let cell = cube.cell(of: position, depth: depth) else { continue }
-      cells[cell, default: 0] += 1
+      counts[((Int(cell.x) << depth | Int(cell.y)) << depth) | Int(cell.z)] += 1
       let (low, high) = (box?.low ?? cell, box?.high ?? cell)
       box = CellBox(
         depth: depth, low: pointwiseMin(low, cell), high: pointwiseMax(high, cell &+ 1))

@@ -8,20 +8,10 @@ struct NearbySamples: LargeUnitValue {
   private var positionData: Data
   private var reachData: Data
 
-  /// The samples that points between the corners of a box may be near enough to: within `reach`
-  /// voxels.
-  init(
-    of samples: SurfaceSamples, between corners: (low: SIMD3<Double>, high: SIMD3<Double>),
-    reach: Double
-  ) {
+  /// The samples that points between the corners of a box may be near enough to.
+  init(of samples: SampleBlocks, between corners: SampleBlocks.Corners) {
     var (positions, reaches): ([SIMD3<Float>], [Float]) = ([], [])
-    for (position, footprint) in zip(samples.cloud.positions, samples.cloud.footprints) {
-      let reach = Float(reach) * max(Float(samples.voxelSize), footprint)
-      let isNear = (0..<3).allSatisfy {
-        Double(position[$0] + reach) >= corners.low[$0]
-          && Double(position[$0] - reach) <= corners.high[$0]
-      }
-      guard isNear else { continue }
+    samples.forEach(near: corners) { position, reach in
       positions.append(position)
       reaches.append(reach)
     }

@@ -18,7 +18,7 @@ struct TileSurfaces {
   func solve(_ tile: Int, _ context: StageContext) throws -> SolvedTile {
     try store.solved(tile) {
       let solved = try tiling.solve(
-        try points(of: tile), near: try nearbySamples(tile), of: base, context)
+        try points(of: tile), near: try nearbySamples(tile, context.control), of: base, context)
       guard let (solution, samples) = solved else { return SolvedTile() }
       let box = base.grid.boxes[tile].dilated(by: tiling.halo(base))
       return SolvedTile(samples: samples, solution: Data(try solution.encoded(for: box)))
@@ -27,20 +27,18 @@ struct TileSurfaces {
 
   /// Stores the samples of the scene near each tile, for other processes. Throws `OutputError`.
   func storeSamples(of samples: SurfaceSamples, _ control: KernelControl) throws {
-    let (store, reach) = (store, tiling.options.sampleReach)
-    let corners = (0..<count).map { tiling.corners(of: $0, base) }
+    let (store, corners) = (store, (0..<count).map { tiling.corners(of: $0, base) })
+    let blocks = try SampleBlocks(samples, reach: tiling.options.sampleReach, control)
     _ = try control.parallelMap(count) { tile in
-      try store.samples(tile) {
-        NearbySamples(of: samples, between: corners[tile], reach: reach)
-      }
+      try store.samples(tile) { NearbySamples(of: blocks, between: corners[tile]) }
     }
   }
 
-  private func nearbySamples(_ tile: Int) throws -> NearbySamples {
+  private func nearbySamples(_ tile: Int, _ control: KernelControl) throws -> NearbySamples {
     try store.samples(tile) {
-      NearbySamples(
-        of: try samples(), between: tiling.corners(of: tile, base),
-        reach: tiling.options.sampleReach)
+      let blocks = try SampleBlocks(
+        try samples(), reach: tiling.options.sampleReach, control.part(from: 0, to: 0))
+      return NearbySamples(of: blocks, between: tiling.corners(of: tile, base))
     }
   }
 

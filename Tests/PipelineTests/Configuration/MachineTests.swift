@@ -39,12 +39,13 @@ import Testing
 
   @Test func limitsFollowTheMemory() {
     let large = Machine(totalMemoryBytes: 16 << 30).limits
-    #expect(large.maximumPhotos == 1000 && large.maximumPhotoSide == 16384)
+    #expect(large.maximumPhotos == 2144 && large.maximumPhotoSide == 16384)
     #expect(large.imageMemory == 1 << 30)
     #expect(large.surfaceMemory > large.imageMemory)
     let small = Machine(totalMemoryBytes: 2 << 30).limits
     #expect(small.maximumPhotos == 268 && small.maximumPhotoSide == 8192)
     #expect(small.imageMemory == 256 << 20)
+    #expect(Machine(totalMemoryBytes: 1 << 40).limits.maximumPhotos == 65_535)
   }
 
   @Test func everyConfigurationIsWithinTheLimitsOfItsMachine() {

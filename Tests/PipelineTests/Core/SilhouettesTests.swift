@@ -34,7 +34,7 @@ import Testing
     points[7] = SIMD3<Float>(repeating: .nan)
     points[8] = SIMD3<Float>(repeating: .infinity)
     let inside = try silhouettes.areInside(points, KernelControl(threadCount: 2))
-    #expect(inside == points.map { silhouettes.isInside(SIMD3<Double>($0)) })
+    #expect(try inside == points.map { try silhouettes.isInside($0) })
     #expect(inside.contains(true) && inside.contains(false))
     #expect(try silhouettes.areInside([], KernelControl()).isEmpty)
   }

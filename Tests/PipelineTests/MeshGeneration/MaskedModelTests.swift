@@ -52,8 +52,8 @@ import Testing
     let reconstruction = scene.reconstruction()
     let images = ImageStore(images: masked.photos, masks: masked.masks)
     let silhouettes = try #require(try Silhouettes(reconstruction, images: images))
-    #expect(silhouettes.isInside([0, 0.2, 0]) && !silhouettes.isInside([0, 0.05, 0]))
-    #expect(!silhouettes.isInside([0.25, 0.2, 0]))
+    #expect(try silhouettes.isInside([0, 0.2, 0]) && !silhouettes.isInside([0, 0.05, 0]))
+    #expect(try !silhouettes.isInside([0.25, 0.2, 0]))
     var options = MeshGeneration.Options()
     options.maximumDepth = 7
     let mesh = try MeshGeneration(options)

@@ -68,8 +68,8 @@ import Testing
       try placement(of: photos).prior(
         in: joined(without: []), images(maskedIn: [0, 1, 2, 3, 7])))
     #expect(prior.silhouettes.share == 0.6)
-    #expect(prior.silhouettes.isInside([0, 0.9, 0]))
-    #expect(!prior.silhouettes.isInside([0, 1.25, 0]))
+    #expect(try prior.silhouettes.isInside([0, 0.9, 0]))
+    #expect(try !prior.silhouettes.isInside([0, 1.25, 0]))
   }
 
   /// Two photos don't determine how the placement stands in the joined frame.

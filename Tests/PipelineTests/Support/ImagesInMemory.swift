@@ -30,6 +30,8 @@ struct ImagesInMemory: PhotoPixels {
     masks.indices.contains(id.index) ? masks[id.index] : nil
   }
 
+  func hasMask(_ id: ID<Photo>) -> Bool { mask(of: id) != nil }
+
   func fingerprint(of id: ID<Photo>) throws -> UInt64 {
     let image = try decoded(id, reducedBy: 1)
     var fingerprint = Fingerprint()

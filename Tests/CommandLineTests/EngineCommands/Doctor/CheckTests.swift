@@ -32,7 +32,7 @@ import Testing
     #expect(medium.text.contains("402 photos"))
     #expect(try #require(medium.remedy).contains("'-d full' have 4.2 GB"))
     let large = Check.memory(of: machine(gibibytes: 16))
-    #expect(large.text.contains("every level of detail and for up to 1000 photos"))
+    #expect(large.text.contains("every level of detail and for up to 2144 photos"))
   }
 
   @Test func theMemoryOfADryRunIsThatOfTheCheck() {
