@@ -3,21 +3,21 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ck_refinement.h"
+
 namespace ck {
 
-/// A grid of `side` × `side` positions in an image, in pixels from the center of the first one.
+/// A grid of positions in an image, in pixels from the center of its first pixel.
 struct SampleGrid {
   const uint8_t* pixels;
   size_t stride;
+  /// Positions per row and column, at most `CK_TEMPLATE_SIDE`.
   int side;
   /// The center.
   double x, y;
   /// One step along a row, and one along a column.
   double ax, ay, bx, by;
 };
-
-/// Largest side of a grid. Limit: that of a template.
-constexpr int kMaximumSamplesPerSide = 13;
 
 /// Samples an image at a grid by cubic interpolation (Keys, "Cubic convolution interpolation",
 /// 1981). Positions are 1 to 2 pixels or more inside the image.

@@ -11,9 +11,8 @@ namespace {
 
 /// Samples per register. Limit: 256 bits.
 constexpr int kLanes = 8;
-constexpr int kMaximumSamples = kMaximumSamplesPerSide * kMaximumSamplesPerSide;
-/// The number of samples of full registers. Limit: that of the largest grid.
-constexpr int kPaddedSamples = (kMaximumSamples + kLanes - 1) / kLanes * kLanes;
+/// The samples of a template, in full registers. Limit: no grid is larger.
+constexpr int kPaddedSamples = (CK_TEMPLATE_SAMPLES + kLanes - 1) / kLanes * kLanes;
 
 struct Positions {
   alignas(32) float x[kPaddedSamples], y[kPaddedSamples];

@@ -13,7 +13,6 @@ namespace {
 constexpr int kSide = CK_TEMPLATE_SIDE - 2;
 /// Number of samples of the comparison window.
 constexpr int kCount = kSide * kSide;
-static_assert(CK_TEMPLATE_SIDE <= kMaximumSamplesPerSide);
 /// Standard deviation in samples of the weights of the window. Chosen.
 constexpr float kSigma = 0.5f * (kSide / 2 + 1);
 /// Largest number of iterations of a search. Chosen.

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "ck_core.h"
 #include "refinement/cubic_samples.h"
 
 namespace ck {

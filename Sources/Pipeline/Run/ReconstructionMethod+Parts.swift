@@ -18,7 +18,11 @@ extension ReconstructionMethod {
       let scene = try scene(photos)
       try cache.sceneStore(of: photos, configuration)?.save(scene, try denseViews(of: scene))
     case .views(let part, let block): try make(part, block, of: photos)
-    case .tileBase: try makeTileBase(of: try scene(photos), in: geometry, for: try tileOutput)
+    case .tileBase:
+      let stored = try cache.sceneStore(of: photos, configuration)?.scene(of: photos)
+      let scene = try scene(photos)
+      try makeTileBase(
+        of: scene, try stored?.views ?? denseViews(of: scene), in: geometry, for: try tileOutput)
     case .surface: try makeSurface(of: try scene(photos))
     case .tiles(let part, let block):
       try tilePart(photos, in: geometry, for: part) { try make(part, block, of: $0, $1) }

@@ -74,7 +74,7 @@ extension ReconstructionMethod {
 
   /// Makes what tiles and the surface of the scene are made from, and stores it.
   func makeTileBase(
-    of scene: ObjectScene, in geometry: ModelGeometry, for output: TileOutput
+    of scene: ObjectScene, _ views: DenseViews, in geometry: ModelGeometry, for output: TileOutput
   ) throws {
     let store = try cache.tileStore(of: scene.photos, configuration)
     let cloud = try densify(scene)
@@ -91,8 +91,8 @@ extension ReconstructionMethod {
         samples: system.samples, denseNotes: notes(.pointCloudGeneration),
         notes: notes(.meshGeneration)))
     let input = TileInput(
-      scene: scene, views: try denseViews(of: scene), geometry: geometry, output: output,
-      store: store, base: .made(from: cloud, nil, system))
+      scene: scene, views: views, geometry: geometry, output: output, store: store,
+      base: .made(from: cloud, nil, system))
     try recorder.run(.optimization, images: images) { context in
       _ = try tileModels(input, StageContext(control: context.control)).prepare()
     }

@@ -54,7 +54,6 @@ struct TileModels {
 
   /// Removes the index and the tiles of earlier runs, but for those that are as this one would
   /// write them; returns these, nil for each of the others. Throws `OutputError`.
-  @discardableResult
   func prepare() throws -> [WrittenTile?] {
     let kept = (0..<surfaces.count).map(written)
     try output.prepare(keeping: Set(kept.compactMap { $0?.tile?.file }))

@@ -153,9 +153,8 @@ import Testing
     /// The uses of samples of the scene, and of views, until all tiles are there.
     func uses() throws -> (samples: Int, views: Int) {
       var uses = (samples: 0, views: 0)
-      let readViews = Locked(0)
       let views = FusedViews(count: 4) { [views] in
-        readViews.withLock { $0 += 1 }
+        uses.views += 1
         return views[$0]
       }
       let surfaces = TileSurfaces(tiling: tiling, base: stored, views: views, store: store) {
@@ -165,7 +164,6 @@ import Testing
       let same = try self.meshes(of: surfaces, context)
       #expect(same.map(\.positions) == meshes.map(\.positions))
       #expect(same.map(\.triangles) == meshes.map(\.triangles))
-      uses.views = readViews.withLock { $0 }
       return uses
     }
     func damage(_ kind: String) throws {
