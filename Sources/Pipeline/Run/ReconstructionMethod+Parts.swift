@@ -19,10 +19,10 @@ extension ReconstructionMethod {
       try cache.sceneStore(of: photos, configuration)?.save(scene, try denseViews(of: scene))
     case .views(let part, let block): try make(part, block, of: photos)
     case .tileBase:
-      let stored = try cache.sceneStore(of: photos, configuration)?.scene(of: photos)
       let scene = try scene(photos)
-      try makeTileBase(
-        of: scene, try stored?.views ?? denseViews(of: scene), in: geometry, for: try tileOutput)
+      var views = try cache.sceneStore(of: photos, configuration)?.scene(of: photos)?.views
+      if views == nil { views = try denseViews(of: scene) }
+      if let views { try makeTileBase(of: scene, views, in: geometry, for: try tileOutput) }
     case .surface: try makeSurface(of: try scene(photos))
     case .tiles(let part, let block):
       try tilePart(photos, in: geometry, for: part) { try make(part, block, of: $0, $1) }
