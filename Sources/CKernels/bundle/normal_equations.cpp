@@ -27,6 +27,19 @@ void damp(Matrix& matrix, double damping) {
   }
 }
 
+/// The two rows of a derivative by a pose as columns.
+using PoseColumns = Eigen::Matrix<double, kPoseSize, 2>;
+
+/// Adds the product of `pose` and `other` to a block, a column at a time: Eigen would compute so
+/// small a product one element after the other.
+template <int Columns>
+void add_product(const PoseColumns& pose, const Eigen::Matrix<double, 2, Columns>& other,
+                 Eigen::Matrix<double, kPoseSize, Columns>& block) {
+  for (int i = 0; i < Columns; ++i) {
+    block.col(i) += pose.col(0) * other(0, i) + pose.col(1) * other(1, i);
+  }
+}
+
 }  // namespace
 
 /// A part of the row of a camera in the reduced system.
@@ -41,7 +54,7 @@ NormalEquations::NormalEquations(const ck_bundle& bundle, const BundleLayout& la
     : layout_(layout),
       huber_width_(huber_width),
       quiet_{nullptr, nullptr, thread_count(control)},
-      terms_(layout.observations.size()),
+      terms_(new Reprojection[layout.observations.size()]),
       links_(layout.link_points.size()),
       prior_residuals_(layout.cameras.size()),
       inverses_(layout.is_point_free.size()),
@@ -173,8 +186,9 @@ std::vector<NormalEquations::PoseUnit> NormalEquations::pose_units() const {
     if (units.empty() || size(units.back()) >= kObservationsPerUnit) units.push_back({pose, pose});
     units.back().end = pose + 1;
   }
-  std::stable_sort(units.begin(), units.end(),
-                   [&](const PoseUnit& a, const PoseUnit& b) { return size(a) > size(b); });
+  std::sort(units.begin(), units.end(), [&](const PoseUnit& a, const PoseUnit& b) {
+    return size(a) != size(b) ? size(a) > size(b) : a.begin < b.begin;
+  });
   return units;
 }
 
@@ -210,16 +224,16 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
     const auto k = size_t(own.values[i]);
     const auto& o = layout_.observations[k];
     const Reprojection& term = terms_[k];
-    diagonal.noalias() += term.by_pose.transpose() * term.by_pose;
-    gradient.noalias() += term.by_pose.transpose() * term.residual;
+    const PoseColumns by_pose = term.by_pose.transpose();
+    add_product(by_pose, term.by_pose, diagonal);
+    gradient.noalias() += by_pose * term.residual;
     if (o.camera_block >= 0) {
-      system.pose_cameras[pose].at(o.camera_block).noalias() +=
-          term.by_pose.transpose() * term.by_camera;
+      add_product(by_pose, term.by_camera, system.pose_cameras[pose].at(o.camera_block));
     }
     if (!layout_.is_point_free[size_t(o.point)]) continue;
     const Eigen::Matrix<double, 2, 3> by_point = term.by_point * inverses_[size_t(o.point)];
     const Vector2 pulled = by_point * gradients_[size_t(o.point)];
-    eliminated.noalias() += term.by_pose.transpose() * pulled;
+    eliminated.noalias() += by_pose * pulled;
     add_observation(k, by_point, pose, system);
   }
   damp(diagonal, damping);
@@ -232,20 +246,20 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
 /// `by_point` is the derivative by the point times the point's inverted block.
 void NormalEquations::add_observation(size_t k, const Eigen::Matrix<double, 2, 3>& by_point,
                                       size_t pose, ReducedSystem& system) const {
-  const Reprojection& term = terms_[k];
+  const PoseColumns columns = terms_[k].by_pose.transpose();
   const auto point = size_t(layout_.observations[k].point);
   for (size_t other = layout_.point_starts[point]; other < layout_.point_starts[point + 1];
        ++other) {
     const int32_t block = layout_.observations[other].pose_block;
     if (block < int32_t(pose)) continue;
-    const Eigen::Matrix2d product = by_point * terms_[other].by_point.transpose();
+    const Eigen::Matrix2d product = -(by_point * terms_[other].by_point.transpose());
     const Eigen::Matrix<double, 2, kPoseSize> by_pose = product * terms_[other].by_pose;
-    system.poses[pose].at(block).noalias() -= term.by_pose.transpose() * by_pose;
+    add_product(columns, by_pose, system.poses[pose].at(block));
   }
   const Lists& all = layout_.cameras_of_point;
   for (size_t m = all.starts[point]; m < all.starts[point + 1]; ++m) {
-    const Eigen::Matrix<double, 2, kCameraSize> by_camera = by_point * links_[m];
-    system.pose_cameras[pose].at(all.values[m]).noalias() -= term.by_pose.transpose() * by_camera;
+    const Eigen::Matrix<double, 2, kCameraSize> by_camera = -(by_point * links_[m]);
+    add_product(columns, by_camera, system.pose_cameras[pose].at(all.values[m]));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "bundle/layout.h"
@@ -53,7 +54,6 @@ class NormalEquations {
 
   template <typename Sum>
   double sum_over_points(Sum&& sum) const;
-  Reprojection linearized(const BundleParameters& parameters, size_t k) const;
   void link(size_t point);
   double eliminate_points(double damping);
   std::vector<PoseUnit> pose_units() const;
@@ -69,8 +69,8 @@ class NormalEquations {
   const ck_control quiet_;
   /// Means and reciprocal standard deviations of the parameters of free cameras; 0 without a prior.
   std::vector<Prior> prior_means_, prior_weights_;
-  /// One for each observation.
-  std::vector<Reprojection> terms_;
+  /// One for each observation; `linearize` writes them first.
+  std::unique_ptr<Reprojection[]> terms_;
   /// The derivatives by the point and by the camera, multiplied and summed, for each link.
   std::vector<Eigen::Matrix<double, 3, kCameraSize>> links_;
   /// The deviations from the priors, in standard deviations.
