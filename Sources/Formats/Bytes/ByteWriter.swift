@@ -8,22 +8,17 @@ struct ByteWriter {
 
   mutating func append(_ value: UInt8) { bytes.append(value) }
 
-  mutating func append(_ value: UInt16) {
-    bytes.append(UInt8(truncatingIfNeeded: value))
-    bytes.append(UInt8(truncatingIfNeeded: value >> 8))
+  mutating func append(_ value: UInt16) { append(integer: value) }
+
+  mutating func append(_ value: UInt32) { append(integer: value) }
+
+  mutating func append(_ value: UInt64) { append(integer: value) }
+
+  private mutating func append(integer value: some FixedWidthInteger) {
+    withUnsafeBytes(of: value.littleEndian) { bytes.append(contentsOf: $0) }
   }
 
-  mutating func append(_ value: UInt32) {
-    bytes.append(UInt8(truncatingIfNeeded: value))
-    bytes.append(UInt8(truncatingIfNeeded: value >> 8))
-    bytes.append(UInt8(truncatingIfNeeded: value >> 16))
-    bytes.append(UInt8(truncatingIfNeeded: value >> 24))
-  }
-
-  mutating func append(_ value: UInt64) {
-    append(UInt32(truncatingIfNeeded: value))
-    append(UInt32(truncatingIfNeeded: value >> 32))
-  }
+  mutating func removeAll() { bytes.removeAll(keepingCapacity: true) }
 
   mutating func append(_ value: Int32) { append(UInt32(bitPattern: value)) }
 

@@ -5,7 +5,7 @@ import Foundation
 package enum AtomicFile {
   /// Writes `bytes`, replacing an existing file. Throws `OutputError`.
   package static func write(_ bytes: [UInt8], to url: URL) throws {
-    try write(Data(bytes), to: url)
+    try bytes.withUnsafeBytes { try write([$0], to: url) }
   }
 
   /// Writes `data`, replacing an existing file. Throws `OutputError`.
@@ -15,11 +15,18 @@ package enum AtomicFile {
 
   /// Writes the concatenated parts, replacing an existing file. Throws `OutputError`.
   package static func write(_ parts: [UnsafeRawBufferPointer], to url: URL) throws {
+    try write(to: url) { append in try parts.forEach(append) }
+  }
+
+  /// Writes what `body` appends, replacing an existing file. Throws `OutputError`.
+  static func write(
+    to url: URL, _ body: (_ append: (UnsafeRawBufferPointer) throws -> Void) throws -> Void
+  ) throws {
     try write(to: url) { temporary in
       let descriptor = open(temporary.path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0o666)
       guard descriptor >= 0 else { throw lastError }
       do {
-        for part in parts { try append(part, to: descriptor) }
+        try body { try append($0, to: descriptor) }
       } catch {
         close(descriptor)
         throw error

@@ -2,41 +2,33 @@ import Foundation
 import SceneModel
 
 extension PLY {
+  /// Points whose rows are written at a time. Chosen: a few megabytes.
+  private static let pointsPerBlock = 1 << 16
+
   /// Writes a cloud; throws `OutputError`.
   ///
   /// Properties: x y z, nx ny nz, red green blue, consistency, footprint and the list photos
   /// (16-bit indices). Missing parts of the cloud are omitted.
   package static func write(_ cloud: PointCloud, to url: URL) throws {
-    try AtomicFile.write(encode(cloud), to: url)
+    let parts = CloudParts(cloud)
+    try AtomicFile.write(to: url) { append in
+      var writer = ByteWriter()
+      writer.append(parts.header)
+      for start in stride(from: 0, to: cloud.count, by: pointsPerBlock) {
+        parts.append(start..<min(start + pointsPerBlock, cloud.count), to: &writer)
+        try writer.bytes.withUnsafeBytes(append)
+        writer.removeAll()
+      }
+      try writer.bytes.withUnsafeBytes(append)
+    }
   }
 
   /// The bytes that `write` writes.
   package static func encode(_ cloud: PointCloud) -> [UInt8] {
-    let count = cloud.count
-    let hasNormals = cloud.normals.count == count && count > 0
-    let hasColors = cloud.colors.count == count && count > 0
-    let hasConsistency = cloud.consistency.count == count && count > 0
-    let hasFootprints = cloud.footprints.count == count && count > 0
-    let hasPhotos = cloud.photoOffsets.count == count + 1 && count > 0
-    var header = headerStart(vertices: count, normals: hasNormals, colors: hasColors)
-    if hasConsistency { header += "property float consistency\n" }
-    if hasFootprints { header += "property float footprint\n" }
-    if hasPhotos { header += "property list ushort ushort photos\n" }
-    header += "end_header\n"
-    var writer = ByteWriter(capacity: header.utf8.count + count * 48)
-    writer.append(header)
-    for index in 0..<count {
-      writer.append(cloud.positions[index])
-      if hasNormals { writer.append(cloud.normals[index]) }
-      if hasColors { writer.append(cloud.colors[index]) }
-      if hasConsistency { writer.append(cloud.consistency[index]) }
-      if hasFootprints { writer.append(cloud.footprints[index]) }
-      if hasPhotos {
-        let photos = cloud.visiblePhotos(of: index).prefix(Int(UInt16.max))
-        writer.append(UInt16(photos.count))
-        for photo in photos { writer.append(photo) }
-      }
-    }
+    let parts = CloudParts(cloud)
+    var writer = ByteWriter(capacity: parts.header.utf8.count + cloud.count * 48)
+    writer.append(parts.header)
+    parts.append(0..<cloud.count, to: &writer)
     return writer.bytes
   }
 
@@ -51,6 +43,45 @@ extension PLY {
         if element.name == "vertex" { try columns.append(row, of: element, to: &cloud) }
       }
       return cloud
+    }
+  }
+}
+
+/// The parts that the points of a cloud have, and so the rows of its file.
+private struct CloudParts {
+  private let cloud: PointCloud
+  private let hasNormals, hasColors, hasConsistency, hasFootprints, hasPhotos: Bool
+
+  init(_ cloud: PointCloud) {
+    let count = cloud.count
+    self.cloud = cloud
+    hasNormals = cloud.normals.count == count && count > 0
+    hasColors = cloud.colors.count == count && count > 0
+    hasConsistency = cloud.consistency.count == count && count > 0
+    hasFootprints = cloud.footprints.count == count && count > 0
+    hasPhotos = cloud.photoOffsets.count == count + 1 && count > 0
+  }
+
+  var header: String {
+    var header = PLY.headerStart(vertices: cloud.count, normals: hasNormals, colors: hasColors)
+    if hasConsistency { header += "property float consistency\n" }
+    if hasFootprints { header += "property float footprint\n" }
+    if hasPhotos { header += "property list ushort ushort photos\n" }
+    return header + "end_header\n"
+  }
+
+  func append(_ points: Range<Int>, to writer: inout ByteWriter) {
+    for index in points {
+      writer.append(cloud.positions[index])
+      if hasNormals { writer.append(cloud.normals[index]) }
+      if hasColors { writer.append(cloud.colors[index]) }
+      if hasConsistency { writer.append(cloud.consistency[index]) }
+      if hasFootprints { writer.append(cloud.footprints[index]) }
+      if hasPhotos {
+        let photos = cloud.visiblePhotos(of: index).prefix(Int(UInt16.max))
+        writer.append(UInt16(photos.count))
+        for photo in photos { writer.append(photo) }
+      }
     }
   }
 }

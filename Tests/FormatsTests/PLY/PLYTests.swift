@@ -28,6 +28,16 @@ import Testing
     }
   }
 
+  @Test func largeCloudsAreWrittenInBlocks() throws {
+    var cloud = PointCloud()
+    while cloud.count < 200_000 { cloud.append(cloud.count == 0 ? Self.cloud : cloud) }
+    try withTemporaryFolder { folder in
+      let url = folder.appendingPathComponent("points.ply")
+      try PLY.write(cloud, to: url)
+      #expect(try Data(contentsOf: url) == Data(PLY.encode(cloud)))
+    }
+  }
+
   @Test func meshRoundTrips() throws {
     try withTemporaryFolder { folder in
       let url = folder.appendingPathComponent("surface.ply")
