@@ -55,14 +55,17 @@ extension KernelControl {
   }
 
   /// Maps 0..<count like `parallelMap`, in units of consecutive indices, so that short calls cost
-  /// little.
+  /// little; `body` returns the results of a unit.
   package func parallelMap<Result: Sendable>(
-    _ count: Int, inUnitsOf size: Int, _ body: @escaping @Sendable (Int) throws -> Result
+    _ count: Int, inUnitsOf size: Int, _ body: @escaping @Sendable (Range<Int>) throws -> [Result]
   ) throws -> [Result] {
     let units = try parallelMap((count + size - 1) / size) { unit in
-      try (unit * size..<min(count, (unit + 1) * size)).map(body)
+      try body(unit * size..<min(count, (unit + 1) * size))
     }
-    return Array(units.joined())
+    var results: [Result] = []
+    results.reserveCapacity(count)
+    for unit in units { results.append(contentsOf: unit) }
+    return results
   }
 
   /// Maps the elements of an array like `parallelMap`, and empties it: `body` owns its element, and

@@ -143,11 +143,10 @@ package struct Silhouettes: Sendable {
   /// other: each block of them is looked up in the views whose frame it may be in.
   func areInside(_ points: [SIMD3<Float>], _ control: KernelControl) throws -> [Bool] {
     let size = 256  // Points per block. Chosen: few compared with those of a photo.
-    let blocks = (points.count + size - 1) / size
-    return try control.parallelMap(blocks, inUnitsOf: 32) { block in
-      let own = points[block * size..<min((block + 1) * size, points.count)]
+    return try control.parallelMap(points.count, inUnitsOf: size) {
+      let own = points[$0]
       return try areInside(own.map { SIMD3<Double>($0) }, views(near: own))
-    }.flatMap(\.self)
+    }
   }
 
   /// The views whose frame one of the points may be in.

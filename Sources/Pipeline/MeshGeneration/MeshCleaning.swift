@@ -117,7 +117,7 @@ struct MeshCleaning {
       of: mesh.positions, in: samples.positions, neighbors: options.colorNeighbors, control)
     let unit = max(samples.medianFootprint ?? 1, .leastNormalMagnitude)
     let softening = options.colorSoftening
-    return try control.parallelMap(mesh.positions.count, inUnitsOf: 8192) { vertex in
+    @Sendable func color(_ vertex: Int) -> SIMD3<UInt8> {
       var (sum, weights) = (SIMD3<Float>(), Float(0))
       for k in 0..<nearest.neighbors {
         let slot = vertex * nearest.neighbors + k
@@ -129,6 +129,7 @@ struct MeshCleaning {
       guard weights > 0 else { return .zero }
       return SIMD3<UInt8>((sum / weights).rounded(.toNearestOrAwayFromZero))
     }
+    return try control.parallelMap(mesh.positions.count, inUnitsOf: 8192) { $0.map(color) }
   }
 }
 

@@ -33,8 +33,8 @@ struct SceneTrimming {
     let minimumCosine = cos(options.minimumParallaxDegrees * .pi / 180)
     let unit = 8192  // Points of a unit of parallel work. Chosen.
     let control = context.control.part(from: 0, to: 0.4)
-    var isKept = try control.parallelMap(cloud.count, inUnitsOf: unit) { index in
-      cloud.footprints[index] <= limit && hasParallax(cloud, index, centers, minimumCosine)
+    var isKept = try control.parallelMap(cloud.count, inUnitsOf: unit) {
+      $0.map { cloud.footprints[$0] <= limit && hasParallax(cloud, $0, centers, minimumCosine) }
     }
     let indices = isKept.indices.filter { isKept[$0] }
     let grid = try VoxelGrid(

@@ -54,10 +54,11 @@ struct VoxelDownsampling {
     let size = Double(footprint) * options.voxelFootprints
     let unit = 8192  // Points of a unit of parallel work. Chosen.
     let levels = try context.control.part(from: 0, to: 0.1)
-      .parallelMap(cloud.count, inUnitsOf: unit) { index -> Int8 in
-        let value = cloud.footprints[index]
-        return value > footprint * 2 && value.isFinite
-          ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
+      .parallelMap(cloud.count, inUnitsOf: unit) {
+        cloud.footprints[$0].map { value -> Int8 in
+          value > footprint * 2 && value.isFinite
+            ? Int8(min(20, log2(value / footprint).rounded(.down))) : 0
+        }
       }
     let grid = try VoxelGrid(
       kept.positions, cellSize: size, levels: levels, context.control.part(from: 0.1, to: 0.7))
@@ -77,8 +78,8 @@ struct VoxelDownsampling {
         part * chunk..<min(grid.cellCount, (part + 1) * chunk), of: members, cloud, Float(size))
     }
     var result = PointCloud()
-    result.positions.reserveCapacity(grid.cellCount)
-    result.normals.reserveCapacity(grid.cellCount)
+    result.reserveCapacity(
+      points: grid.cellCount, photos: parts.reduce(0) { $0 + $1.photoIndices.count })
     for index in parts.indices {
       result.append(parts[index])
       parts[index] = PointCloud()

@@ -192,6 +192,7 @@ struct DenseSteps {
         (points, accepted) = (points + view.cloud.count, accepted + view.acceptedPatches)
         if thinning.isNeeded(for: points) { cloud = PointCloud() } else { cloud.append(view.cloud) }
       }
+      if start == 0 { cloud.reserveCapacity(forViews: all / Double(end), options.maximumPoints) }
     }
     warnIfSparse(Double(accepted) / max(1, views.objectPixelCount), context.notes)
     guard thinning.isNeeded(for: points) else { return cloud }
@@ -334,5 +335,14 @@ extension PatchView {
     let seen = cameraFromWorld * point
     guard seen.z > 0 else { return nil }
     return PatchSeed(pixel: SIMD2<Float>(camera.project(seen)), inverseDepth: Float(1 / seen.z))
+  }
+}
+
+extension PointCloud {
+  /// Reserves space for several times as many points, but not for more than the maximum.
+  fileprivate mutating func reserveCapacity(forViews factor: Double, _ maximum: Int) {
+    let points = min(Double(maximum), factor * Double(count))
+    let photos = points * Double(photoIndices.count) / Double(max(1, count))
+    reserveCapacity(points: Int(points), photos: Int(photos))
   }
 }

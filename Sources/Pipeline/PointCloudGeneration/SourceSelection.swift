@@ -32,8 +32,8 @@ struct SourceSelection {
     }
     let centers = reconstruction.poses.map { $0?.center }
     let detail = reconstruction.photos.map { $0.detail(at: viewPixels) }
-    return try control.parallelMap(points.count, inUnitsOf: 16) { [points] photo in
-      sources(of: photo, seeing: points[photo], of: reconstruction, centers, detail)
+    return try control.parallelMap(points.count, inUnitsOf: 16) { [points] photos in
+      photos.map { sources(of: $0, seeing: points[$0], of: reconstruction, centers, detail) }
     }
   }
 

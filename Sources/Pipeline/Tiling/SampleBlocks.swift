@@ -20,7 +20,7 @@ struct SampleBlocks: Sendable {
     let (positions, count, size) = (samples.cloud.positions, samples.cloud.count, Self.size)
     self.samples = samples
     self.reach = Float(reach)
-    boxes = try control.parallelMap((count + size - 1) / size, inUnitsOf: 64) { block in
+    @Sendable func box(_ block: Int) -> Corners {
       let first = block * size
       var corners: Corners = (.init(repeating: .infinity), .init(repeating: -.infinity))
       for sample in first..<min(count, first + size) {
@@ -30,6 +30,7 @@ struct SampleBlocks: Sendable {
       }
       return corners
     }
+    boxes = try control.parallelMap((count + size - 1) / size, inUnitsOf: 64) { $0.map(box) }
   }
 
   /// Calls `body` with each sample that points between the corners of a box may be near enough to,

@@ -10,4 +10,14 @@ extension PointCloud {
     photoIndices += other.photoIndices
     photoOffsets += other.photoOffsets.dropFirst().map { $0 + offset }
   }
+  /// Reserves space for points, and for the photos that they are visible in.
+  package mutating func reserveCapacity(points: Int, photos: Int) {
+    positions.reserveCapacity(points)
+    normals.reserveCapacity(points)
+    colors.reserveCapacity(points)
+    consistency.reserveCapacity(points)
+    footprints.reserveCapacity(points)
+    photoIndices.reserveCapacity(photos)
+    photoOffsets.reserveCapacity(points + 1)
+  }
 }

@@ -13,7 +13,7 @@ import Testing
     let expected = (0..<count).map { $0 * $0 }
     #expect(try control.parallelMap(count) { $0 * $0 } == expected)
     for size in [1, 7, 2000] {
-      #expect(try control.parallelMap(count, inUnitsOf: size) { $0 * $0 } == expected)
+      #expect(try control.parallelMap(count, inUnitsOf: size) { $0.map { $0 * $0 } } == expected)
     }
   }
 
@@ -33,9 +33,11 @@ import Testing
   @Test(arguments: [1, 4]) func theLowestFailureIsThrown(threads: Int) {
     let control = KernelControl(threadCount: threads)
     #expect(throws: Failure(index: 3)) {
-      try control.parallelMap(100, inUnitsOf: 10) { index in
-        if index >= 3, index < 10 { throw Failure(index: index) }
-        return index
+      try control.parallelMap(100, inUnitsOf: 10) {
+        try $0.map { index in
+          if index >= 3, index < 10 { throw Failure(index: index) }
+          return index
+        }
       }
     }
   }
