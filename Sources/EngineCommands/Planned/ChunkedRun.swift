@@ -8,12 +8,12 @@ struct ChunkedRun {
   /// Chunks of the photos for one of the pairs: a photo has about forty partners, and matching a
   /// pair takes a hundredth of the time of a photo's features. Chosen.
   private static let chunksPerMatchChunk = 2
-  /// The number of chunks of the photos from which on pairs are chunks of their own. Chosen: a
-  /// scheduler takes seconds for each of the four more stages, and few photos are matched in that
-  /// time.
-  private static let leastChunksForMatches = 8
-  /// Chunks of the tiles for one of many photos. Measured: a chunk of the town of 1000 photos took
-  /// twelve times as long as one of the views, and nodes wait for the last one.
+  /// The number of chunks of the photos from which on pairs are chunks of their own, and tiles are
+  /// divided among more. Chosen: a scheduler takes seconds for each of the four more stages, and
+  /// few photos are matched in that time.
+  private static let leastChunksOfMany = 8
+  /// Chunks of the tiles for one of many photos. Chosen: about one for each tile, of which the town
+  /// of 1000 photos has 66 at reduced, since nodes wait for the last chunk.
   private static let tileChunksPerChunk = 2
   /// Memory per photo of the chunks that hold the features of all photos, or the whole cloud.
   /// Measured: 2.4 GB for 1000 photos of synthetic features, with a reserve for real ones.
@@ -99,7 +99,7 @@ struct ChunkedRun {
     let masks = durations.seconds(of: [.objectMasking])
     let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
     let matchBlocks = blocks / Self.chunksPerMatchChunk
-    guard blocks >= Self.leastChunksForMatches else {
+    guard blocks >= Self.leastChunksOfMany else {
       // Shares of alignment. Measured: in runs of 11, 32 and 40 photos.
       return [
         photos, stage("features", blocks: blocks, seconds: 0.4 * seconds),
@@ -131,7 +131,7 @@ struct ChunkedRun {
     let seconds =
       durations.seconds(of: [.optimization]) - withoutTiles.seconds(of: [.optimization])
     let surface = durations.seconds(of: [.meshGeneration]) / 2
-    let tileBlocks = blocks < Self.leastChunksForMatches ? blocks : Self.tileChunksPerChunk * blocks
+    let tileBlocks = blocks < Self.leastChunksOfMany ? blocks : Self.tileChunksPerChunk * blocks
     func tiles(_ part: TilePart, beside other: Chunk) -> ChunkStage {
       var result = stage(
         part.rawValue, blocks: tileBlocks, seconds: part.cost * seconds, holdsAll: true)

@@ -18,8 +18,6 @@ struct ByteWriter {
     withUnsafeBytes(of: value.littleEndian) { bytes.append(contentsOf: $0) }
   }
 
-  mutating func removeAll() { bytes.removeAll(keepingCapacity: true) }
-
   mutating func append(_ value: Int32) { append(UInt32(bitPattern: value)) }
 
   mutating func append(_ value: Int64) { append(UInt64(bitPattern: value)) }

@@ -12,14 +12,12 @@ extension PLY {
   package static func write(_ cloud: PointCloud, to url: URL) throws {
     let parts = CloudParts(cloud)
     try AtomicFile.write(to: url) { append in
-      var writer = ByteWriter()
-      writer.append(parts.header)
+      try Array(parts.header.utf8).withUnsafeBytes(append)
       for start in stride(from: 0, to: cloud.count, by: pointsPerBlock) {
+        var writer = ByteWriter(capacity: pointsPerBlock * 48)
         parts.append(start..<min(start + pointsPerBlock, cloud.count), to: &writer)
         try writer.bytes.withUnsafeBytes(append)
-        writer.removeAll()
       }
-      try writer.bytes.withUnsafeBytes(append)
     }
   }
 

@@ -192,7 +192,9 @@ struct DenseSteps {
         (points, accepted) = (points + view.cloud.count, accepted + view.acceptedPatches)
         if thinning.isNeeded(for: points) { cloud = PointCloud() } else { cloud.append(view.cloud) }
       }
-      if start == 0 { cloud.reserveCapacity(forViews: all / Double(end), options.maximumPoints) }
+      if start == 0 {
+        cloud.reserveCapacity(times: all / Double(end), atMost: options.maximumPoints)
+      }
     }
     warnIfSparse(Double(accepted) / max(1, views.objectPixelCount), context.notes)
     guard thinning.isNeeded(for: points) else { return cloud }
@@ -339,8 +341,8 @@ extension PatchView {
 }
 
 extension PointCloud {
-  /// Reserves space for several times as many points, but not for more than the maximum.
-  fileprivate mutating func reserveCapacity(forViews factor: Double, _ maximum: Int) {
+  /// Reserves space for `factor` times as many points, but not for more than the maximum.
+  fileprivate mutating func reserveCapacity(times factor: Double, atMost maximum: Int) {
     let points = min(Double(maximum), factor * Double(count))
     let photos = points * Double(photoIndices.count) / Double(max(1, count))
     reserveCapacity(points: Int(points), photos: Int(photos))

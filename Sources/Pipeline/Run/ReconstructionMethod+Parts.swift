@@ -20,9 +20,8 @@ extension ReconstructionMethod {
     case .views(let part, let block): try make(part, block, of: photos)
     case .tileBase:
       let scene = try scene(photos)
-      var views = try cache.sceneStore(of: photos, configuration)?.scene(of: photos)?.views
-      if views == nil { views = try denseViews(of: scene) }
-      if let views { try makeTileBase(of: scene, views, in: geometry, for: try tileOutput) }
+      try makeTileBase(
+        of: scene, try storedViews(of: scene, photos), in: geometry, for: try tileOutput)
     case .surface: try makeSurface(of: try scene(photos))
     case .tiles(let part, let block):
       try tilePart(photos, in: geometry, for: part) { try make(part, block, of: $0, $1) }
@@ -43,6 +42,14 @@ extension ReconstructionMethod {
         scene.reconstruction, images: scene.photos.images,
         options: configuration.pointCloudGeneration, recorder.control)
     }
+  }
+
+  /// The views of a scene's dense stage that an earlier part stored, or else selected now.
+  private func storedViews(of scene: ObjectScene, _ photos: PhotoSet) throws -> DenseViews {
+    let stored = try cache.sceneStore(of: photos, configuration)?.scene(of: photos)
+    // Not `??`, as in `tileInput`.
+    if let stored { return stored.views }
+    return try denseViews(of: scene)
   }
 
   private func alignmentPart(

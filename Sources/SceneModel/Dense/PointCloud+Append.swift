@@ -10,6 +10,7 @@ extension PointCloud {
     photoIndices += other.photoIndices
     photoOffsets += other.photoOffsets.dropFirst().map { $0 + offset }
   }
+
   /// Reserves space for points, and for the photos that they are visible in.
   package mutating func reserveCapacity(points: Int, photos: Int) {
     positions.reserveCapacity(points)
