@@ -52,11 +52,23 @@ std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cel
   const auto is_before = [&](uint32_t a, uint32_t b) { return cells[a] < cells[b]; };
   ck::parallel_sort(order, is_before, control);
   ck::step(control, 0.5);
-  std::vector<Cell> distinct;
-  for (uint32_t i : order) {
-    if (distinct.empty() || distinct.back() != cells[i]) distinct.push_back(cells[i]);
-    numbers[i] = static_cast<int32_t>(distinct.size()) - 1;
-  }
+  const auto is_first = [&](size_t k) { return k == 0 || cells[order[k]] != cells[order[k - 1]]; };
+  const auto end = [&](size_t block) { return std::min(order.size(), (block + 1) * kBlock); };
+  // The number of cells before each block of the order.
+  std::vector<size_t> starts((order.size() + kBlock - 1) / kBlock + 1, 0);
+  const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
+  ck::parallel_for(&quiet, starts.size() - 1, [&](size_t block) {
+    for (size_t k = block * kBlock; k < end(block); ++k) starts[block + 1] += is_first(k);
+  });
+  for (size_t block = 1; block < starts.size(); ++block) starts[block] += starts[block - 1];
+  std::vector<Cell> distinct(starts.back());
+  ck::parallel_for(&quiet, starts.size() - 1, [&](size_t block) {
+    size_t next = starts[block];
+    for (size_t k = block * kBlock; k < end(block); ++k) {
+      if (is_first(k)) distinct[next++] = cells[order[k]];
+      numbers[order[k]] = static_cast<int32_t>(next) - 1;
+    }
+  });
   return distinct;
 }
 
@@ -110,7 +122,9 @@ ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* leve
     if (!components) return;
     ck::require(component_count, "null pointer");
     const auto component = join_cells(distinct, component_count, control);
-    for (size_t i = 0; i < count; ++i) components[i] = cells[i] < 0 ? -1 : component[cells[i]];
+    ck::parallel_for_blocks(&quiet, count, kBlock, [&](size_t i) {
+      components[i] = cells[i] < 0 ? -1 : component[size_t(cells[i])];
+    });
     ck::step(control, 1);
   });
 }

@@ -36,16 +36,20 @@ struct SceneTrimming {
     var isKept = try control.parallelMap(cloud.count, inUnitsOf: unit) {
       $0.map { cloud.footprints[$0] <= limit && hasParallax(cloud, $0, centers, minimumCosine) }
     }
-    let indices = isKept.indices.filter { isKept[$0] }
+    var positions = cloud.positions
+    // The grid leaves out what isn't finite.
+    for index in isKept.indices where !isKept[index] {
+      positions[index] = SIMD3(repeating: .nan)
+    }
     let grid = try VoxelGrid(
-      indices.map { cloud.positions[$0] },
-      cellSize: Double(median) * options.connectionFootprints,
-      findsComponents: true, context.control.part(from: 0.4, to: 1))
-    let members = Members(of: grid.components, count: grid.componentCount)
+      positions, cellSize: Double(median) * options.connectionFootprints, findsComponents: true,
+      context.control.part(from: 0.4, to: 1))
+    var counts = [Int](repeating: 0, count: grid.componentCount)
+    for component in grid.components where component >= 0 { counts[Int(component)] += 1 }
     let minimum = max(
-      options.minimumPoints, Int(options.minimumShare * Double(indices.count)))
-    for component in 0..<grid.componentCount where members[component].count < minimum {
-      for member in members[component] { isKept[indices[Int(member)]] = false }
+      options.minimumPoints, Int(options.minimumShare * Double(counts.reduce(0, +))))
+    for (index, component) in grid.components.enumerated() where isKept[index] {
+      isKept[index] = component >= 0 && counts[Int(component)] >= minimum
     }
     // In a small cloud all components are below the limit; keep them rather than nothing.
     return isKept.contains(true) ? isKept : cloud.positions.map { $0.x.isFinite }
@@ -57,8 +61,9 @@ struct SceneTrimming {
   ) -> Bool {
     let position = SIMD3<Double>(cloud.positions[index])
     var first: SIMD3<Double>?
-    for photo in cloud.visiblePhotos(of: index) {
-      guard Int(photo) < centers.count, let center = centers[Int(photo)] else { continue }
+    for visibility in cloud.visibilities(of: index) {
+      let photo = Int(cloud.photoIndices[visibility])
+      guard photo < centers.count, let center = centers[photo] else { continue }
       let direction = (position - center).normalized
       guard let reference = first else {
         first = direction

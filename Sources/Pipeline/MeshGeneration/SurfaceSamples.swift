@@ -2,7 +2,7 @@ import SceneModel
 
 /// The points that a surface is reconstructed from: the mean points of voxels, without those that
 /// do not belong to the object or to the scene.
-struct SurfaceSamples: Codable, Sendable {
+struct SurfaceSamples: Sendable {
   var cloud: PointCloud
   /// Side of the smallest voxel, in world units.
   var voxelSize: Double

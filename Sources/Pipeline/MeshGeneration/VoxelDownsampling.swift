@@ -100,7 +100,11 @@ struct VoxelDownsampling {
       let points = members[cell]
       append(points, of: cloud, to: &result, fallback: fallback)
       photos.removeAll(keepingCapacity: true)
-      for point in points { photos.append(contentsOf: cloud.visiblePhotos(of: Int(point))) }
+      for point in points {
+        for visibility in cloud.visibilities(of: Int(point)) {
+          photos.append(cloud.photoIndices[visibility])
+        }
+      }
       photos.sort()
       var last: UInt16?
       for photo in photos where photo != last {

@@ -44,7 +44,8 @@ package struct CloudMetrics: Sendable {
     let values = Values(
       points: cloud.count, sparsePoints: reconstruction.points.count,
       sparseCoverage: try coverage(of: reconstruction.points, by: cloud, context.control),
-      pointsPerCubicMeter: reconstruction.worldFrame.scale.isMetric ? density(cloud) : nil)
+      pointsPerCubicMeter: reconstruction.worldFrame.scale.isMetric
+        ? try density(cloud, context.control) : nil)
     report(values, context.notes)
     return values
   }
@@ -79,15 +80,18 @@ package struct CloudMetrics: Sendable {
 
   /// Points per unit of volume of the box that holds all but the outermost points; nil for a box
   /// without volume.
-  private func density(_ cloud: PointCloud) -> Double? {
+  private func density(_ cloud: PointCloud, _ control: KernelControl) throws -> Double? {
     guard cloud.count > 0 else { return nil }
     let outer = Int(options.boxQuantile * Double(cloud.count))
-    var (low, high) = (SIMD3<Float>.zero, SIMD3<Float>.zero)
-    for axis in 0..<3 {
+    let sides = try control.parallelMap(3) { axis in
       let values = cloud.positions.map { $0[axis] }
-      low[axis] = values.element(ofRank: outer)
-      high[axis] = values.element(ofRank: values.count - 1 - outer)
+      return (
+        low: values.element(ofRank: outer),
+        high: values.element(ofRank: values.count - 1 - outer)
+      )
     }
+    let low = SIMD3(sides[0].low, sides[1].low, sides[2].low)
+    let high = SIMD3(sides[0].high, sides[1].high, sides[2].high)
     let inside = cloud.positions.count { point in
       (0..<3).allSatisfy { point[$0] >= low[$0] && point[$0] <= high[$0] }
     }
@@ -125,15 +129,21 @@ private struct PointGrid: Sendable {
   private let inverseCell: Float
   private var cells: [SIMD3<Int32>: [Int32]] = [:]
 
-  /// Inserts each point into its own cell and the 26 adjacent ones; cells are `reach` wide.
+  /// Twice `reach` and a margin for rounding. Chosen.
+  private static let cellReaches: Float = 2.01
+
+  /// Inserts each point into the cells within reach, which are in the same eight.
   init(_ sparsePositions: [SIMD3<Float>], reach: Float) {
     self.sparsePositions = sparsePositions
-    inverseCell = 1 / max(reach, .leastNormalMagnitude)
+    inverseCell = 1 / max(Self.cellReaches * reach, .leastNormalMagnitude)
     for (index, position) in sparsePositions.enumerated() {
-      guard let center = cell(of: position) else { continue }
-      for offset in 0..<27 {
-        let step = SIMD3(Int32(offset % 3), Int32(offset / 3 % 3), Int32(offset / 9)) &- 1
-        cells[center &+ step, default: []].append(Int32(index))
+      guard let own = cell(of: position) else { continue }
+      // The neighbors on the sides of the cell that the point is nearer to.
+      let inside = position * inverseCell - SIMD3<Float>(own)
+      let toNeighbor = SIMD3<Int32>(repeating: -1).replacing(with: 1, where: inside .>= 0.5)
+      for corner in 0..<8 {
+        let step = SIMD3(Int32(corner & 1), Int32(corner >> 1 & 1), Int32(corner >> 2))
+        cells[own &+ step &* toNeighbor, default: []].append(Int32(index))
       }
     }
   }

@@ -31,6 +31,12 @@ package struct PointCloud: Sendable {
 
   /// Indices of the photos that see point `index`, in ascending order.
   package func visiblePhotos(of index: Int) -> ArraySlice<UInt16> {
-    photoIndices[Int(photoOffsets[index])..<Int(photoOffsets[index + 1])]
+    photoIndices[visibilities(of: index)]
+  }
+
+  /// Where `photoIndices` has the photos that see point `index`: unlike a slice, it holds no
+  /// reference, which threads would count one after the other.
+  package func visibilities(of index: Int) -> Range<Int> {
+    Int(photoOffsets[index])..<Int(photoOffsets[index + 1])
   }
 }

@@ -1,5 +1,8 @@
 #include "surface/poisson/octree.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include "surface/poisson/field.h"
 
 namespace ck::poisson {
@@ -168,9 +171,13 @@ void gather_samples(Level& level, const Samples& samples, const ck_control* cont
                [&](size_t b) { parts[b] = average_samples(level, b, samples); });
   level.offsets.assign(1, 0);
   for (const std::vector<CellSample>& part : parts) {
-    level.samples.insert(level.samples.end(), part.begin(), part.end());
-    level.offsets.push_back(static_cast<uint32_t>(level.samples.size()));
+    level.offsets.push_back(level.offsets.back() + static_cast<uint32_t>(part.size()));
   }
+  level.samples.resize(level.offsets.back());
+  parallel_for(control, parts.size(), [&](size_t b) {
+    std::copy(parts[b].begin(), parts[b].end(),
+              level.samples.begin() + std::ptrdiff_t(level.offsets[b]));
+  });
 }
 
 }  // namespace

@@ -15,28 +15,37 @@ namespace {
 /// Number of samples that a thread works on at a time. Chosen: less than a millisecond.
 constexpr size_t kBlock = 1 << 14;
 
+double length(const float* v) { return std::hypot(v[0], v[1], v[2]); }
+
 }  // namespace
 
 Samples::Samples(const Strided<float>& p, const Strided<float>& n, double scale, const Cube& given,
                  const ck_control* control) {
+  const ck_control quiet{nullptr, nullptr, thread_count(control)};
+  std::vector<char> is_used(p.count);
+  parallel_for_blocks(&quiet, p.count, kBlock, [&](size_t i) {
+    is_used[i] = p.is_finite(i) && n.is_finite(i) && length(n[i]) > 0;
+  });
+  std::vector<size_t> used;
+  used.reserve(p.count);
   for (size_t i = 0; i < p.count; ++i) {
-    if (!p.is_finite(i) || !n.is_finite(i)) continue;
-    const double length = std::hypot(n[i][0], n[i][1], n[i][2]);
-    if (!(length > 0)) continue;
-    Sample s{};
-    for (size_t a = 0; a < 3; ++a) {
-      s.position[a] = p[i][a];
-      s.normal[a] = static_cast<float>(n[i][a] / length);
-    }
-    samples.push_back(s);
+    if (is_used[i]) used.push_back(i);
   }
+  samples.resize(used.size());
+  parallel_for_blocks(&quiet, used.size(), kBlock, [&](size_t k) {
+    const size_t i = used[k];
+    const double of_normal = length(n[i]);
+    for (size_t a = 0; a < 3; ++a) {
+      samples[k].position[a] = p[i][a];
+      samples[k].normal[a] = static_cast<float>(n[i][a] / of_normal);
+    }
+  });
   if (given.side > 0) {
     cube = given;
     remove_outside();
   }
   if (samples.size() < 4) throw Degenerate("fewer than four oriented points");
   if (!(given.side > 0)) cube = cube_around(scale);
-  const ck_control quiet{nullptr, nullptr, thread_count(control)};
   parallel_for_blocks(&quiet, samples.size(), kBlock, [&](size_t i) { move_to_cube(samples[i]); });
   sort(&quiet);
 }
