@@ -142,21 +142,26 @@ struct DenseSteps {
     recordPeaks(maps, context.notes)
   }
 
-  /// Fuses each view's accepted patches into its points of the cloud.
+  /// Fuses each view's accepted patches into its points of the cloud, without those outside the
+  /// masks: photos without a mask may observe what the masks exclude.
   private func fuse(_ context: StageContext) throws {
     let maps = makeMaps()
+    let silhouettes = plan[.cloud].isEmpty ? nil : try masks.silhouettes()
     let map = { @Sendable [self] (index: Int) in
       try self.map(index, .completed, .completedStates, in: maps)
     }
     try forEach(.cloud, context) { [self] index, control in
       let own = try map(index)
-      let cloud = try PatchStereo.fuse(
+      var cloud = try PatchStereo.fuse(
         own, neighbors: try views.views[index].sources.map(map), options: options.filter,
         control: control)
-      let accepted = withUnsafeBytes(of: UInt64(own.acceptedCount)) { Array($0) }
-      try (accepted + cloud.encoded()).withUnsafeBytes {
-        try workspace.write($0, views.key(.cloud, index))
+      let count = cloud.count
+      if let silhouettes {
+        cloud.retain(try silhouettes.areInside(cloud.positions, KernelControl()))
       }
+      try FusedView(
+        cloud: cloud, acceptedPatches: own.acceptedCount, pointsOutsideMasks: count - cloud.count
+      ).encoded.withUnsafeBytes { try workspace.write($0, views.key(.cloud, index)) }
     }
   }
 
@@ -183,19 +188,22 @@ struct DenseSteps {
   /// Concatenates the views' points in view order, thinned if there are too many.
   func cloud(_ context: StageContext) throws -> PointCloud {
     let thinning = CloudThinning(maximumPoints: options.maximumPoints)
-    var (cloud, points, accepted) = (PointCloud(), 0, 0)
+    var (cloud, points, accepted, outside) = (PointCloud(), 0, 0, 0)
     let block = 32  // Views that are read at a time. Chosen: they are small beside the cloud.
     for start in stride(from: 0, to: views.views.count, by: block) {
       let (end, all) = (min(start + block, views.views.count), Double(views.views.count))
       let part = context.control.part(from: Double(start) / all, to: Double(end) / all)
       for view in try part.parallelMap(end - start, { [self] in try fusedView(start + $0) }) {
-        (points, accepted) = (points + view.cloud.count, accepted + view.acceptedPatches)
+        points += view.cloud.count
+        accepted += view.acceptedPatches
+        outside += view.pointsOutsideMasks
         if thinning.isNeeded(for: points) { cloud = PointCloud() } else { cloud.append(view.cloud) }
       }
       if start == 0 {
         cloud.reserveCapacity(times: all / Double(end), atMost: options.maximumPoints)
       }
     }
+    if masks.areUsed { context.notes.record("pointsOutsideMasks", Double(outside)) }
     warnIfSparse(Double(accepted) / max(1, views.objectPixelCount), context.notes)
     guard thinning.isNeeded(for: points) else { return cloud }
     cloud = try thinning.run(parts: views.views.count, context) { try fusedView($0).cloud }
@@ -204,14 +212,13 @@ struct DenseSteps {
     return cloud
   }
 
-  /// The points of a view, and the number of patches that they come from.
-  func fusedView(_ index: Int) throws -> (cloud: PointCloud, acceptedPatches: Int) {
+  /// The points of a view as `fuse` wrote them.
+  func fusedView(_ index: Int) throws -> FusedView {
     let key = views.key(.cloud, index)
-    var cloud = PointCloud()
-    guard let bytes = workspace.bytes(key), bytes.count >= 8,
-      cloud.append(encoded: bytes.dropFirst(8))
-    else { throw WorkspaceError.changed(file: workspace.url(key).path) }
-    return (cloud, bytes.withUnsafeBytes { Int(clamping: $0.loadUnaligned(as: UInt64.self)) })
+    guard let view = workspace.bytes(key).flatMap({ FusedView(encoded: $0[...]) }) else {
+      throw WorkspaceError.changed(file: workspace.url(key).path)
+    }
+    return view
   }
 
   /// Records the share of accepted pixels, and warns if the cloud is too sparse.

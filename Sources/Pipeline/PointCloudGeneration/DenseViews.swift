@@ -123,7 +123,9 @@ extension DenseViews {
     let states = chain(patches, views) { fingerprint, _ in fingerprint.add(filterOptions) }
     let completed = chain(states, views) { fingerprint, _ in fingerprint.add(completes) }
     let completedStates = chain(completed, views)
+    let silhouettes = try silhouettes(reconstruction, images)
     let clouds = chain(completedStates, views) { fingerprint, view in
+      fingerprint.add(silhouettes)
       // Points list the photos that observe them.
       for view in [view] + views[view].sources { fingerprint.add(views[view].photo.index) }
     }
@@ -132,6 +134,19 @@ extension DenseViews {
       .coarseCompleted: coarseCompleted, .patches: patches, .states: states,
       .completed: completed, .completedStates: completedStates, .cloud: clouds,
     ]
+  }
+
+  /// The fingerprint of all masks, and of the photos' cameras and poses.
+  private static func silhouettes(
+    _ reconstruction: Reconstruction, _ images: ImageStore
+  ) throws -> UInt64 {
+    var fingerprint = Fingerprint()
+    for photo in reconstruction.registered where images.hasMask(photo) {
+      fingerprint.add(try images.fingerprint(of: photo))
+      fingerprint.add(reconstruction.camera(of: photo))
+      fingerprint.add(reconstruction.poses[photo.index] ?? .identity)
+    }
+    return fingerprint.value
   }
 
   /// The fingerprints of a step that reads the files of a view and its sources; `add` contributes
@@ -158,15 +173,23 @@ extension DenseViews {
     fingerprint.add(ProgramIdentity.fingerprint)
     fingerprint.add(photo)
     // The photo's original camera, and the pinhole camera derived from it at this resolution.
-    for camera in [reconstruction.camera(of: view.photo), view.camera] {
-      fingerprint.add(camera.width)
-      fingerprint.add(camera.height)
-      fingerprint.add(camera.focalLength)
-      fingerprint.add(camera.principalPoint)
-      fingerprint.add(camera.distortion)
-    }
-    view.cameraFromWorld.rotation.matrix.elements.forEach { fingerprint.add($0) }
-    fingerprint.add(view.cameraFromWorld.translation)
+    for camera in [reconstruction.camera(of: view.photo), view.camera] { fingerprint.add(camera) }
+    fingerprint.add(view.cameraFromWorld)
     return fingerprint.value
+  }
+}
+
+extension Fingerprint {
+  fileprivate mutating func add(_ camera: Camera) {
+    add(camera.width)
+    add(camera.height)
+    add(camera.focalLength)
+    add(camera.principalPoint)
+    add(camera.distortion)
+  }
+
+  fileprivate mutating func add(_ pose: RigidTransform) {
+    pose.rotation.matrix.elements.forEach { add($0) }
+    add(pose.translation)
   }
 }

@@ -35,4 +35,10 @@ struct PatchMasks: Sendable {
       outside: mask.resized(width: map.view.width, height: map.view.height),
       least: isReduced ? 64 : 192)
   }
+
+  /// Whether there are masks.
+  var areUsed: Bool { images.hasMasks }
+
+  /// The silhouettes of the object in all photos with masks; nil without any.
+  func silhouettes() throws -> Silhouettes? { try Silhouettes(reconstruction, images: images) }
 }

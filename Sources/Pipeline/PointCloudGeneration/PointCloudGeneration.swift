@@ -39,8 +39,7 @@ package struct PointCloudGeneration {
     let steps = DenseSteps(
       views, workspace, plan, masks(of: views, reconstruction, images), options)
     try steps.run(reconstruction, images, context.part(from: 0, to: 0.98))
-    var cloud = try steps.cloud(context.part(from: 0.98, to: 0.99))
-    try dropOutsideMasks(&cloud, reconstruction, images, context.part(from: 0.99, to: 1))
+    let cloud = try steps.cloud(context.part(from: 0.98, to: 1))
     guard cloud.count > 0 else {
       throw PipelineError.noSurface(
         reason: "no surface patch is consistent in three or more photos.")
@@ -141,17 +140,6 @@ package struct PointCloudGeneration {
     of views: DenseViews, _ reconstruction: Reconstruction, _ images: ImageStore
   ) -> PatchMasks {
     PatchMasks(views, reconstruction, images, maximumPixels: options.maximumPixelsPerView)
-  }
-
-  /// Drops points outside the masks: photos without a mask may observe what the masks exclude.
-  private func dropOutsideMasks(
-    _ cloud: inout PointCloud, _ reconstruction: Reconstruction, _ images: ImageStore,
-    _ context: StageContext
-  ) throws {
-    guard let silhouettes = try Silhouettes(reconstruction, images: images) else { return }
-    let count = cloud.count
-    cloud.retain(try silhouettes.areInside(cloud.positions, context.control))
-    context.notes.record("pointsOutsideMasks", Double(count - cloud.count))
   }
 
   /// Records view counts, and logs how many views are reused.

@@ -91,7 +91,7 @@ package struct Tiling {
   func solve(
     _ points: PointCloud, near scene: NearbySamples, of base: TileBase, _ context: StageContext
   ) throws -> (solution: PoissonSolution, samples: PointCloud)? {
-    let isKept = try isOfScene(points, near: scene, context.control.part(from: 0, to: 0.1))
+    let isKept = try scene.reach(points.positions, context.control.part(from: 0, to: 0.1))
     let downsampling = VoxelDownsampling(options: meshing.options.downsampling)
     let averaged = try downsampling.run(
       points, keeping: isKept, footprint: base.footprint, context.part(from: 0.1, to: 0.2))
@@ -109,17 +109,6 @@ package struct Tiling {
   /// The corners of the box that has all points that a tile is solved from.
   func corners(of tile: Int, _ base: TileBase) -> (low: SIMD3<Double>, high: SIMD3<Double>) {
     base.grid.corners(of: base.grid.boxes[tile].dilated(by: reach(base)))
-  }
-
-  /// Whether points are near samples of the scene, and inside the masks.
-  private func isOfScene(
-    _ points: PointCloud, near samples: NearbySamples, _ control: KernelControl
-  ) throws -> [Bool] {
-    let areNear = try samples.reach(points.positions, control)
-    guard let isInside = try silhouettes?.areInside(points.positions, control) else {
-      return areNear
-    }
-    return zip(areNear, isInside).map { $0 && $1 }
   }
 }
 
