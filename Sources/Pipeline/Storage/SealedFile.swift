@@ -14,12 +14,11 @@ enum SealedFile {
 
   /// Writes the file atomically; throws `OutputError`.
   static func write(_ payload: Data, madeFrom fingerprint: UInt64, to url: URL) throws {
-    var data = Data(capacity: headerCount + payload.count)
-    for word in [magic, fingerprint, UInt64(payload.count), checksum(payload, fingerprint)] {
-      withUnsafeBytes(of: word.littleEndian) { data.append(contentsOf: $0) }
+    let header = [magic, fingerprint, UInt64(payload.count), checksum(payload, fingerprint)]
+      .map(\.littleEndian)
+    try header.withUnsafeBytes { header in
+      try payload.withUnsafeBytes { try AtomicFile.write([header, $0], to: url) }
     }
-    data.append(payload)
-    try AtomicFile.write(data, to: url)
   }
 
   /// The payload; nil if the file is missing, damaged or made from other input.
