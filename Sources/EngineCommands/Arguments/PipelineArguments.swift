@@ -39,12 +39,9 @@ package struct PipelineArguments: EngineArguments {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "With --slurm or --plan: the photos, or views, of a chunk.", valueName: "count"))
-  var photosPerChunk = PipelineArguments.usualPhotosPerChunk
-
-  /// Some minutes of work, so that little is lost with a machine, and starting a process costs
-  /// little. Chosen.
-  private static let usualPhotosPerChunk = 25
+      "With --slurm or --plan: the photos, or views, of a chunk (default: 25, or as many as take "
+        + "two seconds).", valueName: "count"))
+  var photosPerChunk: Int?
 
   @Option(
     name: .long,
@@ -56,7 +53,9 @@ package struct PipelineArguments: EngineArguments {
   package init() {}
 
   package func validate() throws {
-    if photosPerChunk < 1 { throw ValidationError("--photos-per-chunk must be 1 or more.") }
+    if let photosPerChunk, photosPerChunk < 1 {
+      throw ValidationError("--photos-per-chunk must be 1 or more.")
+    }
   }
 
   package func check(_ output: ModelOutput, _ detail: DetailArguments) throws {

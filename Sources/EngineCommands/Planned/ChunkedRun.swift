@@ -5,6 +5,12 @@ import SharedCommands
 
 /// A run as chunks: parts of the stages, made on a cluster or by other schedulers.
 struct ChunkedRun {
+  /// The photos, or views, of a chunk: so few that little is lost with a machine. Chosen.
+  private static let usualPhotosPerChunk = 25
+  /// The expected time of a chunk of photos or views, at least, unless their number is given, in
+  /// seconds. Chosen: a scheduler takes as long to start it, and the process a twentieth of that to
+  /// read what it needs.
+  private static let leastSeconds = 2.0
   /// Chunks of the photos for one of the pairs: a photo has about forty partners, and matching a
   /// pair takes a hundredth of the time of a photo's features. Chosen.
   private static let chunksPerMatchChunk = 2
@@ -73,15 +79,30 @@ struct ChunkedRun {
   // MARK: - Plan
 
   private var plan: ChunkPlan {
-    let dense = durations.seconds(of: [.pointCloudGeneration])
-    let size = arguments.engine.photosPerChunk
+    let size = arguments.engine.photosPerChunk ?? Self.usualPhotosPerChunk
     let blocks = max(1, (count + size - 1) / size)
-    let views = DensePart.allCases.map { part in
-      stage(part.rawValue, blocks: blocks, seconds: part.cost * dense)
-    }
     return ChunkPlan(
-      stages: alignmentStages(blocks) + views
+      stages: alignmentStages(blocks) + denseStages(blocks)
         + (hasTiles ? tileStages(blocks) : [ChunkStage(name: "model", chunks: [model])]))
+  }
+
+  /// The steps of the dense stage. Of few views, one chunk makes all.
+  private func denseStages(_ blocks: Int) -> [ChunkStage] {
+    let seconds = durations.seconds(of: [.pointCloudGeneration])
+    let stages = DensePart.allCases.map { part in
+      let own = part.cost * seconds
+      return stage(part.rawValue, blocks: worthwhile(blocks, own), seconds: own)
+    }
+    guard stages.contains(where: { $0.chunks.count > 1 }) else {
+      return [stage(DensePart.cloud.rawValue, blocks: 1, seconds: seconds)]
+    }
+    return stages
+  }
+
+  /// The number of chunks into which work of `seconds` is divided, at most `blocks`.
+  private func worthwhile(_ blocks: Int, _ seconds: Double) -> Int {
+    guard arguments.engine.photosPerChunk == nil else { return blocks }
+    return max(1, min(blocks, Int(seconds / Self.leastSeconds)))
   }
 
   /// The chunk of the model, which makes its surface, too, unless a chunk before it did.
@@ -93,27 +114,33 @@ struct ChunkedRun {
       holdsAll: true)
   }
 
-  /// The stages up to the cameras. Of few photos, the chunk of the cameras makes all matches.
+  /// The stages up to the cameras. Of few photos, the chunk of the cameras makes all matches, and
+  /// features, too, if one chunk would make them.
   private func alignmentStages(_ blocks: Int) -> [ChunkStage] {
     let seconds = durations.seconds(of: [.imageAlignment])
     let masks = durations.seconds(of: [.objectMasking])
     let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
-    let matchBlocks = blocks / Self.chunksPerMatchChunk
+    func divided(_ name: String, _ blocks: Int, share: Double) -> ChunkStage {
+      stage(name, blocks: worthwhile(blocks, share * seconds), seconds: share * seconds)
+    }
+    func cameras(share: Double) -> ChunkStage {
+      stage("cameras", seconds: share * seconds + masks, holdsAll: true)
+    }
     guard blocks >= Self.leastChunksOfMany else {
       // Shares of alignment. Measured: in runs of 11, 32 and 40 photos.
-      return [
-        photos, stage("features", blocks: blocks, seconds: 0.4 * seconds),
-        stage("cameras", seconds: 0.6 * seconds + masks, holdsAll: true),
-      ]
+      let features = divided("features", blocks, share: 0.4)
+      return features.chunks.count > 1
+        ? [photos, features, cameras(share: 0.6)] : [photos, cameras(share: 1)]
     }
+    let matchBlocks = blocks / Self.chunksPerMatchChunk
     // Shares of alignment. Measured: in chunks of 250 photos of a town.
     return [
-      photos, stage("features", blocks: blocks, seconds: 0.15 * seconds),
+      photos, divided("features", blocks, share: 0.15),
       stage("pairs", seconds: 0.03 * seconds, holdsAll: true),
-      stage("matches", blocks: matchBlocks, seconds: 0.3 * seconds),
+      divided("matches", matchBlocks, share: 0.3),
       stage("morePairs", seconds: 0.03 * seconds, holdsAll: true),
-      stage("moreMatches", blocks: matchBlocks, seconds: 0.17 * seconds),
-      stage("cameras", seconds: 0.32 * seconds + masks, holdsAll: true),
+      divided("moreMatches", matchBlocks, share: 0.17),
+      cameras(share: 0.32),
     ]
   }
 

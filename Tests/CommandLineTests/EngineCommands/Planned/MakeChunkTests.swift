@@ -95,7 +95,7 @@ import Testing
   @Test func killedChunkMayBeMadeAgain() throws {
     #expect(
       try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
-    let chunk = try BackgroundProcess(["chunk", "plan", "features", "1"], in: folder)
+    let chunk = try BackgroundProcess(["chunk", "plan", "cameras", "1"], in: folder)
     #expect(
       BackgroundProcess.wait(60) {
         !BatchTests.children(of: chunk.process, count: 1).isEmpty
@@ -103,17 +103,17 @@ import Testing
     for child in BatchTests.children(of: chunk.process, count: 1) { kill(child, SIGKILL) }
     #expect(chunk.wait() == MakeChunk.transientCode, "\(chunk.errors)")
     let planned = try PlanFolder(reading: folder.appendingPathComponent("plan"))
-    let id = ChunkID(stage: "features", number: 1)
+    let id = ChunkID(stage: "cameras", number: 1)
     let killed = try #require(planned.status(of: id))
     #expect(killed.isTransient && killed.isShortOfMemory && killed.attempts == 1)
-    #expect(try run(["chunk", "plan", "features", "1"]).exitCode == 0)
+    #expect(try run(["chunk", "plan", "cameras", "1"]).exitCode == 0)
     #expect(planned.doneStatus(of: id)?.attempts == 2)
   }
 
   @Test func interruptedChunkEndsAtOnce() throws {
     #expect(
       try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
-    let chunk = try BackgroundProcess(["chunk", "plan", "features", "1"], in: folder)
+    let chunk = try BackgroundProcess(["chunk", "plan", "cameras", "1"], in: folder)
     _ = BatchTests.children(of: chunk.process, count: 1)
     chunk.signal(SIGTERM)
     #expect(chunk.wait() == 130, "\(chunk.errors)")
@@ -140,14 +140,14 @@ import Testing
   func clocksMayDiffer() throws {
     #expect(
       try run(["reconstruct", photos, "m.usdz", "--plan", "plan", "-d", "preview"]).exitCode == 0)
-    for (stage, offset) in [("photos", "+1h"), ("features", "-1h"), ("cameras", "+1h")] {
+    for (stage, offset) in [("photos", "+1h"), ("cameras", "-1h"), ("cloud", "+1h")] {
       let words = ["-f", offset, CommandProcess.program.path, "chunk", "plan", stage, "1"]
       #expect(Self.tool("/usr/bin/faketime", words, in: folder) == 0, "\(stage)")
     }
     let all = try run(["join", "plan", "--jobs", "1"])
     #expect(all.exitCode == 0, "\(all.errors)")
     let folder = try PlanFolder(reading: folder.appendingPathComponent("plan"))
-    #expect(folder.status(of: ChunkID(stage: "features", number: 1))?.attempts == 1)
+    #expect(folder.status(of: ChunkID(stage: "cameras", number: 1))?.attempts == 1)
   }
 
   private static let canMount: Bool = {
