@@ -17,7 +17,14 @@ struct Members: Sendable {
   }
 
   /// The elements of a group.
-  subscript(group: Int) -> ArraySlice<Int32> {
-    elements[Int(offsets[group])..<Int(offsets[group + 1])]
+  subscript(group: Int) -> ArraySlice<Int32> { elements[places(of: group)] }
+
+  /// Where the elements of a group are: unlike a slice, it holds no reference, which threads would
+  /// count one after the other.
+  func places(of group: Int) -> Range<Int> {
+    Int(offsets[group])..<Int(offsets[group + 1])
   }
+
+  /// The element at a place.
+  subscript(at place: Int) -> Int { Int(elements[place]) }
 }

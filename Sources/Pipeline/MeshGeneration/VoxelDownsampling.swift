@@ -86,7 +86,7 @@ struct VoxelDownsampling {
     }
     return Result(
       cloud: result, sampleOfPoint: grid.cells,
-      weights: (0..<grid.cellCount).map { Int32(members[$0].count) }, voxelSize: size)
+      weights: (0..<grid.cellCount).map { Int32(members.places(of: $0).count) }, voxelSize: size)
   }
 
   /// The mean points of some cells; `fallback` is the footprint of a point if none of its cell has
@@ -97,11 +97,10 @@ struct VoxelDownsampling {
     var result = PointCloud()
     var photos: [UInt16] = []
     for cell in cells {
-      let points = members[cell]
-      append(points, of: cloud, to: &result, fallback: fallback)
+      append(cell, of: members, cloud, to: &result, fallback: fallback)
       photos.removeAll(keepingCapacity: true)
-      for point in points {
-        for visibility in cloud.visibilities(of: Int(point)) {
+      for place in members.places(of: cell) {
+        for visibility in cloud.visibilities(of: members[at: place]) {
           photos.append(cloud.photoIndices[visibility])
         }
       }
@@ -116,16 +115,16 @@ struct VoxelDownsampling {
     return result
   }
 
-  /// Appends the weighted mean of some points, without their photos; `fallback` is the footprint if
-  /// none of them has one.
+  /// Appends the weighted mean of the points of a cell, without their photos; `fallback` is the
+  /// footprint if none of them has one.
   private func append(
-    _ points: ArraySlice<Int32>, of cloud: PointCloud, to result: inout PointCloud,
+    _ cell: Int, of members: Members, _ cloud: PointCloud, to result: inout PointCloud,
     fallback: Float
   ) {
     var (position, normal, color) = (SIMD3<Double>(), SIMD3<Double>(), SIMD3<Double>())
     var (consistency, footprint, sum) = (0.0, Float.infinity, 0.0)
-    for point in points {
-      let i = Int(point)
+    for place in members.places(of: cell) {
+      let i = members[at: place]
       let value = cloud.consistency.isEmpty ? 1 : Double(cloud.consistency[i])
       let weight = max(
         options.minimumWeight, value.isFinite ? value : options.minimumWeight)
