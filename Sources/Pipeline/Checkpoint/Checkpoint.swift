@@ -17,7 +17,7 @@ import SceneModel
 /// report.json
 /// ```
 /// Every file is written atomically.
-package struct Checkpoint {
+package struct Checkpoint: Sendable {
   let directory: URL
 
   init(directory: URL) {

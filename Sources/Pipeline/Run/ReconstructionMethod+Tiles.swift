@@ -86,15 +86,17 @@ extension ReconstructionMethod {
         context)
     }
     let notes = { SavedNotes(recorder.notes[$0] ?? StageNotes()) }
-    try cache.sceneStore(of: scene.photos, configuration)?.save(
-      SampleRecord(
-        samples: system.samples, denseNotes: notes(.pointCloudGeneration),
-        notes: notes(.meshGeneration)))
+    let record = SampleRecord(
+      samples: system.samples, denseNotes: notes(.pointCloudGeneration),
+      notes: notes(.meshGeneration))
+    let scenes = try cache.sceneStore(of: scene.photos, configuration)
     let input = TileInput(
       scene: scene, views: views, geometry: geometry, output: output, store: store,
       base: .made(from: cloud, nil, system))
     try recorder.run(.optimization, images: images) { context in
-      _ = try tileModels(input, StageContext(control: context.control)).prepare()
+      try beside({ try scenes?.save(record) }, context.control) {
+        _ = try tileModels(input, StageContext(control: context.control)).prepare()
+      }
     }
   }
 

@@ -104,18 +104,20 @@ struct ReconstructionMethod {
   func densify(_ scene: ObjectScene) throws -> PointCloud {
     let (photos, reconstruction) = (scene.photos, scene.reconstruction)
     return try cache.cloud(viewPixels: viewPixels) {
-      let cloud = try recorder.run(.pointCloudGeneration, images: photos.images) { context in
+      try recorder.run(.pointCloudGeneration, images: photos.images) { context in
         let cloud = try PointCloudGeneration(options: configuration.pointCloudGeneration)
           .run(
             reconstruction, images: photos.images,
             folder: configuration.tiles == nil ? cache.checkpoint?.views : cache.viewFolder(),
             context)
-        try CloudMetrics().run(cloud, reconstruction, context.part(from: 1, to: 1))
         collector?.add(cloud)
+        let end = context.part(from: 1, to: 1)
+        try beside({ [checkpoint = cache.checkpoint] in try checkpoint?.write(cloud) }, end.control)
+        {
+          try CloudMetrics().run(cloud, reconstruction, end)
+        }
         return cloud
       }
-      try cache.checkpoint?.write(cloud)
-      return cloud
     }
   }
 

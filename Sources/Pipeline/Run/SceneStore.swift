@@ -1,7 +1,7 @@
 import Kernels
 
 /// A scene as a part of a run stores it for later ones.
-struct SceneStore {
+struct SceneStore: Sendable {
   let units: UnitStore
   /// The fingerprint of everything that the scene and the views of its dense stage depend on.
   let inputs: UInt64
