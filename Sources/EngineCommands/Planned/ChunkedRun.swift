@@ -5,12 +5,12 @@ import SharedCommands
 
 /// A run as chunks: parts of the stages, made on a cluster or by other schedulers.
 struct ChunkedRun {
-  /// The photos, or views, of a chunk: so few that little is lost with a machine. Chosen.
-  private static let usualPhotosPerChunk = 25
-  /// The expected time of a chunk of photos or views, at least, unless their number is given, in
-  /// seconds. Chosen: a scheduler takes as long to start it, and the process a twentieth of that to
-  /// read what it needs.
-  private static let leastSeconds = 2.0
+  /// The photos, or views, of a chunk: so few that little is lost with a machine, so many that most
+  /// sources of a view are in the same chunk. Chosen.
+  private static let usualPhotosPerChunk = 32
+  /// What dividing work among machines costs for each of its stages, in seconds. Chosen: a
+  /// scheduler takes about as long to start the next stage.
+  private static let secondsPerStage = 1.0
   /// Chunks of the photos for one of the pairs: a photo has about forty partners, and matching a
   /// pair takes a hundredth of the time of a photo's features. Chosen.
   private static let chunksPerMatchChunk = 2
@@ -86,23 +86,21 @@ struct ChunkedRun {
         + (hasTiles ? tileStages(blocks) : [ChunkStage(name: "model", chunks: [model])]))
   }
 
-  /// The steps of the dense stage. Of few views, one chunk makes all.
+  /// The steps of the dense stage; one chunk makes all of them if little time is saved otherwise.
   private func denseStages(_ blocks: Int) -> [ChunkStage] {
-    let seconds = durations.seconds(of: [.pointCloudGeneration])
-    let stages = DensePart.allCases.map { part in
-      let own = part.cost * seconds
-      return stage(part.rawValue, blocks: worthwhile(blocks, own), seconds: own)
-    }
-    guard stages.contains(where: { $0.chunks.count > 1 }) else {
+    let (parts, seconds) = (DensePart.allCases, durations.seconds(of: [.pointCloudGeneration]))
+    guard isWorthDividing(seconds, among: blocks, stages: parts.count) else {
       return [stage(DensePart.cloud.rawValue, blocks: 1, seconds: seconds)]
     }
-    return stages
+    return parts.map { stage($0.rawValue, blocks: blocks, seconds: $0.cost * seconds) }
   }
 
-  /// The number of chunks into which work of `seconds` is divided, at most `blocks`.
-  private func worthwhile(_ blocks: Int, _ seconds: Double) -> Int {
-    guard arguments.engine.photosPerChunk == nil else { return blocks }
-    return max(1, min(blocks, Int(seconds / Self.leastSeconds)))
+  /// Whether dividing work of `seconds` in each of several stages saves more time than it costs;
+  /// always if the number of photos per chunk is given.
+  private func isWorthDividing(_ seconds: Double, among blocks: Int, stages: Int = 1) -> Bool {
+    guard arguments.engine.photosPerChunk == nil else { return true }
+    let saved = seconds * (1 - 1 / Double(blocks))
+    return saved > Double(stages) * Self.secondsPerStage
   }
 
   /// The chunk of the model, which makes its surface, too, unless a chunk before it did.
@@ -115,22 +113,23 @@ struct ChunkedRun {
   }
 
   /// The stages up to the cameras. Of few photos, the chunk of the cameras makes all matches, and
-  /// features, too, if one chunk would make them.
+  /// features, too, if little time is saved otherwise.
   private func alignmentStages(_ blocks: Int) -> [ChunkStage] {
     let seconds = durations.seconds(of: [.imageAlignment])
     let masks = durations.seconds(of: [.objectMasking])
     let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
     func divided(_ name: String, _ blocks: Int, share: Double) -> ChunkStage {
-      stage(name, blocks: worthwhile(blocks, share * seconds), seconds: share * seconds)
+      stage(name, blocks: blocks, seconds: share * seconds)
     }
     func cameras(share: Double) -> ChunkStage {
       stage("cameras", seconds: share * seconds + masks, holdsAll: true)
     }
     guard blocks >= Self.leastChunksOfMany else {
       // Shares of alignment. Measured: in runs of 11, 32 and 40 photos.
-      let features = divided("features", blocks, share: 0.4)
-      return features.chunks.count > 1
-        ? [photos, features, cameras(share: 0.6)] : [photos, cameras(share: 1)]
+      let share = 0.4
+      return isWorthDividing(share * seconds, among: blocks)
+        ? [photos, divided("features", blocks, share: share), cameras(share: 1 - share)]
+        : [photos, cameras(share: 1)]
     }
     let matchBlocks = blocks / Self.chunksPerMatchChunk
     // Shares of alignment. Measured: in chunks of 250 photos of a town.
