@@ -232,20 +232,19 @@ class Forest {
 bool has_neighbors_in_order(const ck::Strided<float>& points, size_t index, double radius,
                             size_t minimum) {
   const float* p = points[index];
-  const size_t begin = index - std::min(index, kNextInOrder);
-  const size_t end = std::min(points.count, index + kNextInOrder + 1);
+  const double limit = radius * radius;
   size_t found = 0;
-  for (size_t i = begin; i < end; ++i) {
-    double squared = 0;
-    for (size_t a = 0; a < 3; ++a) {
-      // As nanoflann computes it.
-      const double d = points[i][a] - p[a];
-      squared += d * d;
-    }
-    // False for a point that is not finite; a point is near itself.
-    found += squared <= radius * radius;
+  const auto look_at = [&](size_t i) {
+    const float* q = points[i];
+    // As nanoflann computes it.
+    const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+    found += x * x + y * y + z * z <= limit;
+  };
+  for (size_t step = 1; step <= kNextInOrder && found < minimum; ++step) {
+    if (step <= index) look_at(index - step);
+    if (index + step < points.count) look_at(index + step);
   }
-  return found > minimum;
+  return found >= minimum;
 }
 
 }  // namespace
