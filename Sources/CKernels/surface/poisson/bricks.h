@@ -84,18 +84,19 @@ class BrickSet {
 };
 
 /// Calls `body(brick)` for all bricks, one color after the other, those of one color
-/// concurrently.
+/// concurrently. The work on a brick is that of `samples` samples on average.
 template <typename Body>
-void for_colors(const BrickSet& bricks, int period, const ck_control* control, Body&& body) {
-  // Chosen: starting threads takes longer than a few bricks.
-  constexpr size_t kFewBricks = 32;
+void for_colors(const BrickSet& bricks, int period, const ck_control* control, Body&& body,
+                size_t samples = 0) {
+  // Chosen: starting threads takes longer than a few bricks with few samples.
+  constexpr size_t kFewBricks = 32, kFewSamples = 1024;
   const auto colors = bricks.colors(period);
   size_t done = 0;
   for (const std::vector<uint32_t>& color : colors) {
     const double count = static_cast<double>(bricks.count());
     const ProgressPart part(control, done / count, (done + color.size()) / count);
     ck_control own = *part.control();
-    if (color.size() < kFewBricks) own.threads = 1;
+    if (color.size() < kFewBricks && samples < kFewSamples) own.threads = 1;
     parallel_for(&own, color.size(), [&](size_t k) { body(color[k]); });
     done += color.size();
   }

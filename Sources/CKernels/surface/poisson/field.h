@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -79,7 +80,7 @@ inline double interpolate(const std::vector<float>& values, const BrickSet& bric
 template <int Channels, typename Value>
 void splat(Field<Channels>& field, const BrickSet& bricks, const Samples& samples, int depth,
            const ck_control* control, Value&& value) {
-  for_colors(bricks, 3, control, [&](size_t brick) {
+  const auto add = [&](size_t brick) {
     const auto [first, last] = samples.range(bricks.code(brick), depth);
     for (size_t i = first; i < last; ++i) {
       const Sample& s = samples.samples[i];
@@ -94,7 +95,8 @@ void splat(Field<Channels>& field, const BrickSet& bricks, const Samples& sample
         }
       }
     }
-  });
+  };
+  for_colors(bricks, 3, control, add, samples.samples.size() / std::max<size_t>(1, bricks.count()));
 }
 
 }  // namespace ck::poisson
