@@ -65,16 +65,12 @@ package struct CloudMetrics: Sendable {
     let grid = PointGrid(sparsePositions, reach: reach)
     let unit = 1 << 17  // Dense points of a unit of parallel work. Chosen.
     let near = try control.parallelMap((cloud.count + unit - 1) / unit) { number in
-      var near = Set<Int32>()
-      for index in number * unit..<min((number + 1) * unit, cloud.count) {
-        grid.addPoints(
-          near: cloud.positions[index], within: min(reach, factor * cloud.footprints[index]),
-          to: &near)
+      grid.points(near: number * unit..<min((number + 1) * unit, cloud.count), of: cloud) {
+        min(reach, factor * cloud.footprints[$0])
       }
-      return near
     }
     var isCovered = [Bool](repeating: false, count: sparsePositions.count)
-    for index in near.joined() { isCovered[Int(index)] = true }
+    for index in near.joined() { isCovered[index] = true }
     return Double(isCovered.count { $0 }) / Double(points.count)
   }
 
@@ -148,13 +144,25 @@ private struct PointGrid: Sendable {
     }
   }
 
-  /// Adds the numbers of the points within `distance` (at most `reach`) of `point`.
-  func addPoints(near point: SIMD3<Float>, within distance: Float, to found: inout Set<Int32>) {
-    guard let cell = cell(of: point), let near = cells[cell] else { return }
-    for index in near {
-      let offset = sparsePositions[Int(index)] - point
-      if (offset * offset).sum() <= distance * distance { found.insert(index) }
+  /// The numbers of the points near dense points, within a `distance` of each of at most `reach`.
+  func points(
+    near dense: Range<Int>, of cloud: PointCloud, within distance: (Int) -> Float
+  ) -> [Int] {
+    var isNear = [Bool](repeating: false, count: sparsePositions.count)
+    // Dense points that follow each other are often in one cell.
+    var last: SIMD3<Int32>?
+    var candidates: [Int32] = []
+    for point in dense {
+      let position = cloud.positions[point]
+      guard let cell = cell(of: position) else { continue }
+      if cell != last { (last, candidates) = (cell, cells[cell] ?? []) }
+      let limit = distance(point)
+      for index in candidates where !isNear[Int(index)] {
+        let offset = sparsePositions[Int(index)] - position
+        isNear[Int(index)] = (offset * offset).sum() <= limit * limit
+      }
     }
+    return isNear.indices.filter { isNear[$0] }
   }
 
   /// Nil if the point isn't finite or its cell index would overflow.
