@@ -14,18 +14,21 @@ package struct Block: Hashable, Sendable {
     (index * total / count)..<((index + 1) * total / count)
   }
 
-  /// The indices of the block among elements that take work in proportion to their weights, so that
-  /// all blocks have about the same work: those whose middle is in the block's part of the sum.
-  package func range(ofWeights weights: [Int]) -> Range<Int> {
-    let total = weights.reduce(0, +)
-    func bound(_ block: Int) -> Int {
-      guard block < count else { return weights.count }
-      var before = 0
-      return weights.prefix { weight in
-        defer { before += weight }
-        return (2 * before + weight) * count < 2 * total * block
-      }.count
+  /// The indices of the block among elements that take work in proportion to their weights. Each
+  /// element, the heaviest first, is in the block that has the least work by then (Graham, "Bounds
+  /// on multiprocessing timing anomalies", SIAM J. Appl. Math. 1969). The first blocks have the
+  /// most work, so that processes that take one block after the other end at about the same time.
+  package func indices(ofWeights weights: [Int]) -> [Int] {
+    typealias Part = (work: Int, number: Int, elements: [Int])
+    var parts = Heap<Part> { ($0.work, $0.number) < ($1.work, $1.number) }
+    for number in 0..<count { parts.insert((0, number, [])) }
+    for element in weights.indices.sorted(by: { (-weights[$0], $0) < (-weights[$1], $1) }) {
+      guard var part = parts.popFirst() else { break }
+      part.work += weights[element]
+      part.elements.append(element)
+      parts.insert(part)
     }
-    return bound(index)..<bound(index + 1)
+    let all = (0..<count).compactMap { _ in parts.popFirst() }
+    return all[count - 1 - index].elements.sorted()
   }
 }

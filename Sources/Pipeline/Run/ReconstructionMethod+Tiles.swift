@@ -129,18 +129,18 @@ extension ReconstructionMethod {
   ) throws {
     let own = StageContext(control: context.control)
     let begin = own.part(from: 0, to: 0.05)
-    let steps = { (tiles: Range<Int>, tile: Int) in
-      own.part(from: 0.05, to: 1).part(tile - tiles.lowerBound, of: tiles.count)
+    func each(_ tiles: [Int], _ body: (Int, StageContext) throws -> Void) throws {
+      for (number, tile) in tiles.enumerated() {
+        try body(tile, own.part(from: 0.05, to: 1).part(number, of: tiles.count))
+      }
     }
     switch part {
     case .tileSurfaces:
       let (surfaces, _) = try tileSurfaces(input, begin)
-      let tiles = surfaces.base.tiles(of: block)
-      for tile in tiles { try surfaces.solve(tile, steps(tiles, tile)) }
+      try each(surfaces.base.tiles(of: block)) { try surfaces.solve($0, $1) }
     case .tiles:
       let models = try tileModels(input, begin)
-      let tiles = models.surfaces.base.tiles(of: block)
-      for tile in tiles { try models.write(tile, steps(tiles, tile)) }
+      try each(models.surfaces.base.tiles(of: block)) { try models.write($0, $1) }
     }
   }
 

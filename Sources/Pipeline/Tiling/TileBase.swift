@@ -24,7 +24,7 @@ struct TileBase {
   var spacing: Double { max(voxelSize, grid.cube.side / exp2(Double(depth)) / 2) }
 
   /// The tiles of a block, so that all blocks have about the same number of points.
-  func tiles(of block: Block) -> Range<Int> { block.range(ofWeights: grid.pointCounts) }
+  func tiles(of block: Block) -> [Int] { block.indices(ofWeights: grid.pointCounts) }
 }
 
 extension TileBase: UnitValue {

@@ -16,19 +16,26 @@ import Testing
     var random = SeededGenerator(seed: 1)
     for largest in [0, 1, 1000] {
       let weights = (0..<elements).map { _ in Int(Double(largest) * random.uniform()) }
-      let indices = (0..<blocks).flatMap { Block(index: $0, of: blocks).range(ofWeights: weights) }
-      #expect(indices == Array(0..<elements))
+      let indices = (0..<blocks).flatMap {
+        Block(index: $0, of: blocks).indices(ofWeights: weights)
+      }
+      #expect(indices.sorted() == Array(0..<elements))
     }
   }
 
-  /// A block has its share of the weight, but for parts of the elements at its ends.
-  @Test func blocksHaveAboutTheSameWeight() {
+  /// The greatest weight is at most that of an element above the least (Graham 1969).
+  @Test func blocksHaveAboutTheSameWeightAndTheHeaviestIsFirst() {
     var random = SeededGenerator(seed: 2)
     let weights = (0..<200).map { _ in Int(1 + 1000 * random.uniform()) }
-    let share = weights.reduce(0, +) / 9
-    for index in 0..<9 {
-      let own = weights[Block(index: index, of: 9).range(ofWeights: weights)].reduce(0, +)
-      #expect(abs(own - share) <= 1001)
+    let sums = (0..<9).map { index in
+      Block(index: index, of: 9).indices(ofWeights: weights).reduce(0) { $0 + weights[$1] }
     }
+    #expect(sums == sums.sorted(by: >))
+    #expect(sums[0] - sums[8] <= weights.max() ?? 0)
+  }
+
+  @Test func blocksAreElementsInDescendingOrderIfThereAreEnough() {
+    let blocks = (0..<4).map { Block(index: $0, of: 4).indices(ofWeights: [3, 9, 5]) }
+    #expect(blocks == [[1], [2], [0], []])
   }
 }
