@@ -94,6 +94,8 @@ void BundleLayout::sort_observations(const ck_bundle& bundle) {
 
   std::vector<int32_t> poses, camera_keys;
   observations.reserve(points.size());
+  poses.reserve(points.size());
+  camera_keys.reserve(points.size());
   for (const int32_t index : by_point.values) {
     const ck_observation& o = bundle.observations[index];
     const int32_t camera = bundle.photo_cameras[o.photo];

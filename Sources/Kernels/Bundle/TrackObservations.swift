@@ -22,6 +22,14 @@ package struct TrackObservations: Sendable {
     offsets.append(Int32(observations.count))
   }
 
+  /// Adds an observation of the track that `endTrack()` ends.
+  package mutating func append(_ observation: PointObservation) {
+    observations.append(observation)
+  }
+
+  /// Ends a track; the next observations are those of another one.
+  package mutating func endTrack() { offsets.append(Int32(observations.count)) }
+
   /// Calls `body` with the C representation, valid only during the call.
   func withKernelValue<Result>(
     _ body: (UnsafePointer<ck_tracks>) throws -> Result

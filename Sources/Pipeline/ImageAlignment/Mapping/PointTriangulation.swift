@@ -48,20 +48,14 @@ struct PointTriangulation: Sendable {
   func complete(
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
   ) throws -> Int {
-    var batch = TrackObservations()
-    var positions: [SIMD3<Double>] = []
-    var indices: [Int] = []
-    for track in candidates where map.isTriangulated[track] {
-      let missing = map.tracks.observations(of: track)
-        .filter { !map.isActive[$0] && map.isRegistered(Int(map.tracks.photos[$0])) }
-      guard !missing.isEmpty else { continue }
-      batch.append(missing.map { map.pointObservation($0, point: track) })
-      positions.append(map.positions[track])
-      indices += missing
+    let tracks = candidates.filter { map.isTriangulated[$0] }
+    let (batch, indices) = map.observations(of: tracks) {
+      map.isActive[$0] || !map.isRegistered(Int(map.tracks.photos[$0]))
     }
+    guard !indices.isEmpty else { return 0 }
     let (errors, _) = try Triangulation.measure(
-      batch, positions: positions, photos: map.photos, maximumError: options.maximumError,
-      control: control)
+      batch, positions: tracks.map { map.positions[$0] }, photos: map.photos,
+      maximumError: options.maximumError, control: control)
     var count = 0
     for (index, error) in zip(indices, errors) where error <= options.maximumError {
       map.isActive[index] = true
@@ -78,13 +72,7 @@ struct PointTriangulation: Sendable {
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
   ) throws -> Int {
     let tracks = candidates.filter { map.isTriangulated[$0] }
-    var batch = TrackObservations()
-    var indices: [Int] = []
-    for track in tracks {
-      let active = map.activeObservations(of: track)
-      batch.append(active.map { map.pointObservation($0, point: track) })
-      indices += active
-    }
+    let (batch, indices) = map.observations(of: tracks) { !map.isActive[$0] }
     let (errors, angles) = try Triangulation.measure(
       batch, positions: tracks.map { map.positions[$0] }, photos: map.photos,
       maximumError: options.maximumError, control: control)

@@ -67,14 +67,11 @@ extension SparseMap {
 
   /// The median reprojection error of the active observations in pixels; 0 without any.
   func medianError(_ control: KernelControl) throws -> Double {
-    var batch = TrackObservations()
-    var points: [SIMD3<Double>] = []
-    for track in 0..<tracks.count where isTriangulated[track] {
-      batch.append(activeObservations(of: track).map { pointObservation($0, point: points.count) })
-      points.append(positions[track])
-    }
+    let triangulated = isTriangulated.indices.filter { isTriangulated[$0] }
+    let (batch, _) = observations(of: triangulated) { !isActive[$0] }
     let (errors, _) = try Triangulation.measure(
-      batch, positions: points, photos: photos, maximumError: 1, control: control)
+      batch, positions: triangulated.map { positions[$0] }, photos: photos, maximumError: 1,
+      control: control)
     return errors.upperMedian ?? 0
   }
 

@@ -89,6 +89,23 @@ struct SparseMap: Sendable {
     tracks.observations(of: track).filter { isActive[$0] }
   }
 
+  /// The observations of some tracks, and their indices, without those for which `isLeftOut` is
+  /// true. Points have the numbers of the tracks in `chosen`.
+  func observations(
+    of chosen: [Int], leavingOut isLeftOut: (Int) -> Bool
+  ) -> (batch: TrackObservations, indices: [Int]) {
+    var batch = TrackObservations()
+    var indices: [Int] = []
+    for (point, track) in chosen.enumerated() {
+      for index in tracks.observations(of: track) where !isLeftOut(index) {
+        batch.append(pointObservation(index, point: point))
+        indices.append(index)
+      }
+      batch.endTrack()
+    }
+    return (batch, indices)
+  }
+
   /// The number of observations of a photo that support a point.
   func activeCount(ofPhoto photo: Int) -> Int {
     tracks.observationsOfPhoto[photo].count { isActive[Int($0)] }

@@ -4,6 +4,9 @@ import SceneModel
 
 /// The templates of a map's tracks, and the template matching in each photo.
 struct TemplateSearch: Sendable {
+  /// Tracks of a unit of parallel work. Chosen: some milliseconds.
+  private static let unit = 2048
+
   private let options: ObservationRefinement.Options
   private let photos: [Photo]
   private let extraction: TemplateExtraction
@@ -14,6 +17,7 @@ struct TemplateSearch: Sendable {
   /// A pending search in one photo.
   private struct Candidate: Sendable {
     var track: Int
+    var photo: Int
     /// The observation to be refined; nil for a new one.
     var observation: Int?
     var expected: SIMD2<Double>
@@ -40,32 +44,33 @@ struct TemplateSearch: Sendable {
     (self.options, self.photos) = (options, photos)
     extraction = TemplateExtraction(
       photos: photos, images: images, workingPixels: options.workingPixels)
-    references = (0..<map.tracks.count).map { track in
-      guard map.isTriangulated[track] else { return nil }
-      return TrackReference(track: track, of: map) { photo, feature in
-        let scales = features[photo].scales
-        let scale = scales.indices.contains(Int(feature)) ? Double(scales[Int(feature)]) : 0
-        return max(
-          options.stepPerScale * scale,
-          options.workingPixel(width: photos[photo].width, height: photos[photo].height))
-      }
+    @Sendable func scale(_ photo: Int, _ feature: Int32) -> Double {
+      let scales = features[photo].scales
+      let scale = scales.indices.contains(Int(feature)) ? Double(scales[Int(feature)]) : 0
+      return max(
+        options.stepPerScale * scale,
+        options.workingPixel(width: photos[photo].width, height: photos[photo].height))
     }
+    references = try context.control.withoutProgress
+      .parallelMap(map.tracks.count, inUnitsOf: Self.unit) { [map] tracks in
+        tracks.map { track in
+          map.isTriangulated[track] ? TrackReference(track: track, of: map, scale: scale) : nil
+        }
+      }
     templates = try extraction.templates(of: references, context.control)
   }
 
   /// Moves the observations of the map to where their templates are found; deactivates those whose
   /// texture differs.
   func refine(_ map: inout SparseMap, _ context: StageContext) throws {
-    var candidates = [[Candidate]](repeating: [], count: photos.count)
-    for (track, reference) in references.enumerated() {
-      guard let reference, templates.isValid[track] else { continue }
-      for index in map.activeObservations(of: track) {
+    let candidates = try candidates(context.control) { [map] track, reference in
+      map.activeObservations(of: track).compactMap { index in
         let photo = Int(map.tracks.photos[index])
         guard photo != reference.photo, let (_, warp) = reference.warp(to: photo, in: map.photos)
-        else { continue }
-        candidates[photo].append(
-          Candidate(
-            track: track, observation: index, expected: map.tracks.pixels[index], warp: warp))
+        else { return nil }
+        return Candidate(
+          track: track, photo: photo, observation: index, expected: map.tracks.pixels[index],
+          warp: warp)
       }
     }
     let finds = try finds(
@@ -92,12 +97,9 @@ struct TemplateSearch: Sendable {
   /// how many.
   func extend(_ map: inout SparseMap, _ context: StageContext) throws -> Int {
     let neighbors = neighbors(map)
-    var candidates = [[Candidate]](repeating: [], count: photos.count)
-    for (track, reference) in references.enumerated() {
-      guard let reference, templates.isValid[track], map.isTriangulated[track] else { continue }
-      for candidate in newViews(of: track, reference, neighbors[reference.photo], map) {
-        candidates[candidate.photo].append(candidate.value)
-      }
+    let candidates = try candidates(context.control) { [self, map] track, reference in
+      map.isTriangulated[track]
+        ? newViews(of: track, reference, neighbors[reference.photo], map) : []
     }
     let finds = try finds(
       candidates, shift: options.maximumNewShift, correlation: options.minimumNewCorrelation,
@@ -116,10 +118,27 @@ struct TemplateSearch: Sendable {
     return additions.count
   }
 
-  /// The photos in which a point should be visible but has no active observation.
+  /// The candidates that `find` returns for each track with a valid template, by photo.
+  private func candidates(
+    _ control: KernelControl,
+    _ find: @escaping @Sendable (_ track: Int, TrackReference) -> [Candidate]
+  ) throws -> [[Candidate]] {
+    let found = try control.withoutProgress
+      .parallelMap(references.count, inUnitsOf: Self.unit) { [self] tracks in
+        tracks.flatMap { track -> [Candidate] in
+          guard let reference = references[track], templates.isValid[track] else { return [] }
+          return find(track, reference)
+        }
+      }
+    var candidates = [[Candidate]](repeating: [], count: photos.count)
+    for candidate in found { candidates[candidate.photo].append(candidate) }
+    return candidates
+  }
+
+  /// The searches in photos in which a point should be visible but has no active observation.
   private func newViews(
     of track: Int, _ reference: TrackReference, _ neighbors: [Int], _ map: SparseMap
-  ) -> [(photo: Int, value: Candidate)] {
+  ) -> [Candidate] {
     let known = Set(map.activeObservations(of: track).map { Int(map.tracks.photos[$0]) })
     guard known.contains(reference.photo) else { return [] }
     var current = reference
@@ -132,7 +151,8 @@ struct TemplateSearch: Sendable {
         pixel.x > 0, pixel.y > 0, pixel.x < Double(photos[photo].width),
         pixel.y < Double(photos[photo].height)
       else { return nil }
-      return (photo, Candidate(track: track, observation: nil, expected: pixel, warp: warp))
+      return Candidate(
+        track: track, photo: photo, observation: nil, expected: pixel, warp: warp)
     }
   }
 
