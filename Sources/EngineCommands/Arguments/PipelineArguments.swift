@@ -39,8 +39,8 @@ package struct PipelineArguments: EngineArguments {
   @Option(
     name: .long,
     help: ArgumentHelp(
-      "With --slurm or --plan: the photos, or views, of a chunk (default: 32; no division of work "
-        + "that takes seconds).", valueName: "count"))
+      "With --slurm or --plan: the photos, or views, of a chunk (default: 32; work of a few "
+        + "seconds is not divided).", valueName: "count"))
   var photosPerChunk: Int?
 
   @Option(

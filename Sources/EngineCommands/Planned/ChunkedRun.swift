@@ -14,10 +14,6 @@ struct ChunkedRun {
   /// Chunks of the photos for one of the pairs: a photo has about forty partners, and matching a
   /// pair takes a hundredth of the time of a photo's features. Chosen.
   private static let chunksPerMatchChunk = 2
-  /// The number of chunks of the photos from which on pairs are chunks of their own, and tiles are
-  /// divided among more. Chosen: a scheduler takes seconds for each of the four more stages, and
-  /// few photos are matched in that time.
-  private static let leastChunksOfMany = 8
   /// Chunks of the tiles for one of many photos. Chosen: about one for each tile, of which the town
   /// of 1000 photos has 66 at reduced, since nodes wait for the last chunk.
   private static let tileChunksPerChunk = 2
@@ -98,9 +94,17 @@ struct ChunkedRun {
   /// Whether dividing work of `seconds` in each of several stages saves more time than it costs;
   /// always if the number of photos per chunk is given.
   private func isWorthDividing(_ seconds: Double, among blocks: Int, stages: Int = 1) -> Bool {
-    guard arguments.engine.photosPerChunk == nil else { return true }
+    guard blocks > 1, arguments.engine.photosPerChunk == nil else { return blocks > 1 }
     let saved = seconds * (1 - 1 / Double(blocks))
     return saved > Double(stages) * Self.secondsPerStage
+  }
+
+  /// Whether pairs are matched in chunks of their own, in four stages more.
+  private func dividesMatches(_ blocks: Int) -> Bool {
+    let shares = AlignmentShares.self
+    return isWorthDividing(
+      (shares.matches + shares.moreMatches) * durations.seconds(of: [.imageAlignment]),
+      among: blocks / Self.chunksPerMatchChunk, stages: 4)
   }
 
   /// The chunk of the model, which makes its surface, too, unless a chunk before it did.
@@ -112,34 +116,42 @@ struct ChunkedRun {
       holdsAll: true)
   }
 
-  /// The stages up to the cameras. Of few photos, the chunk of the cameras makes all matches, and
-  /// features, too, if little time is saved otherwise.
+  /// Shares of the time of alignment.
+  private enum AlignmentShares {
+    /// Measured: in chunks of 250 photos of a town.
+    static let (features, pairs, matches) = (0.15, 0.03, 0.3)
+    /// Measured: as above.
+    static let (morePairs, moreMatches, cameras) = (0.03, 0.17, 0.32)
+    /// That of features among few photos, which have few pairs. Measured: in runs of 11, 32 and 40
+    /// photos.
+    static let featuresOfFew = 0.4
+  }
+
+  /// The stages up to the cameras. The chunk of the cameras makes matches and features, too, if
+  /// little time is saved otherwise.
   private func alignmentStages(_ blocks: Int) -> [ChunkStage] {
-    let seconds = durations.seconds(of: [.imageAlignment])
+    let (seconds, shares) = (durations.seconds(of: [.imageAlignment]), AlignmentShares.self)
     let masks = durations.seconds(of: [.objectMasking])
     let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
-    func divided(_ name: String, _ blocks: Int, share: Double) -> ChunkStage {
-      stage(name, blocks: blocks, seconds: share * seconds)
-    }
     func cameras(share: Double) -> ChunkStage {
       stage("cameras", seconds: share * seconds + masks, holdsAll: true)
     }
-    guard blocks >= Self.leastChunksOfMany else {
-      // Shares of alignment. Measured: in runs of 11, 32 and 40 photos.
-      let share = 0.4
-      return isWorthDividing(share * seconds, among: blocks)
-        ? [photos, divided("features", blocks, share: share), cameras(share: 1 - share)]
-        : [photos, cameras(share: 1)]
+    guard dividesMatches(blocks) else {
+      let ofFeatures = shares.featuresOfFew * seconds
+      return isWorthDividing(ofFeatures, among: blocks)
+        ? [
+          photos, stage("features", blocks: blocks, seconds: ofFeatures),
+          cameras(share: 1 - shares.featuresOfFew),
+        ] : [photos, cameras(share: 1)]
     }
     let matchBlocks = blocks / Self.chunksPerMatchChunk
-    // Shares of alignment. Measured: in chunks of 250 photos of a town.
     return [
-      photos, divided("features", blocks, share: 0.15),
-      stage("pairs", seconds: 0.03 * seconds, holdsAll: true),
-      divided("matches", matchBlocks, share: 0.3),
-      stage("morePairs", seconds: 0.03 * seconds, holdsAll: true),
-      divided("moreMatches", matchBlocks, share: 0.17),
-      cameras(share: 0.32),
+      photos, stage("features", blocks: blocks, seconds: shares.features * seconds),
+      stage("pairs", seconds: shares.pairs * seconds, holdsAll: true),
+      stage("matches", blocks: matchBlocks, seconds: shares.matches * seconds),
+      stage("morePairs", seconds: shares.morePairs * seconds, holdsAll: true),
+      stage("moreMatches", blocks: matchBlocks, seconds: shares.moreMatches * seconds),
+      cameras(share: shares.cameras),
     ]
   }
 
@@ -157,7 +169,7 @@ struct ChunkedRun {
     let seconds =
       durations.seconds(of: [.optimization]) - withoutTiles.seconds(of: [.optimization])
     let surface = durations.seconds(of: [.meshGeneration]) / 2
-    let tileBlocks = blocks < Self.leastChunksOfMany ? blocks : Self.tileChunksPerChunk * blocks
+    let tileBlocks = dividesMatches(blocks) ? Self.tileChunksPerChunk * blocks : blocks
     func tiles(_ part: TilePart, beside other: Chunk) -> ChunkStage {
       var result = stage(
         part.rawValue, blocks: tileBlocks, seconds: part.cost * seconds, holdsAll: true)

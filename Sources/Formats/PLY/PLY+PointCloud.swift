@@ -4,6 +4,8 @@ import SceneModel
 extension PLY {
   /// Points whose rows are written at a time. Chosen: a few megabytes.
   private static let pointsPerBlock = 1 << 16
+  /// Bytes of a row with some photos, for which space is reserved. Chosen.
+  private static let usualRowSize = 48
 
   /// Writes a cloud; throws `OutputError`.
   ///
@@ -14,7 +16,7 @@ extension PLY {
     try AtomicFile.write(to: url) { append in
       try Array(parts.header.utf8).withUnsafeBytes(append)
       for start in stride(from: 0, to: cloud.count, by: pointsPerBlock) {
-        var writer = ByteWriter(capacity: pointsPerBlock * 48)
+        var writer = ByteWriter(capacity: pointsPerBlock * usualRowSize)
         parts.append(start..<min(start + pointsPerBlock, cloud.count), to: &writer)
         try writer.bytes.withUnsafeBytes(append)
       }
@@ -24,7 +26,7 @@ extension PLY {
   /// The bytes that `write` writes.
   package static func encode(_ cloud: PointCloud) -> [UInt8] {
     let parts = CloudParts(cloud)
-    var writer = ByteWriter(capacity: parts.header.utf8.count + cloud.count * 48)
+    var writer = ByteWriter(capacity: parts.header.utf8.count + cloud.count * usualRowSize)
     writer.append(parts.header)
     parts.append(0..<cloud.count, to: &writer)
     return writer.bytes

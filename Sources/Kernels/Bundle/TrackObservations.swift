@@ -19,7 +19,7 @@ package struct TrackObservations: Sendable {
   /// Adds the observations of the next track.
   package mutating func append(_ track: some Sequence<PointObservation>) {
     observations.append(contentsOf: track)
-    offsets.append(Int32(observations.count))
+    endTrack()
   }
 
   /// Adds an observation of the track that `endTrack()` ends.

@@ -36,13 +36,9 @@ struct SceneTrimming {
     var isKept = try control.parallelMap(cloud.count, inUnitsOf: unit) {
       $0.map { cloud.footprints[$0] <= limit && hasParallax(cloud, $0, centers, minimumCosine) }
     }
-    var positions = cloud.positions
-    // The grid leaves out what isn't finite.
-    for index in isKept.indices where !isKept[index] {
-      positions[index] = SIMD3(repeating: .nan)
-    }
     let grid = try VoxelGrid(
-      positions, cellSize: Double(median) * options.connectionFootprints, findsComponents: true,
+      cloud.positions.voided(unless: isKept),
+      cellSize: Double(median) * options.connectionFootprints, findsComponents: true,
       context.control.part(from: 0.4, to: 1))
     var counts = [Int](repeating: 0, count: grid.componentCount)
     for component in grid.components where component >= 0 { counts[Int(component)] += 1 }

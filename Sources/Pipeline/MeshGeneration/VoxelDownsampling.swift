@@ -42,11 +42,8 @@ struct VoxelDownsampling {
   ) throws -> Result {
     var kept = PointCloud(positions: cloud.positions, footprints: cloud.footprints)
     if let isKept {
-      // The grid leaves out what isn't finite.
-      for index in isKept.indices where !isKept[index] {
-        kept.positions[index] = SIMD3(repeating: .nan)
-        kept.footprints[index] = 0
-      }
+      kept.positions = kept.positions.voided(unless: isKept)
+      for index in isKept.indices where !isKept[index] { kept.footprints[index] = 0 }
     }
     guard let footprint = footprint ?? kept.medianFootprint, footprint > 0 else {
       throw PipelineError.noSurface(reason: "the point cloud is empty.")
@@ -159,5 +156,14 @@ extension VoxelDownsampling {
       options.outlierNeighbors, of: cloud.positions,
       within: cloud.footprints.map { radius * min(coarsest, max(voxel, $0)) }, control)
     cloud.retain(isKept)
+  }
+}
+
+extension [SIMD3<Float>] {
+  /// The positions, those that are not kept without a number: a `VoxelGrid` leaves them out.
+  func voided(unless isKept: [Bool]) -> Self {
+    var result = self
+    for index in isKept.indices where !isKept[index] { result[index] = SIMD3(repeating: .nan) }
+    return result
   }
 }

@@ -4,11 +4,15 @@ import TestSupport
 import Testing
 
 @Suite struct PointNeighborsTests {
-  /// 40,000 points are in several trees.
-  @Test(arguments: [1, 5, 100, 40_000])
-  func neighborsAreThoseOfTheNearestSearch(count: Int) throws {
+  /// 40,000 points are in several trees. On a line, neighbors follow each other.
+  @Test(arguments: [1, 5, 100, 40_000], [false, true])
+  func neighborsAreThoseOfTheNearestSearch(count: Int, areOnALine: Bool) throws {
     var random = SeededGenerator(seed: 7)
-    var points = (0..<count).map { _ in SIMD3<Float>(random.normal3()) }
+    var points = (0..<count).map { index in
+      areOnALine
+        ? SIMD3<Float>(0.1 * Float(index), 0.05 * Float(random.uniform()), 0)
+        : SIMD3<Float>(random.normal3())
+    }
     let radii = (0..<count).map { _ in Float(0.01 + 0.49 * random.uniform()) }
     points[count / 2].y = .nan
     let found = try [1, 3].map {

@@ -51,6 +51,27 @@ import Testing
     #expect(store.scene(of: self.photos(reconstruction.photos.dropLast())) == nil)
   }
 
+  @Test func samplesAreThoseThatWereStored() throws {
+    let notes = StageNotes()
+    notes.record("samples", 1)
+    let cloud = PointCloud(
+      positions: [[1, 2, 3]], normals: [[0, 0, 1]], colors: [[4, 5, 6]], consistency: [0.5],
+      footprints: [0.1], photoOffsets: [0, 1], photoIndices: [3])
+    let record = SampleRecord(
+      samples: SurfaceSamples(cloud: cloud, voxelSize: 0.25, isObject: true, support: nil),
+      denseNotes: SavedNotes(StageNotes()), notes: SavedNotes(notes))
+    let folder = try TemporaryFolder()
+    let store = store(in: folder)
+    #expect(store.samples == nil)
+    try store.save(record)
+    let found = try #require(store.samples)
+    #expect(found.samples.cloud.encoded() == cloud.encoded())
+    #expect(found.samples.voxelSize == 0.25 && found.samples.isObject)
+    #expect(found.notes.counts == ["samples": 1] && found.denseNotes.counts.isEmpty)
+    let bytes = try record.unitData()
+    for count in 0..<bytes.count { #expect(SampleRecord(unit: bytes.prefix(count)) == nil) }
+  }
+
   @Test func pointsOfAFileAreThoseOfItsViews() throws {
     let points = (0..<70).map { view in
       (0..<view % 3).map { SIMD3<Double>(Double(view), Double($0), 0.5) }

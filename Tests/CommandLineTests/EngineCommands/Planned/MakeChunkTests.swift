@@ -41,6 +41,20 @@ import Testing
     #expect(!FileManager.default.fileExists(atPath: work))
   }
 
+  /// Unless the photos of a chunk are given.
+  @Test func workOfSecondsIsNotDivided() throws {
+    func stages(_ options: [String]) throws -> [String] {
+      let words = ["reconstruct", photos, "m.usdz", "-d", "preview", "--plan", "plan"] + options
+      #expect(try run(words).exitCode == 0)
+      return try PlanFolder(reading: folder.appendingPathComponent("plan")).plan.stages.map(\.name)
+    }
+    let all = [
+      "photos", "features", "coarse", "coarseCompleted", "patches", "completed", "cloud", "model",
+    ]
+    #expect(try stages([]) == ["photos", "cameras", "cloud", "model"])
+    #expect(try Set(stages(["--photos-per-chunk", "9"])) == Set(all + ["cameras"]))
+  }
+
   @Test func chunksOfTilesMakeTheBytesOfARun() throws {
     let options = ["-d", "preview", "--set", "tiling.maximumPoints=30000", "--tiles"]
     let whole = try run(
