@@ -14,6 +14,9 @@ constexpr size_t kPointsPerChunk = 1024, kLinksPerChunk = 2048;
 /// Observations of the poses of a unit of work. Chosen: about a millisecond; results do not depend
 /// on it, because the row of a pose is one sum.
 constexpr size_t kObservationsPerUnit = 1000;
+/// Observations of a pose between asking for what one reads and reading it. Chosen: reading from
+/// memory takes as long as adding a few.
+constexpr size_t kReadAhead = 8;
 /// Bounds of the diagonal elements that damping is proportional to. Chosen: Ceres' defaults.
 constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;
 
@@ -174,8 +177,8 @@ void NormalEquations::reduce(double damping, ReducedSystem& system) {
   gradient_norm_ = std::max(gradient_norm_, add_cameras(damping, system));
 }
 
-/// Poses in units of about the same number of observations. The largest come first, so that threads
-/// finish at about the same time.
+/// Poses in units of about the same number of observations. Consecutive ones often see the same
+/// points, whose terms are then still in the cache.
 std::vector<NormalEquations::PoseUnit> NormalEquations::pose_units() const {
   std::vector<PoseUnit> units;
   const Lists& own = layout_.observations_of_pose;
@@ -186,9 +189,6 @@ std::vector<NormalEquations::PoseUnit> NormalEquations::pose_units() const {
     if (units.empty() || size(units.back()) >= kObservationsPerUnit) units.push_back({pose, pose});
     units.back().end = pose + 1;
   }
-  std::sort(units.begin(), units.end(), [&](const PoseUnit& a, const PoseUnit& b) {
-    return size(a) != size(b) ? size(a) > size(b) : a.begin < b.begin;
-  });
   return units;
 }
 
@@ -221,6 +221,7 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
   eliminated.setZero();
   const Lists& own = layout_.observations_of_pose;
   for (size_t i = own.starts[pose]; i < own.starts[pose + 1]; ++i) {
+    read_ahead(i, own.starts[pose + 1]);
     const auto k = size_t(own.values[i]);
     const auto& o = layout_.observations[k];
     const Reprojection& term = terms_[k];
@@ -240,6 +241,25 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
   system.poses[pose].blocks.front() += diagonal;
   system.right.segment<kPoseSize>(system.pose_offset(pose)) = eliminated - gradient;
   return gradient.cwiseAbs().maxCoeff();
+}
+
+/// Asks the memory for what `add_pose` reads of later observations than number i of all poses,
+/// before `end`: those of a pose are far apart.
+void NormalEquations::read_ahead(size_t i, size_t end) const {
+  const auto& own = layout_.observations_of_pose.values;
+  if (i + 2 * kReadAhead < end) {
+    const auto k = size_t(own[i + 2 * kReadAhead]);
+    __builtin_prefetch(&layout_.observations[k].point);
+    __builtin_prefetch(&terms_[k].by_pose);
+    __builtin_prefetch(&terms_[k].by_point);
+    __builtin_prefetch(&terms_[k].by_camera);
+  }
+  if (i + kReadAhead < end) {
+    const auto point = size_t(layout_.observations[size_t(own[i + kReadAhead])].point);
+    __builtin_prefetch(&inverses_[point]);
+    __builtin_prefetch(&gradients_[point]);
+    __builtin_prefetch(&terms_[layout_.point_starts[point]]);
+  }
 }
 
 /// Subtracts what the elimination of the point of observation k contributes to the row of its pose.

@@ -58,6 +58,7 @@ class NormalEquations {
   double eliminate_points(double damping);
   std::vector<PoseUnit> pose_units() const;
   double add_pose(size_t pose, double damping, ReducedSystem& system) const;
+  void read_ahead(size_t i, size_t end) const;
   void add_observation(size_t k, const Eigen::Matrix<double, 2, 3>& by_point, size_t pose,
                        ReducedSystem& system) const;
   double add_cameras(double damping, ReducedSystem& system) const;
