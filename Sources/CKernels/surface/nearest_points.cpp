@@ -25,11 +25,6 @@ struct Point {
   int32_t index;
 };
 
-/// Points on each side in the order of the input among which neighbors are looked for first.
-/// Chosen: points are often in an order in which neighbors follow each other, and a search for
-/// them takes longer.
-constexpr size_t kNextInOrder = 16;
-
 /// The nearest points found so far, the nearest first.
 class Nearest {
  public:
@@ -71,33 +66,6 @@ class Nearest {
   std::vector<double> squared_;
   std::vector<int32_t> indices_;
   const Point* points_ = nullptr;
-  size_t found_ = 0;
-};
-
-/// Looks for a number of points near a position, whichever.
-class AnyNear {
- public:
-  explicit AnyNear(size_t needed) : needed_(needed) {}
-
-  /// Starts a new search, for points within a radius.
-  void clear(double radius) {
-    found_ = 0;
-    limit_ = std::nextafter(radius * radius, std::numeric_limits<double>::infinity());
-  }
-  void look_in(const Point*) {}
-
-  // What nanoflann calls.
-  using DistanceType = double;
-  bool full() const { return found_ >= needed_; }
-  double worstDist() const { return full() ? 0 : limit_; }
-  bool addPoint(double squared, uint32_t) {
-    if (squared < limit_) ++found_;
-    return !full();
-  }
-
- private:
-  const size_t needed_;
-  double limit_ = 0;
   size_t found_ = 0;
 };
 
@@ -227,26 +195,6 @@ class Forest {
   std::vector<std::unique_ptr<PartTree>> trees_;
 };
 
-/// Whether a point has at least `minimum` others within a radius among those next to it in the
-/// order of the input.
-bool has_neighbors_in_order(const ck::Strided<float>& points, size_t index, double radius,
-                            size_t minimum) {
-  const float* p = points[index];
-  const double limit = radius * radius;
-  size_t found = 0;
-  const auto look_at = [&](size_t i) {
-    const float* q = points[i];
-    // As nanoflann computes it.
-    const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    found += x * x + y * y + z * z <= limit;
-  };
-  for (size_t step = 1; step <= kNextInOrder && found < minimum; ++step) {
-    if (step <= index) look_at(index - step);
-    if (index + step < points.count) look_at(index + step);
-  }
-  return found >= minimum;
-}
-
 }  // namespace
 
 ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_options* options,
@@ -278,36 +226,6 @@ ck_status ck_nearest_points(ck_span points, ck_span queries, const ck_nearest_op
           indices[i * width + k] = nearest.index(k);
           distances[i * width + k] = static_cast<float>(std::sqrt(nearest.squared(k)));
         }
-      }
-    });
-  });
-}
-
-ck_status ck_have_neighbors(ck_span points, const float* radii, size_t minimum,
-                            const ck_control* control, uint8_t* have_neighbors) {
-  return ck::guarded([&] {
-    ck::require(points.data || points.count == 0, "null pointer");
-    if (points.count == 0) return;
-    ck::require(radii && have_neighbors, "null pointer");
-    std::fill(have_neighbors, have_neighbors + points.count, 0);
-    ck::step(control, 0);
-    const ck::Strided<float> p(points);
-    const Forest forest(points, control);
-    const size_t count = forest.points().size();
-    ck::parallel_for(control, (count + kChunk - 1) / kChunk, [&](size_t chunk) {
-      // A point is near itself.
-      AnyNear near(minimum + 1);
-      const size_t end = std::min(count, (chunk + 1) * kChunk);
-      for (size_t i = chunk * kChunk; i < end; ++i) {
-        const Point& point = forest.points()[i];
-        const auto index = static_cast<size_t>(point.index);
-        if (has_neighbors_in_order(p, index, radii[index], minimum)) {
-          have_neighbors[index] = 1;
-          continue;
-        }
-        near.clear(radii[index]);
-        forest.search(point.position.data(), near);
-        have_neighbors[index] = near.full();
       }
     });
   });

@@ -4,7 +4,7 @@ import TestSupport
 import Testing
 
 @Suite struct PointNeighborsTests {
-  /// 40,000 points are in several trees. On a line, neighbors follow each other.
+  /// 40,000 points are sorted on several threads.
   @Test(arguments: [1, 5, 100, 40_000], [false, true])
   func neighborsAreThoseOfTheNearestSearch(count: Int, areOnALine: Bool) throws {
     var random = SeededGenerator(seed: 7)
@@ -24,6 +24,20 @@ import Testing
     #expect(found[1] == found[0])
     let finite = try PointNeighbors.atLeast(0, of: points, within: radii, KernelControl())
     #expect(finite == points.map(\.isFinite))
+  }
+
+  /// Points whose cells have the same key since they are 2²¹ cells apart are no neighbors, nor are
+  /// many cells looked at for a radius among much smaller ones.
+  @Test(arguments: [1, 2, 4] as [Float])
+  func distanceDecides(cellsPerRadius: Float) throws {
+    let period = Float(1 << 21) * cellsPerRadius
+    let points: [SIMD3<Float>] = [.zero, [period, 0, 0], [0, -period, 0], [0.5, 0, 0]]
+    let radii: [Float] = [1, 1, 1, 1]
+    let found = try PointNeighbors.atLeast(1, of: points, within: radii, KernelControl())
+    #expect(found == [true, false, false, true])
+    let wide = try PointNeighbors.atLeast(
+      3, of: points, within: [1, 3 * period, 1e30, .infinity], KernelControl())
+    #expect(wide == [false, true, true, true])
   }
 
   @Test func numbersMustAgree() throws {
