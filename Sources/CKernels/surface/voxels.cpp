@@ -39,20 +39,89 @@ std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const 
   return cells;
 }
 
+/// The bits of a key for each number of a cell; keys are in the lexicographic order of the cells.
+struct KeyLayout {
+  Cell low;
+  std::array<int, 4> bits = {0, 0, 0, 0};
+
+  /// The least number of bits for the cells of the finite points.
+  KeyLayout(const ck::Strided<float>& points, const std::vector<Cell>& cells,
+            const ck_control* control) {
+    const size_t blocks = (cells.size() + kBlock - 1) / kBlock;
+    std::vector<Cell> lows(blocks + 1, full(INT32_MAX)), highs(blocks + 1, full(INT32_MIN));
+    ck::parallel_for(control, blocks, [&](size_t block) {
+      for (size_t i = block * kBlock; i < std::min(cells.size(), (block + 1) * kBlock); ++i) {
+        if (points.is_finite(i)) widen(cells[i], lows[block], highs[block]);
+      }
+    });
+    low = lows[blocks];
+    Cell high = highs[blocks];
+    for (size_t block = 0; block < blocks; ++block) {
+      for (size_t a = 0; a < 4; ++a) {
+        low[a] = std::min(low[a], lows[block][a]);
+        high[a] = std::max(high[a], highs[block][a]);
+      }
+    }
+    for (size_t a = 0; a < 4; ++a) {
+      while (int64_t{1} << bits[a] <= int64_t{high[a]} - low[a]) ++bits[a];
+    }
+  }
+
+  int size() const { return bits[0] + bits[1] + bits[2] + bits[3]; }
+
+  template <typename Key>
+  Key pack(const Cell& cell) const {
+    Key key = 0;
+    for (size_t a = 0; a < 4; ++a) key = key << bits[a] | Key(int64_t{cell[a]} - low[a]);
+    return key;
+  }
+
+  template <typename Key>
+  Cell unpack(Key key) const {
+    Cell cell;
+    for (size_t a = 4; a-- > 0;) {
+      cell[a] = int32_t(int64_t(key & ((Key(1) << bits[a]) - 1)) + low[a]);
+      key >>= bits[a];
+    }
+    return cell;
+  }
+
+ private:
+  static Cell full(int32_t value) { return {value, value, value, value}; }
+
+  static void widen(const Cell& cell, Cell& low, Cell& high) {
+    for (size_t a = 0; a < 4; ++a) {
+      low[a] = std::min(low[a], cell[a]);
+      high[a] = std::max(high[a], cell[a]);
+    }
+  }
+};
+
+/// A point with the key of its cell.
+template <typename Key>
+struct KeyedPoint {
+  Key key;
+  uint32_t index;
+};
+
 /// The distinct cells in lexicographic order; `numbers` receives the cell index of each finite
 /// point, −1 for others.
-std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cell>& cells,
-                         int32_t* numbers, const ck_control* control) {
-  std::vector<uint32_t> order;
+template <typename Key>
+std::vector<Cell> number(const ck::Strided<float>& points, std::vector<Cell> cells,
+                         const KeyLayout& layout, int32_t* numbers, const ck_control* control) {
+  std::vector<KeyedPoint<Key>> order;
   order.reserve(points.count);
   for (size_t i = 0; i < points.count; ++i) {
     numbers[i] = -1;
-    if (points.is_finite(i)) order.push_back(static_cast<uint32_t>(i));
+    if (points.is_finite(i)) {
+      order.push_back({layout.pack<Key>(cells[i]), static_cast<uint32_t>(i)});
+    }
   }
-  const auto is_before = [&](uint32_t a, uint32_t b) { return cells[a] < cells[b]; };
-  ck::parallel_sort(order, is_before, control);
+  cells = {};
+  ck::parallel_sort(
+      order, [](const auto& a, const auto& b) { return a.key < b.key; }, control);
   ck::step(control, 0.5);
-  const auto is_first = [&](size_t k) { return k == 0 || cells[order[k]] != cells[order[k - 1]]; };
+  const auto is_first = [&](size_t k) { return k == 0 || order[k].key != order[k - 1].key; };
   const auto end = [&](size_t block) { return std::min(order.size(), (block + 1) * kBlock); };
   // The number of cells before each block of the order.
   std::vector<size_t> starts((order.size() + kBlock - 1) / kBlock + 1, 0);
@@ -65,8 +134,8 @@ std::vector<Cell> number(const ck::Strided<float>& points, const std::vector<Cel
   ck::parallel_for(&quiet, starts.size() - 1, [&](size_t block) {
     size_t next = starts[block];
     for (size_t k = block * kBlock; k < end(block); ++k) {
-      if (is_first(k)) distinct[next++] = cells[order[k]];
-      numbers[order[k]] = static_cast<int32_t>(next) - 1;
+      if (is_first(k)) distinct[next++] = layout.unpack(order[k].key);
+      numbers[order[k].index] = static_cast<int32_t>(next) - 1;
     }
   });
   return distinct;
@@ -116,8 +185,12 @@ ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* leve
     ck::require(count < (size_t{1} << 31), "too many points");
     ck::step(control, 0);
     const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
+    std::vector<Cell> all = cells_of(points, cell_size, levels, &quiet);
+    const KeyLayout layout(points, all, &quiet);
     const auto distinct =
-        number(points, cells_of(points, cell_size, levels, &quiet), cells, control);
+        layout.size() <= 64
+            ? number<uint64_t>(points, std::move(all), layout, cells, control)
+            : number<unsigned __int128>(points, std::move(all), layout, cells, control);
     *cell_count = distinct.size();
     if (!components) return;
     ck::require(component_count, "null pointer");

@@ -18,4 +18,21 @@ import Testing
       #expect(grid.cells == cells.map { numbers[$0] })
     }
   }
+
+  /// Cells so far from each other that their numbers don't fit into 64 bits, and points that are
+  /// left out.
+  @Test func distantCellsAreDistinguished() throws {
+    var random = SeededGenerator(seed: 6)
+    var points = (0..<1000).map { _ in
+      SIMD3<Float>(random.normal3()) * (random.uniform() < 0.5 ? 1 : 1e5)
+    }
+    points[7].x = .nan
+    let cells = points.map { SIMD3<Double>($0) / 0.001 }
+      .map { SIMD3<Double>($0.x.rounded(.down), $0.y.rounded(.down), $0.z.rounded(.down)) }
+    let distinct = Set(cells.filter { $0.x.isFinite })
+      .sorted { ($0.x, $0.y, $0.z) < ($1.x, $1.y, $1.z) }
+    let numbers = Dictionary(uniqueKeysWithValues: zip(distinct, Int32(0)...))
+    let grid = try VoxelGrid(points, cellSize: 0.001, KernelControl(threadCount: 2))
+    #expect(grid.cells == cells.map { numbers[$0] ?? -1 })
+  }
 }
