@@ -133,13 +133,15 @@ package struct MeshGeneration {
     }
     let downsampling = VoxelDownsampling(options: options.downsampling)
     return try notes.step("samples") {
-      let averaged = try downsampling.run(
+      var averaged = try downsampling.run(
         cloud, keeping: selection.isKept, context.part(from: 0.5, to: 0.7))
       var samples = SurfaceSamples(
         cloud: averaged.cloud, voxelSize: averaged.voxelSize, isObject: selection.isObject,
         support: selection.support)
+      // A second reference to the cloud would cause a copy.
+      averaged.cloud = PointCloud()
       try downsampling.removeOutliers(
-        from: &samples.cloud, voxelSize: averaged.voxelSize, context.control.part(from: 0.7, to: 1))
+        from: &samples.cloud, voxelSize: samples.voxelSize, context.control.part(from: 0.7, to: 1))
       notes.record("samples", Double(samples.cloud.count))
       return samples
     }
