@@ -39,7 +39,7 @@ struct BackdropDetection: Sendable {
 
   /// Nil if too few photos show a backdrop.
   func run(_ photos: [RasterImage], _ control: KernelControl) throws -> Result? {
-    let found = try control.parallelMap(photos.count) { backdrop(of: photos[$0]) }
+    let found = try control.parallelMap(photos.count) { try backdrop(of: photos[$0]) }
     let count = found.count { $0 != nil }
     guard count > 0, Double(count) >= options.minimumPhotoShare * Double(photos.count) else {
       return nil
@@ -62,9 +62,9 @@ struct BackdropDetection: Sendable {
   }
 
   /// The backdrop of a photo; nil if it shows none.
-  private func backdrop(of photo: RasterImage) -> RasterImage? {
+  private func backdrop(of photo: RasterImage) throws -> RasterImage? {
     let border = border(of: photo)
-    let isSmooth = photo.gray.smoothPixels(maximumRange: options.maximumRange)
+    let isSmooth = try photo.gray.smoothPixels(maximumRange: options.maximumRange)
     let colors = colors(of: photo) { border[$0] && isSmooth[$0] }
     let isPlain = (0..<photo.width * photo.height).map { pixel in
       isSmooth[pixel] && colors.contains { isSimilar(photo, pixel, to: $0) }
@@ -134,23 +134,5 @@ struct BackdropDetection: Sendable {
       }
     }
     return result
-  }
-}
-
-extension RasterImage {
-  /// Whether the values of a gray image differ by at most `maximumRange` in the window of three by
-  /// three pixels around each pixel.
-  func smoothPixels(maximumRange: UInt8) -> [Bool] {
-    (0..<width * height).map { pixel in
-      let (x, y) = (pixel % width, pixel / width)
-      var (low, high) = (UInt8.max, UInt8.min)
-      for v in max(0, y - 1)...min(height - 1, y + 1) {
-        for u in max(0, x - 1)...min(width - 1, x + 1) {
-          let value = pixels[v * width + u]
-          (low, high) = (min(low, value), max(high, value))
-        }
-      }
-      return high - low <= maximumRange
-    }
   }
 }

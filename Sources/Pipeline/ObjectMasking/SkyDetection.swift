@@ -54,7 +54,8 @@ struct SkyDetection: Sendable {
         Double(photo.image.height) / Double(full.height))
       let seen = observations[photos[index].index].map { $0 * scale }
       guard
-        let sky = sky(in: photo, vertical: reconstruction.worldFrame.vertical, observations: seen)
+        let sky = try sky(
+          in: photo, vertical: reconstruction.worldFrame.vertical, observations: seen)
       else { return nil }
       return try mask(of: photo.image, sky: sky)
     }
@@ -68,11 +69,11 @@ struct SkyDetection: Sendable {
   /// Marks the regions of sky, without their outline; nil without any.
   private func sky(
     in photo: ReducedPhoto, vertical: SIMD3<Double>, observations: [SIMD2<Double>]
-  ) -> RasterImage? {
+  ) throws -> RasterImage? {
     let (width, height) = (photo.image.width, photo.image.height)
     let gray = photo.image.gray
     let up = photo.cameraFromWorld.rotation * vertical
-    let isSmooth = gray.smoothPixels(maximumRange: options.maximumRange)
+    let isSmooth = try gray.smoothPixels(maximumRange: options.maximumRange)
     func elevation(_ pixel: Int) -> Double {
       let center = SIMD2(Double(pixel % width) + 0.5, Double(pixel / width) + 0.5)
       let ray = photo.camera.unproject(center)
