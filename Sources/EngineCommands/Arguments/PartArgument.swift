@@ -1,7 +1,7 @@
 import ArgumentParser
 import Pipeline
 
-/// A part of a run, such as `pairs`, or `features:2/8` for the second of eight blocks.
+/// A part of a run, such as `cameras`, or `features:2/8` for the second of eight blocks.
 enum PartArgument: Equatable, ExpressibleByArgument {
   case part(RunPart)
   /// What an ordinary run makes of the parts before, but for tiles, which others make meanwhile.
@@ -11,8 +11,8 @@ enum PartArgument: Equatable, ExpressibleByArgument {
     let words = argument.split(separator: ":", omittingEmptySubsequences: false).map(String.init)
     let block = words.count == 2 ? JobArgument(argument: words[1])?.share : nil
     let parts: [String: RunPart] = [
-      "photos": .photos, "pairs": .pairs, "morePairs": .morePairs, "cameras": .cameras,
-      "tileBase": .tileBase, "surface": .surface, "tileIndex": .tileIndex,
+      "photos": .photos, "candidates": .candidates, "morePairs": .morePairs,
+      "cameras": .cameras, "tileBase": .tileBase, "surface": .surface, "tileIndex": .tileIndex,
     ]
     if argument == "model" {
       self = .model
@@ -31,6 +31,7 @@ enum PartArgument: Equatable, ExpressibleByArgument {
   private static func part(_ name: String, _ block: Block) -> RunPart? {
     switch name {
     case "features": .features(block)
+    case "pairs": .pairs(block)
     case "matches": .matches(block)
     case "moreMatches": .moreMatches(block)
     default:

@@ -69,7 +69,8 @@ extension RunPart {
   fileprivate var stages: [PipelineStage] {
     switch self {
     case .photos: [.preProcessing]
-    case .features, .pairs, .matches, .morePairs, .moreMatches: [.preProcessing, .imageAlignment]
+    case .features, .candidates, .pairs, .matches, .morePairs, .moreMatches:
+      [.preProcessing, .imageAlignment]
     case .cameras: [.preProcessing, .imageAlignment, .objectMasking]
     case .views:
       [.preProcessing, .imageAlignment, .objectMasking, .pointCloudGeneration]
@@ -85,7 +86,9 @@ extension RunPart {
   /// Whether cameras have been found before.
   fileprivate var hasCameras: Bool {
     switch self {
-    case .photos, .features, .pairs, .matches, .morePairs, .moreMatches, .cameras: false
+    case .photos, .features, .candidates, .pairs, .matches, .morePairs, .moreMatches,
+      .cameras:
+      false
     case .views, .tileBase, .surface, .tiles, .tileIndex: true
     }
   }

@@ -99,12 +99,13 @@ struct ChunkedRun {
     return saved > Double(stages) * Self.secondsPerStage
   }
 
-  /// Whether pairs are matched in chunks of their own, in four stages more.
+  /// Whether pairs are matched in chunks of their own, in five stages more.
   private func dividesMatches(_ blocks: Int) -> Bool {
     let shares = AlignmentShares.self
     return isWorthDividing(
-      (shares.matches + shares.moreMatches) * durations.seconds(of: [.imageAlignment]),
-      among: blocks / Self.chunksPerMatchChunk, stages: 4)
+      (shares.pairs + shares.matches + shares.moreMatches)
+        * durations.seconds(of: [.imageAlignment]),
+      among: blocks / Self.chunksPerMatchChunk, stages: 5)
   }
 
   /// The chunk of the model, which makes its surface, too, unless a chunk before it did.
@@ -119,7 +120,7 @@ struct ChunkedRun {
   /// Shares of the time of alignment.
   private enum AlignmentShares {
     /// Measured: in chunks of 250 photos of a town.
-    static let (features, pairs, matches) = (0.15, 0.03, 0.3)
+    static let (features, candidates, pairs, matches) = (0.15, 0.01, 0.03, 0.3)
     /// Measured: as above.
     static let (morePairs, moreMatches, cameras) = (0.03, 0.17, 0.32)
     /// That of features among few photos, which have few pairs. Measured: in runs of 11, 32 and 40
@@ -147,7 +148,8 @@ struct ChunkedRun {
     let matchBlocks = blocks / Self.chunksPerMatchChunk
     return [
       photos, stage("features", blocks: blocks, seconds: shares.features * seconds),
-      stage("pairs", seconds: shares.pairs * seconds, holdsAll: true),
+      stage("candidates", seconds: shares.candidates * seconds, holdsAll: true),
+      stage("pairs", blocks: matchBlocks, seconds: shares.pairs * seconds),
       stage("matches", blocks: matchBlocks, seconds: shares.matches * seconds),
       stage("morePairs", seconds: shares.morePairs * seconds, holdsAll: true),
       stage("moreMatches", blocks: matchBlocks, seconds: shares.moreMatches * seconds),

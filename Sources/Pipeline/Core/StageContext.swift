@@ -28,6 +28,11 @@ package struct StageContext: Sendable {
       control: control.part(from: start, to: end), notes: notes, onExtension: onExtension)
   }
 
+  /// The context of one of some parts of the same length.
+  func part(_ index: Int, of count: Int) -> StageContext {
+    part(from: Double(index) / Double(count), to: Double(index + 1) / Double(count))
+  }
+
   /// Reports that the stage takes `factor` times as long as was expected, and returns the context
   /// of the rest after `done`, the fraction of the expected work. Only for the context of a whole
   /// stage.

@@ -22,18 +22,58 @@ struct AlignmentParts {
       Array(photos[block.range(of: photos.count)]), images: images, context)
   }
 
-  /// Chooses the pairs.
-  func selectPairs(_ context: StageContext) throws {
-    _ = try choice(context)
+  /// Finds the pairs that are considered.
+  func findCandidates(_ context: StageContext) throws {
+    _ = try candidates(context)
   }
 
-  private func choice(_ context: StageContext) throws -> PairSelection.Choice {
-    try units().choice {
+  private func candidates(_ context: StageContext) throws -> PairSelection.Candidates {
+    try units().candidates {
       let features = try extraction.run(photos, images: images, context.part(from: 0, to: 0.5))
-      return try CorrespondenceSearch(alignment.options.search).choice(
-        features, photos: photos, ordering: alignment.options.ordering,
+      return try selection.candidates(
+        features, positions: photos.map(\.position), ordering: alignment.options.ordering,
         context.part(from: 0.5, to: 1))
     }
+  }
+
+  /// Tests a block of the pairs that are considered.
+  func test(_ block: Block, _ context: StageContext) throws {
+    let tested = try candidates(context.part(from: 0, to: 0.1)).tested
+    let ranges = MatchBlock.ranges(of: tested)
+    let own = block.range(of: ranges.count)
+    for (number, range) in ranges[own].enumerated() {
+      let part = context.part(from: 0.1, to: 1).part(number, of: own.count)
+      _ = try promising(tested, range, part)
+    }
+  }
+
+  private func promising(
+    _ tested: [PhotoPair], _ range: Range<Int>, _ context: StageContext
+  ) throws -> [PhotoPair] {
+    try units().promising(range) {
+      let pairs = tested[range]
+      let features = try features(of: pairs, context.part(from: 0, to: 0.2))
+      return try selection.test(
+        Array(pairs), features: features, context.part(from: 0.2, to: 1))
+    }
+  }
+
+  /// The pairs to match first.
+  private func choice(_ context: StageContext) throws -> PairSelection.Choice {
+    try units().choice {
+      let candidates = try candidates(context.part(from: 0, to: 0.2))
+      let ranges = MatchBlock.ranges(of: candidates.tested)
+      let passing = try ranges.indices.flatMap { index in
+        try promising(
+          candidates.tested, ranges[index],
+          context.part(from: 0.2, to: 1).part(index, of: ranges.count))
+      }
+      return selection.choice(of: candidates, promising: passing)
+    }
+  }
+
+  private var selection: PairSelection {
+    PairSelection(alignment.options.search.selection)
   }
 
   private func units() throws -> CorrespondenceUnits {
@@ -67,21 +107,19 @@ struct AlignmentParts {
     try match(block, of: try morePairs(context.part(from: 0, to: 0.1)), context)
   }
 
-  /// Matches a block of some pairs. Reads the features of a part of the photos at a time.
+  /// Matches and verifies a block of some pairs. Reads the features of a part of the photos at a time.
   private func match(_ block: Block, of pairs: [PhotoPair], _ context: StageContext) throws {
     let units = try units()
     let ranges = MatchBlock.ranges(of: pairs)
     let own = block.range(of: ranges.count)
-    let matching = FeatureMatching(alignment.options.search.matching)
+    let matching = PairMatching(alignment.options.search, photos: photos, cameras: cameras)
+    let key = try matching.fingerprint
     for (number, range) in ranges[own].enumerated() {
-      let part = context.part(from: 0.1, to: 1)
-        .part(
-          from: Double(number) / Double(own.count), to: Double(number + 1) / Double(own.count))
-      _ = try units.block(pairs[range], matching.options) {
+      let part = context.part(from: 0.1, to: 1).part(number, of: own.count)
+      _ = try units.block(pairs[range], madeFrom: key) {
         let features = try features(of: pairs[range], part.part(from: 0, to: 0.2))
-        return MatchBlock(
-          matches: try matching.run(
-            Array(pairs[range]), features: features, part.part(from: 0.2, to: 1)))
+        return try matching.make(
+          Array(pairs[range]), features: features, part.part(from: 0.2, to: 1))
       }
     }
   }

@@ -10,7 +10,8 @@ extension ReconstructionMethod {
     case .photos: break
     case .features(let block):
       try alignmentPart(photos) { try $0.makeFeatures(of: block, $1) }
-    case .pairs: try alignmentPart(photos) { try $0.selectPairs($1) }
+    case .candidates: try alignmentPart(photos) { try $0.findCandidates($1) }
+    case .pairs(let block): try alignmentPart(photos) { try $0.test(block, $1) }
     case .matches(let block): try alignmentPart(photos) { try $0.match(block, $1) }
     case .morePairs: try alignmentPart(photos) { try $0.selectMorePairs($1) }
     case .moreMatches(let block): try alignmentPart(photos) { try $0.matchMore(block, $1) }

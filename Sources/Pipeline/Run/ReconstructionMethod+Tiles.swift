@@ -209,10 +209,3 @@ extension TileStore {
     return surroundings.map { .stored(base, $0) }
   }
 }
-
-extension StageContext {
-  /// The context of one of several steps of equal length.
-  fileprivate func part(_ index: Int, of count: Int) -> StageContext {
-    part(from: Double(index) / Double(count), to: Double(index + 1) / Double(count))
-  }
-}

@@ -7,11 +7,13 @@ package enum RunPart: Hashable, Sendable {
   case photos
   /// The features of a block of the photos.
   case features(Block)
-  /// Which pairs to match.
-  case pairs
+  /// Which pairs are considered.
+  case candidates
+  /// Which of a block of these are promising, and so to be matched.
+  case pairs(Block)
   /// The matches of a block of the pairs.
   case matches(Block)
-  /// Which pairs to match, too, after those of `pairs`.
+  /// Which pairs to match, too, after the promising ones.
   case morePairs
   /// The matches of a block of these.
   case moreMatches(Block)

@@ -10,7 +10,7 @@ import Kernels
 struct UnitStore: Sendable {
   /// What a result is: the start of its file's name.
   enum Kind: String, Sendable {
-    case photos, features, pairs, matches, morePairs, scene, viewPoints
+    case photos, features, candidates, promising, pairs, matches, morePairs, scene, viewPoints
     case sceneSamples, observed, occluders, tileBase, tileSamples, solvedTile, writtenTile
   }
 

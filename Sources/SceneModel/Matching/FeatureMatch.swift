@@ -1,5 +1,5 @@
 /// A match of feature `first` in the pair's first photo with feature `second` in its second photo.
-package struct FeatureMatch: Hashable, Codable, Sendable {
+package struct FeatureMatch: Hashable, Codable, Sendable, BitwiseCopyable {
   package var first: Int32
   package var second: Int32
 

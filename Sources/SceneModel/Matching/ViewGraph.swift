@@ -14,6 +14,9 @@ package struct ViewGraph: Sendable {
   /// photos.
   package var placements: [[Int]] = []
 
+  /// The number of matches of all pairs.
+  package var matchCount: Int { pairs.reduce(0) { $0 + $1.matches.count } }
+
   package init(photoCount: Int, pairs: [VerifiedPair], rejected: [RejectedPair] = []) {
     self.photoCount = photoCount
     self.pairs = pairs

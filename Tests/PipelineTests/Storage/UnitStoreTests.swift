@@ -17,7 +17,12 @@ import Testing
   }
 
   private func block(_ seed: Int32) -> MatchBlock {
-    MatchBlock(matches: [[FeatureMatch(first: seed, second: 2)], [], [.init(first: 3, second: 4)]])
+    let matches = [[FeatureMatch(first: seed, second: 2)], [], [.init(first: 3, second: 4)]]
+    return MatchBlock(
+      matches: matches,
+      verdicts: matches.indices.map {
+        .rejected(RejectedPair(pair: PhotoPair(ID($0), ID(9)), matches: $0, needed: 20))
+      })
   }
 
   @Test func unitIsMadeOnce() throws {
@@ -67,7 +72,7 @@ import Testing
     for copy in damagedBlock.truncations() where copy != damagedBlock.bytes {
       #expect(MatchBlock(unit: Data(copy)) == nil)
     }
-    for copy in damagedBlock.mutations(2000, seed: 3, header: 16) {
+    for copy in damagedBlock.mutations(2000, seed: 3, header: 300) {
       _ = MatchBlock(unit: Data(copy))
     }
   }

@@ -134,6 +134,9 @@ private struct MatchedPairs {
   private var verification: PairVerification.Options
   private var pairs: [PhotoPair] = []
   private var matches: [[FeatureMatch]] = []
+  /// The pairs for which guided matching with `cameras` found more matches; nil if these were left
+  /// out.
+  private var guided: [PhotoPair: VerifiedPair]? = [:]
 
   init(
     options: CorrespondenceSearch.Options, photos: [Photo], cameras: [Camera],
@@ -153,18 +156,12 @@ private struct MatchedPairs {
         || photos[pair.second.index].mask != nil
     }
     guard !more.isEmpty else { return }
-    let (matching, part) = (FeatureMatching(options.matching), context.part(from: 0, to: 0.85))
-    let found =
-      try units.map { try matching.run(more, features: features, units: $0, part) }
-      ?? matching.run(more, features: features, part)
-    let verified = try PairVerification(verification)
-      .run(
-        more, matches: found, features: features, photos: photos, cameras: cameras,
-        context.part(from: 0.85, to: 1))
+    let found = try PairMatching(options, photos: photos, cameras: cameras)
+      .run(more, features: features, units: units, context)
     pairs += more
-    matches += found
-    graph.pairs = (graph.pairs + verified.pairs).sorted { $0.pair < $1.pair }
-    graph.rejected = (graph.rejected + verified.rejected).sorted { $0.pair < $1.pair }
+    matches += found.matches
+    graph.add(found.verdicts)
+    for pair in found.guided { guided?[pair.pair] = pair }
   }
 
   /// Verifies all pairs again, now that more focal lengths are known well enough for essential
@@ -175,11 +172,20 @@ private struct MatchedPairs {
         pairs, matches: matches, features: features, photos: photos, cameras: cameras, context)
   }
 
-  /// Searches for additional matches of pairs with few of them along the epipolar lines.
+  /// Searches for additional matches of pairs with few of them along the epipolar lines, unless
+  /// that was done with these cameras.
   mutating func guide(_ cameras: [Camera], _ context: StageContext) throws {
-    graph = try GuidedMatching(
-      options.guidedMatching, verification: PairVerification(verification)
-    ).run(graph, features: features, photos: photos, cameras: cameras, context)
+    guard cameras == self.cameras, let guided else {
+      graph = try GuidedMatching(
+        options.guidedMatching, verification: PairVerification(verification)
+      ).run(graph, features: features, photos: photos, cameras: cameras, context)
+      return
+    }
+    let known = graph.matchCount
+    for index in graph.pairs.indices {
+      if let better = guided[graph.pairs[index].pair] { graph.pairs[index] = better }
+    }
+    context.notes.record("guidedMatches", Double(graph.matchCount - known))
   }
 
   /// Adds the weak pairs of photos with few partners, unless something moves: a few matches may
@@ -254,6 +260,7 @@ private struct MatchedPairs {
         second: Int32(kept[pair.second.index][Int(match.second)]))
     }
     var object = self
+    object.guided = nil
     object.features = zip(features, kept).map { $0.selecting($1) }
     let promising = zip(pairs, matches).filter { pair, matches in
       2 * matches.count { !surroundings.contain($0, of: pair) }
@@ -294,7 +301,7 @@ private struct MatchedPairs {
     notes.record("pairs", Double(pairs.count))
     notes.record("matches", Double(matches.reduce(0) { $0 + $1.count }))
     notes.record("verifiedPairs", Double(graph.pairs.count))
-    notes.record("verifiedMatches", Double(graph.pairs.reduce(0) { $0 + $1.matches.count }))
+    notes.record("verifiedMatches", Double(graph.matchCount))
     if graph.pairs.isEmpty, graph.photoCount > 1 {
       notes.warn(
         "No two photos show the same surface; take photos that overlap by two thirds.")

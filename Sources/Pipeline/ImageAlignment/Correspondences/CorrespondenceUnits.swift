@@ -27,6 +27,22 @@ struct CorrespondenceUnits: Sendable {
     try store.value(.pairs, madeFrom: selectionKey, make)
   }
 
+  /// The pairs that are considered.
+  func candidates(
+    _ make: () throws -> PairSelection.Candidates
+  ) throws -> PairSelection.Candidates {
+    try store.value(.candidates, madeFrom: selectionKey, make)
+  }
+
+  /// Those of a range of the tested candidates that are promising.
+  func promising(_ range: Range<Int>, _ make: () throws -> [PhotoPair]) throws -> [PhotoPair] {
+    var key = Fingerprint()
+    key.add(selectionKey)
+    key.add(range.lowerBound)
+    key.add(range.upperBound)
+    return try store.value(.promising, madeFrom: key.value) { PairList(pairs: try make()) }.pairs
+  }
+
   /// The pairs that follow from the matches of the first ones, by some options of the search.
   func morePairs(
     _ options: some Encodable, cameras: [Camera], photos: [Photo],
@@ -41,16 +57,18 @@ struct CorrespondenceUnits: Sendable {
     return try store.value(.morePairs, madeFrom: key.value) { PairList(pairs: try make()) }.pairs
   }
 
-  /// The matches of a block of pairs by some options.
+  /// The matches of a block of pairs; `fingerprint` is that of all that they depend on besides the
+  /// features.
   func block(
-    _ pairs: ArraySlice<PhotoPair>, _ options: some Encodable,
-    _ make: () throws -> MatchBlock
+    _ pairs: ArraySlice<PhotoPair>, madeFrom fingerprint: UInt64, _ make: () throws -> MatchBlock
   ) throws -> MatchBlock {
     var key = Fingerprint()
-    key.add(try Fingerprint.content(of: options))
+    key.add(fingerprint)
     for pair in pairs {
-      key.add(featureKeys[pair.first.index])
-      key.add(featureKeys[pair.second.index])
+      for photo in [pair.first, pair.second] {
+        key.add(photo.index)
+        key.add(featureKeys[photo.index])
+      }
     }
     return try store.value(.matches, madeFrom: key.value, make)
   }

@@ -45,9 +45,7 @@ package struct GuidedMatching {
     }
     var result = graph
     for (index, pair) in zip(weak, better) { result.pairs[index] = pair }
-    let found = result.pairs.reduce(0) { $0 + $1.matches.count }
-    let known = graph.pairs.reduce(0) { $0 + $1.matches.count }
-    context.notes.record("guidedMatches", Double(found - known))
+    context.notes.record("guidedMatches", Double(result.matchCount - graph.matchCount))
     return result
   }
 

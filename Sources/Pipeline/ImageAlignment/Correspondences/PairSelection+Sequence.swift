@@ -8,7 +8,7 @@ extension PairSelection {
   /// which the path returns to the same place (loop closures).
   func sequence(
     _ photos: [Int], _ features: [FeatureSet], _ context: StageContext
-  ) throws -> Choice {
+  ) throws -> Candidates {
     let guaranteed = neighbors(photos, options.preemptiveSequenceSteps)
     let others = photos.indices
       .flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
@@ -17,10 +17,10 @@ extension PairSelection {
       others, features: features, context)
     let mostSimilar = ranked(others, counts, features)
     let likely = retrieved(mostSimilar, options.sequencePartners, excluding: guaranteed)
-    let window = neighbors(photos, options.sequenceSteps)
-    return Choice(
-      pairs: guaranteed.union(likely).sorted(),
-      candidates: guaranteed.union(likely).union(window).sorted(),
+    let matched = guaranteed.union(likely)
+    return Candidates(
+      guaranteed: matched.sorted(), tested: [],
+      untested: neighbors(photos, options.sequenceSteps).subtracting(matched).sorted(),
       mostSimilar: mostSimilar, ordering: .sequential)
   }
 

@@ -74,6 +74,21 @@ package struct PairSelection {
     }
   }
 
+  /// The pairs that are considered, all sorted. No pair is in two of the lists.
+  struct Candidates: Codable, Sendable, UnitValue {
+    /// Matched without a test.
+    var guaranteed: [PhotoPair]
+    /// Matched if preemptive matching finds them promising.
+    var tested: [PhotoPair]
+    /// Not matched.
+    var untested: [PhotoPair] = []
+    /// As in `Choice`.
+    var mostSimilar: [[Int]] = []
+    var ordering: SampleOrdering
+    /// Whether a sample of the pairs that fail the test is matched to validate it.
+    var isSampled = false
+  }
+
   package var options: Options
 
   package init(_ options: Options = Options()) { self.options = options }
@@ -83,18 +98,40 @@ package struct PairSelection {
     _ features: [FeatureSet], positions: [GeographicPosition?] = [], ordering: SampleOrdering,
     _ context: StageContext
   ) throws -> Choice {
+    let candidates = try candidates(
+      features, positions: positions, ordering: ordering, context.part(from: 0, to: 0.5))
+    let promising = try test(
+      candidates.tested, features: features, context.part(from: 0.5, to: 1))
+    return choice(of: candidates, promising: promising)
+  }
+
+  /// The pairs that are tested that pass.
+  func test(
+    _ pairs: [PhotoPair], features: [FeatureSet], _ context: StageContext
+  ) throws -> [PhotoPair] {
+    try PreemptiveMatching(options.preemptiveMatching).run(pairs, features: features, context)
+  }
+
+  /// Returns the pairs that are considered.
+  func candidates(
+    _ features: [FeatureSet], positions: [GeographicPosition?], ordering: SampleOrdering,
+    _ context: StageContext
+  ) throws -> Candidates {
     let isSequential = ordering == .sequential
     let photos = features.indices.filter { features[$0].count > 0 }
-    if !isSequential, photos.count * (photos.count - 1) / 2 <= options.exhaustivePairs {
+    let pairCount = photos.count * (photos.count - 1) / 2
+    if !isSequential, pairCount <= options.exhaustivePairs {
       let all = photos.indices.flatMap { i in photos[(i + 1)...].map { pair(photos[i], $0) } }
-      return try exhaustive(all, features, context)
+      let isTested = all.count >= options.minimumPreemptivePairs
+      return Candidates(
+        guaranteed: isTested ? [] : all, tested: isTested ? all : [], ordering: .unordered,
+        isSampled: true)
     }
-    if isSequential, photos.count * (photos.count - 1) / 2 <= options.maximumPreemptiveSequencePairs
-    {
+    if isSequential, pairCount <= options.maximumPreemptiveSequencePairs {
       return try sequence(photos, features, context)
     }
     let mostSimilar = try PhotoRetrieval(options.retrieval)
-      .run(features, partners: 2 * options.partners, context.part(from: 0, to: 0.5))
+      .run(features, partners: 2 * options.partners, context)
     let isOrdered = isSequential || isInOrder(mostSimilar)
     let guaranteed = isOrdered ? neighbors(photos, options.sequenceSteps) : []
     let count =
@@ -102,30 +139,21 @@ package struct PairSelection {
       ? options.sequencePartners : isOrdered ? options.orderedPartners : options.partners
     var likely = retrieved(mostSimilar, count, excluding: guaranteed)
     if !isSequential { likely.formUnion(nearest(positions, features).subtracting(guaranteed)) }
-    let promising = try PreemptiveMatching(options.preemptiveMatching)
-      .run(likely.sorted(), features: features, context.part(from: 0.5, to: 1))
-    return Choice(
-      pairs: guaranteed.union(promising).sorted(), candidates: guaranteed.union(likely).sorted(),
-      mostSimilar: mostSimilar,
+    return Candidates(
+      guaranteed: guaranteed.sorted(), tested: likely.sorted(), mostSimilar: mostSimilar,
       ordering: ordering)
   }
 
-  /// All pairs but those that preemptive matching rejects and that aren't part of the validation
-  /// sample.
-  private func exhaustive(
-    _ all: [PhotoPair], _ features: [FeatureSet], _ context: StageContext
-  ) throws -> Choice {
-    guard all.count >= options.minimumPreemptivePairs else {
-      return Choice(pairs: all, candidates: all, mostSimilar: [], ordering: .unordered)
-    }
-    let promising = try PreemptiveMatching(options.preemptiveMatching).run(
-      all, features: features, context)
-    let rejected = Set(all).subtracting(promising).sorted()
+  /// The pairs to match: those that pass the test, and with them perhaps a sample of the others.
+  func choice(of candidates: Candidates, promising: [PhotoPair]) -> Choice {
+    let rejected =
+      candidates.isSampled ? Set(candidates.tested).subtracting(promising).sorted() : []
     let sample = stride(from: 0, to: rejected.count, by: max(1, options.rejectionSamplingInterval))
       .map { rejected[$0] }
     return Choice(
-      pairs: (promising + sample).sorted(), candidates: all, mostSimilar: [], ordering: .unordered,
-      sample: sample)
+      pairs: (candidates.guaranteed + promising + sample).sorted(),
+      candidates: Set(candidates.guaranteed + candidates.tested + candidates.untested).sorted(),
+      mostSimilar: candidates.mostSimilar, ordering: candidates.ordering, sample: sample)
   }
 
   func pair(_ first: Int, _ second: Int) -> PhotoPair { PhotoPair(ID(first), ID(second)) }

@@ -41,10 +41,23 @@ package struct PairVerification {
     _ pairs: [PhotoPair], matches: [[FeatureMatch]], features: [FeatureSet], photos: [Photo],
     cameras: [Camera], _ context: StageContext
   ) throws -> ViewGraph {
+    ViewGraph(
+      photoCount: photos.count,
+      try verdicts(
+        pairs, matches: matches, features: features, photos: photos, cameras: cameras, context))
+  }
+
+  /// Returns the verdict on each of `pairs`; needs the features of their photos only.
+  func verdicts(
+    _ pairs: [PhotoPair], matches: [[FeatureMatch]], features: [FeatureSet], photos: [Photo],
+    cameras: [Camera], _ context: StageContext
+  ) throws -> [Verdict] {
+    let isNeeded = Set(pairs.flatMap { [$0.first, $0.second] })
     let points = try context.part(from: 0, to: 0.1).control.parallelMap(photos.count) { index in
-      cameras[photos[index].camera.index].normalizedPositions(of: features[index])
+      isNeeded.contains(ID(index))
+        ? cameras[photos[index].camera.index].normalizedPositions(of: features[index]) : []
     }
-    let verified = try context.part(from: 0.1, to: 1).control.parallelMap(pairs.count) { index in
+    return try context.part(from: 0.1, to: 1).control.parallelMap(pairs.count) { index in
       let pair = pairs[index]
       return try verify(
         pair, matches[index], points: (points[pair.first.index], points[pair.second.index]),
@@ -53,20 +66,10 @@ package struct PairVerification {
           cameras[photos[pair.second.index].camera.index]
         ))
     }
-    var graph = ViewGraph(photoCount: photos.count, pairs: [])
-    for verdict in verified {
-      switch verdict {
-      case .verified(let pair): graph.pairs.append(pair)
-      case .rejected(let pair): if pair.matches > 0 { graph.rejected.append(pair) }
-      }
-    }
-    graph.pairs.sort { $0.pair < $1.pair }
-    graph.rejected.sort { $0.pair < $1.pair }
-    return graph
   }
 
   /// The result of verifying a pair.
-  enum Verdict: Sendable {
+  enum Verdict: Hashable, Sendable {
     case verified(VerifiedPair)
     case rejected(RejectedPair)
   }
@@ -122,5 +125,25 @@ package struct PairVerification {
   /// The error limit in normalized image coordinates (depth 1), the mean over both photos.
   func maximumError(_ cameras: (Camera, Camera)) -> Double {
     options.relativeMaximumError * (cameras.0.normalizedSide + cameras.1.normalizedSide) / 2
+  }
+}
+
+extension ViewGraph {
+  /// The pairs of some verdicts; pairs without matches are left out.
+  init(photoCount: Int, _ verdicts: [PairVerification.Verdict]) {
+    self.init(photoCount: photoCount, pairs: [])
+    add(verdicts)
+  }
+
+  /// Adds the pairs of some verdicts, except those without matches.
+  mutating func add(_ verdicts: [PairVerification.Verdict]) {
+    for verdict in verdicts {
+      switch verdict {
+      case .verified(let pair): pairs.append(pair)
+      case .rejected(let pair): if pair.matches > 0 { rejected.append(pair) }
+      }
+    }
+    pairs.sort { $0.pair < $1.pair }
+    rejected.sort { $0.pair < $1.pair }
   }
 }

@@ -142,7 +142,7 @@ package struct KnownPoseTriangulation: Sendable {
   private func report(
     _ graph: ViewGraph, _ all: Int, agreeing: Int, _ notes: StageNotes
   ) throws {
-    let verified = graph.pairs.reduce(0) { $0 + $1.matches.count }
+    let verified = graph.matchCount
     notes.record("matches", Double(all))
     notes.record("consistentMatches", Double(agreeing))
     notes.record("verifiedPairs", Double(graph.pairs.count))

@@ -19,12 +19,14 @@ import Testing
 
   @Test func partsAreParsed() {
     #expect(PartArgument(argument: "photos") == .part(.photos))
+    #expect(PartArgument(argument: "candidates") == .part(.candidates))
+    #expect(PartArgument(argument: "pairs:1/2") == .part(.pairs(Block(index: 0, of: 2))))
     #expect(PartArgument(argument: "model") == .model)
     #expect(
       PartArgument(argument: "features:2/8") == .part(.features(Block(index: 1, of: 8))))
     #expect(
       PartArgument(argument: "patches:8/8") == .part(.views(.patches, Block(index: 7, of: 8))))
-    for wrong in ["features", "features:0/8", "features:9/8", "pairs:1/2", "views:1/2", "", ":"] {
+    for wrong in ["features", "features:0/8", "features:9/8", "pairs", "views:1/2", "", ":"] {
       #expect(PartArgument(argument: wrong) == nil, "\(wrong)")
     }
   }
