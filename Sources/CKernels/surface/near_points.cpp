@@ -16,7 +16,7 @@ namespace {
 /// Points per unit of work. Chosen: some milliseconds.
 constexpr size_t kUnit = 4096;
 /// Bits of a cell's number along an axis. Limit: three of them fit into 64 bits. Cells whose
-/// numbers differ by a multiple of 2^21 share their points, which distances then tell apart.
+/// numbers differ by a multiple of 2^21 share their points, which distances then distinguish.
 constexpr int kAxisBits = 21;
 /// The key of what has no cell. Limit: no cell has the highest bit.
 constexpr uint64_t kNoCell = UINT64_MAX;

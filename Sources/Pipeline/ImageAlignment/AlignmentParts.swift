@@ -107,12 +107,13 @@ struct AlignmentParts {
     try match(block, of: try morePairs(context.part(from: 0, to: 0.1)), context)
   }
 
-  /// Matches and verifies a block of some pairs. Reads the features of a part of the photos at a time.
+  /// Matches and verifies a block of some pairs. Reads the features of a part of the photos at a
+  /// time.
   private func match(_ block: Block, of pairs: [PhotoPair], _ context: StageContext) throws {
     let units = try units()
     let ranges = MatchBlock.ranges(of: pairs)
     let own = block.range(of: ranges.count)
-    let matching = PairMatching(alignment.options.search, photos: photos, cameras: cameras)
+    let matching = alignment.options.search.pairMatching(photos: photos, cameras: cameras)
     let key = try matching.fingerprint
     for (number, range) in ranges[own].enumerated() {
       let part = context.part(from: 0.1, to: 1).part(number, of: own.count)

@@ -26,6 +26,15 @@ package struct CorrespondenceSearch {
     var placements = PlacementDetection.Options()
 
     package init() {}
+
+    /// The matching of pairs with these options.
+    func pairMatching(photos: [Photo], cameras: [Camera]) -> PairMatching {
+      let verification = PairVerification(verification)
+      return PairMatching(
+        matching: FeatureMatching(matching), verification: verification,
+        guidedMatching: GuidedMatching(guidedMatching, verification: verification),
+        photos: photos, cameras: cameras)
+    }
   }
 
   package var options: Options
@@ -156,7 +165,7 @@ private struct MatchedPairs {
         || photos[pair.second.index].mask != nil
     }
     guard !more.isEmpty else { return }
-    let found = try PairMatching(options, photos: photos, cameras: cameras)
+    let found = try options.pairMatching(photos: photos, cameras: cameras)
       .run(more, features: features, units: units, context)
     pairs += more
     matches += found.matches

@@ -9,13 +9,6 @@ struct PairMatching {
   let photos: [Photo]
   let cameras: [Camera]
 
-  init(_ options: CorrespondenceSearch.Options, photos: [Photo], cameras: [Camera]) {
-    matching = FeatureMatching(options.matching)
-    verification = PairVerification(options.verification)
-    guidedMatching = GuidedMatching(options.guidedMatching, verification: verification)
-    (self.photos, self.cameras) = (photos, cameras)
-  }
-
   /// The matches of some pairs, as far as they are not among `units` already.
   func run(
     _ pairs: [PhotoPair], features: [FeatureSet], units: CorrespondenceUnits?,

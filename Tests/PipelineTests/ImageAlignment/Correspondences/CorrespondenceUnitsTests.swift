@@ -24,7 +24,8 @@ import Testing
     let temporary = try TemporaryFolder()
     let units = try units(scene, in: temporary.url)
     let camera = CorrespondenceSearchTests.exif(scene)
-    let matching = PairMatching(.init(), photos: scene.photos, cameras: [camera])
+    let matching = CorrespondenceSearch.Options().pairMatching(
+      photos: scene.photos, cameras: [camera])
     let whole = try matching.run(pairs, features: scene.features, units: nil, StageContext())
     #expect(whole.verdicts.count { if case .verified = $0 { true } else { false } } > 100)
     let made = try matching.run(pairs, features: scene.features, units: units, StageContext())
@@ -82,9 +83,13 @@ import Testing
   @Test func camerasArePartOfWhatAUnitIsMadeFrom() throws {
     let scene = CorrespondenceSearchTests.scene(photos: 3)
     var camera = CorrespondenceSearchTests.exif(scene)
-    let first = try PairMatching(.init(), photos: scene.photos, cameras: [camera]).fingerprint
+    let first = try CorrespondenceSearch.Options().pairMatching(
+      photos: scene.photos, cameras: [camera]
+    ).fingerprint
     camera.calibration = .assumed
-    let other = try PairMatching(.init(), photos: scene.photos, cameras: [camera]).fingerprint
+    let other = try CorrespondenceSearch.Options().pairMatching(
+      photos: scene.photos, cameras: [camera]
+    ).fingerprint
     #expect(first != other)
   }
 
