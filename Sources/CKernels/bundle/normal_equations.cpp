@@ -15,7 +15,7 @@ constexpr size_t kPointsPerChunk = 1024, kLinksPerChunk = 2048;
 /// on it, because the row of a pose is one sum.
 constexpr size_t kObservationsPerUnit = 1000;
 /// Observations of a pose between asking for what one reads and reading it. Chosen: reading from
-/// memory takes as long as adding a few.
+/// memory takes as long as adding a few; results do not depend on it.
 constexpr size_t kReadAhead = 8;
 /// Bounds of the diagonal elements that damping is proportional to. Chosen: Ceres' defaults.
 constexpr double kMinimumDiagonal = 1e-6, kMaximumDiagonal = 1e32;

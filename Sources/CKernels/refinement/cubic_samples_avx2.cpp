@@ -65,7 +65,8 @@ CK_AVX2 inline __m256 pixel(__m256i quad) {
   return _mm256_cvtepi32_ps(byte);
 }
 
-/// Four adjacent pixels at each offset. The instruction for this is slower on many processors.
+/// Four adjacent pixels at each offset. The instruction for this is not faster on all processors:
+/// on an AMD EPYC, sampling with it takes a tenth longer.
 CK_AVX2 inline __m256i gather(const uint8_t* pixels, const int32_t* offsets) {
   alignas(32) int32_t quads[kLanes];
   for (int i = 0; i < kLanes; ++i) __builtin_memcpy(&quads[i], pixels + offsets[i], 4);

@@ -22,6 +22,9 @@ constexpr int kAxisBits = 21;
 constexpr uint64_t kNoCell = UINT64_MAX;
 /// The largest number of a cell along an axis. Chosen: doubles hold its neighbors, too.
 constexpr double kMostCells = 1e15;
+/// The side of a cell in median radii. Measured: with 22 million samples of a town, 1 takes 1.8
+/// times as long, 4 takes 1.4 times as long.
+constexpr float kSide = 2;
 
 using CellNumbers = std::array<int64_t, 3>;
 
@@ -157,10 +160,7 @@ class PointCells {
   std::vector<Cell> table_;
 };
 
-/// The side of a cell in median radii. Measured: with 22 million samples of a town, 1 takes 1.8
-/// times as long, 4 takes 1.4 times as long.
-constexpr float kSide = 2;
-
+/// The side of a cell: most points then have their neighbors in their own cell and next to it.
 double side_of_cells(const float* radii, size_t count) {
   std::vector<float> known;
   for (size_t i = 0; i < count; ++i) {

@@ -86,10 +86,8 @@ extension RunPart {
   /// Whether cameras have been found before.
   fileprivate var hasCameras: Bool {
     switch self {
-    case .photos, .features, .candidates, .pairs, .matches, .morePairs, .moreMatches,
-      .cameras:
-      false
     case .views, .tileBase, .surface, .tiles, .tileIndex: true
+    default: false
     }
   }
 }

@@ -39,11 +39,20 @@ struct AlignmentParts {
   /// Tests a block of the pairs that are considered.
   func test(_ block: Block, _ context: StageContext) throws {
     let tested = try candidates(context.part(from: 0, to: 0.1)).tested
-    let ranges = MatchBlock.ranges(of: tested)
-    let own = block.range(of: ranges.count)
-    for (number, range) in ranges[own].enumerated() {
-      let part = context.part(from: 0.1, to: 1).part(number, of: own.count)
-      _ = try promising(tested, range, part)
+    try forEachRange(of: block, of: tested, context.part(from: 0.1, to: 1)) {
+      _ = try promising(tested, $0, $1)
+    }
+  }
+
+  /// Calls `body` for each range of pairs that are stored together, of a block of all.
+  private func forEachRange(
+    of block: Block, of pairs: [PhotoPair], _ context: StageContext,
+    _ body: (Range<Int>, StageContext) throws -> Void
+  ) throws {
+    let ranges = MatchBlock.ranges(of: pairs)
+    let own = ranges[block.range(of: ranges.count)]
+    for (number, range) in own.enumerated() {
+      try body(range, context.part(number, of: own.count))
     }
   }
 
@@ -111,12 +120,9 @@ struct AlignmentParts {
   /// time.
   private func match(_ block: Block, of pairs: [PhotoPair], _ context: StageContext) throws {
     let units = try units()
-    let ranges = MatchBlock.ranges(of: pairs)
-    let own = block.range(of: ranges.count)
     let matching = alignment.options.search.pairMatching(photos: photos, cameras: cameras)
     let key = try matching.fingerprint
-    for (number, range) in ranges[own].enumerated() {
-      let part = context.part(from: 0.1, to: 1).part(number, of: own.count)
+    try forEachRange(of: block, of: pairs, context.part(from: 0.1, to: 1)) { range, part in
       _ = try units.block(pairs[range], madeFrom: key) {
         let features = try features(of: pairs[range], part.part(from: 0, to: 0.2))
         return try matching.make(

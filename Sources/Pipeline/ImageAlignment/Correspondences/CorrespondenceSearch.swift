@@ -143,8 +143,8 @@ private struct MatchedPairs {
   private var verification: PairVerification.Options
   private var pairs: [PhotoPair] = []
   private var matches: [[FeatureMatch]] = []
-  /// The pairs for which guided matching with `cameras` found more matches; nil if these were left
-  /// out.
+  /// The pairs for which guided matching with `cameras` found more matches; nil if `features` has
+  /// changed since, so that they must be found again.
   private var guided: [PhotoPair: VerifiedPair]? = [:]
 
   init(
