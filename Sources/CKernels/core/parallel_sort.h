@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/uninitialized.h"
 
 namespace ck {
 
 /// Sorts elements on the control's threads (sample sort). Equal elements are in any order, which
 /// does not depend on the number of threads.
 template <typename Element, typename Less>
-void parallel_sort(std::vector<Element>& elements, const Less& less, const ck_control* control) {
+void parallel_sort(Uninitialized<Element>& elements, const Less& less, const ck_control* control) {
   // Chosen: fewer elements are sorted in a few milliseconds. A unit of work of each pass is one
   // block or one bucket; the samples are so many that buckets differ little in size.
   constexpr size_t kFew = 1 << 15, kBuckets = 64, kSamplesPerBucket = 32, kBlocks = 64;
@@ -47,7 +48,7 @@ void parallel_sort(std::vector<Element>& elements, const Less& less, const ck_co
     }
   }
   starts.push_back(total);
-  std::vector<Element> grouped(elements.size());
+  Uninitialized<Element> grouped(elements.size());
   parallel_for(&quiet, kBlocks, [&](size_t block) {
     for (size_t i = start(block); i < start(block + 1); ++i) {
       grouped[places[block][bucket(elements[i])]++] = elements[i];

@@ -64,7 +64,7 @@ class PointCells {
   }
 
   /// The finite points, those of a cell one behind the other.
-  const std::vector<CellPoint>& points() const { return points_; }
+  const Uninitialized<CellPoint>& points() const { return points_; }
 
   /// Whether at least `needed` points are within a radius of one of them, itself included.
   bool are_near(const CellPoint& point, double radius, size_t needed) const {
@@ -155,7 +155,7 @@ class PointCells {
   }
 
   double side_;
-  std::vector<CellPoint> points_;
+  Uninitialized<CellPoint> points_;
   size_t cell_count_ = 0;
   std::vector<Cell> table_;
 };

@@ -27,12 +27,12 @@ struct Vertex {
 
 /// The surface around the nodes of a brick: its vertices in ascending order.
 struct Part {
-  std::vector<Vertex> vertices;
+  Uninitialized<Vertex> vertices;
   std::vector<std::array<LeafPair, 3>> triangles;
 };
 
 /// Removes repeated vertices of a sorted list.
-void remove_repeated(std::vector<Vertex>& sorted) {
+void remove_repeated(Uninitialized<Vertex>& sorted) {
   const auto is_same = [](const Vertex& a, const Vertex& b) { return a.pair == b.pair; };
   sorted.erase(std::unique(sorted.begin(), sorted.end(), is_same), sorted.end());
 }
@@ -145,16 +145,16 @@ std::vector<Part> make_parts(const std::vector<Level>& levels, double value, con
   return parts;
 }
 
-size_t position(const std::vector<Vertex>& sorted, LeafPair pair) {
+size_t position(const Uninitialized<Vertex>& sorted, LeafPair pair) {
   const auto found = std::lower_bound(sorted.begin(), sorted.end(), Vertex{pair, {}});
   return static_cast<size_t>(found - sorted.begin());
 }
 
 /// All vertices in ascending order. Parts that share a vertex agree on its position.
-std::vector<Vertex> merged_vertices(const std::vector<Part>& parts, const ck_control* control) {
+Uninitialized<Vertex> merged_vertices(const std::vector<Part>& parts, const ck_control* control) {
   std::vector<size_t> starts{0};
   for (const Part& part : parts) starts.push_back(starts.back() + part.vertices.size());
-  std::vector<Vertex> vertices(starts.back());
+  Uninitialized<Vertex> vertices(starts.back());
   parallel_for_blocks(control, parts.size(), kBlock, [&](size_t i) {
     std::copy(parts[i].vertices.begin(), parts[i].vertices.end(),
               vertices.begin() + std::ptrdiff_t(starts[i]));
@@ -170,7 +170,7 @@ Contour contour(const std::vector<Level>& levels, double value, const CellBox& b
                 const ck_control* control) {
   const ProgressPart first(control, 0, 0.7), second(control, 0.7, 0.7), third(control, 0.7, 1);
   const std::vector<Part> parts = make_parts(levels, value, box, first.control());
-  const std::vector<Vertex> vertices = merged_vertices(parts, second.control());
+  const Uninitialized<Vertex> vertices = merged_vertices(parts, second.control());
   std::vector<size_t> starts{0};
   for (const Part& part : parts) starts.push_back(starts.back() + part.triangles.size());
   Contour result;

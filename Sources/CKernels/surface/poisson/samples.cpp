@@ -80,14 +80,21 @@ void Samples::remove_outside() {
 
 /// Samples of one cell stay in the order of the input.
 void Samples::sort(const ck_control* control) {
-  std::vector<std::pair<uint64_t, size_t>> order(samples.size());
+  struct Place {
+    uint64_t code;
+    size_t index;
+  };
+  Uninitialized<Place> order(samples.size());
   parallel_for_blocks(control, order.size(), kBlock, [&](size_t i) {
     order[i] = {samples[i].code, i};
   });
-  parallel_sort(order, std::less<>(), control);
-  std::vector<Sample> sorted(samples.size());
+  const auto is_before = [](const Place& a, const Place& b) {
+    return a.code != b.code ? a.code < b.code : a.index < b.index;
+  };
+  parallel_sort(order, is_before, control);
+  Uninitialized<Sample> sorted(samples.size());
   parallel_for_blocks(control, order.size(), kBlock,
-                      [&](size_t i) { sorted[i] = samples[order[i].second]; });
+                      [&](size_t i) { sorted[i] = samples[order[i].index]; });
   samples = std::move(sorted);
 }
 

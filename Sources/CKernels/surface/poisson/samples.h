@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/span.h"
+#include "core/uninitialized.h"
 #include "surface/poisson/bricks.h"
 
 namespace ck::poisson {
@@ -36,7 +37,7 @@ struct Cube {
 
 /// The finite points with a normal, in Morton order.
 struct Samples {
-  std::vector<Sample> samples;
+  Uninitialized<Sample> samples;
   Cube cube;
 
   /// `scale` is the side of the cube relative to the largest extent of the points, unless the side
