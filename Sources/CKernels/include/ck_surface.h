@@ -94,11 +94,14 @@ void ck_surface_free(ck_surface* surface);
 ///
 /// A point of level l falls into a grid with cells of `cell_size × 2^l`; `levels` may be null (all
 /// 0), and only cells of the same level are neighbors. `cells` receives each point's cell, numbered
-/// in lexicographic order of (level, x, y, z); `components` (may be null) receives each point's
+/// in lexicographic order of (level, x, y, z). With `finds_members`, `members` receives the finite
+/// points by cell, ascending in each, and `starts`, with room for one more than the points, where
+/// those of each cell start and the last ones end. `components` (may be null) receives each point's
 /// component, numbered by their first cell. Points that are not finite get −1 in both.
 ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* levels,
                          const ck_control* control, int32_t* cells, size_t* cell_count,
-                         int32_t* components, size_t* component_count);
+                         int32_t* members, int32_t* starts, bool finds_members, int32_t* components,
+                         size_t* component_count);
 
 /// Limits of a nearest-neighbor search.
 typedef struct {

@@ -27,17 +27,19 @@ int32_t coordinate(float value, double size) {
       std::min(kMaximumCoordinate, std::max(-kMaximumCoordinate, std::floor(value / size))));
 }
 
-std::vector<Cell> cells_of(const ck::Strided<float>& points, double size, const int8_t* levels,
-                           const ck_control* control) {
-  std::vector<Cell> cells(points.count);
-  ck::parallel_for_blocks(control, points.count, kBlock, [&](size_t i) {
+/// The cells of points.
+struct Grid {
+  const ck::Strided<float>& points;
+  double size;
+  const int8_t* levels;
+
+  Cell cell(size_t i) const {
     const int32_t level = levels ? levels[i] : 0;
     const double side = std::ldexp(size, level);
     const float* p = points[i];
-    cells[i] = {level, coordinate(p[0], side), coordinate(p[1], side), coordinate(p[2], side)};
-  });
-  return cells;
-}
+    return {level, coordinate(p[0], side), coordinate(p[1], side), coordinate(p[2], side)};
+  }
+};
 
 /// The bits of a key for each number of a cell; keys are in the lexicographic order of the cells.
 struct KeyLayout {
@@ -45,13 +47,12 @@ struct KeyLayout {
   std::array<int, 4> bits = {0, 0, 0, 0};
 
   /// The least number of bits for the cells of the finite points.
-  KeyLayout(const ck::Strided<float>& points, const std::vector<Cell>& cells,
-            const ck_control* control) {
-    const size_t blocks = (cells.size() + kBlock - 1) / kBlock;
+  KeyLayout(const Grid& grid, const ck_control* control) {
+    const size_t count = grid.points.count, blocks = (count + kBlock - 1) / kBlock;
     std::vector<Cell> lows(blocks + 1, full(INT32_MAX)), highs(blocks + 1, full(INT32_MIN));
     ck::parallel_for(control, blocks, [&](size_t block) {
-      for (size_t i = block * kBlock; i < std::min(cells.size(), (block + 1) * kBlock); ++i) {
-        if (points.is_finite(i)) widen(cells[i], lows[block], highs[block]);
+      for (size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+        if (grid.points.is_finite(i)) widen(grid.cell(i), lows[block], highs[block]);
       }
     });
     low = lows[blocks];
@@ -104,28 +105,50 @@ struct KeyedPoint {
   uint32_t index;
 };
 
-/// The distinct cells in lexicographic order; `numbers` receives the cell index of each finite
-/// point, −1 for others.
+/// The finite points with the keys of their cells, in the order of the input.
 template <typename Key>
-std::vector<Cell> number(const ck::Strided<float>& points, std::vector<Cell> cells,
-                         const KeyLayout& layout, int32_t* numbers, const ck_control* control) {
-  std::vector<KeyedPoint<Key>> order;
-  order.reserve(points.count);
-  for (size_t i = 0; i < points.count; ++i) {
-    numbers[i] = -1;
-    if (points.is_finite(i)) {
-      order.push_back({layout.pack<Key>(cells[i]), static_cast<uint32_t>(i)});
+ck::Uninitialized<KeyedPoint<Key>> keyed_points(const Grid& grid, const KeyLayout& layout,
+                                                const ck_control* control) {
+  const size_t count = grid.points.count, blocks = (count + kBlock - 1) / kBlock;
+  const auto end = [&](size_t block) { return std::min(count, (block + 1) * kBlock); };
+  // The number of finite points before each block.
+  std::vector<size_t> starts(blocks + 1, 0);
+  ck::parallel_for(control, blocks, [&](size_t block) {
+    for (size_t i = block * kBlock; i < end(block); ++i) {
+      starts[block + 1] += grid.points.is_finite(i);
     }
-  }
-  cells = {};
+  });
+  for (size_t block = 0; block < blocks; ++block) starts[block + 1] += starts[block];
+  ck::Uninitialized<KeyedPoint<Key>> found(starts.back());
+  ck::parallel_for(control, blocks, [&](size_t block) {
+    size_t next = starts[block];
+    for (size_t i = block * kBlock; i < end(block); ++i) {
+      if (!grid.points.is_finite(i)) continue;
+      found[next++] = {layout.pack<Key>(grid.cell(i)), static_cast<uint32_t>(i)};
+    }
+  });
+  return found;
+}
+
+/// The distinct cells in lexicographic order; `numbers` receives the cell index of each finite
+/// point, −1 for others. `members` and `starts`, if given, receive the points of each cell.
+template <typename Key>
+std::vector<Cell> number(const Grid& grid, const KeyLayout& layout, int32_t* numbers,
+                         int32_t* members, int32_t* starts_of_cells, const ck_control* control) {
+  const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
+  auto order = keyed_points<Key>(grid, layout, &quiet);
+  std::fill(numbers, numbers + grid.points.count, -1);
   ck::parallel_sort(
-      order, [](const auto& a, const auto& b) { return a.key < b.key; }, control);
+      order,
+      [](const auto& a, const auto& b) {
+        return a.key != b.key ? a.key < b.key : a.index < b.index;
+      },
+      control);
   ck::step(control, 0.5);
   const auto is_first = [&](size_t k) { return k == 0 || order[k].key != order[k - 1].key; };
   const auto end = [&](size_t block) { return std::min(order.size(), (block + 1) * kBlock); };
   // The number of cells before each block of the order.
   std::vector<size_t> starts((order.size() + kBlock - 1) / kBlock + 1, 0);
-  const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
   ck::parallel_for(&quiet, starts.size() - 1, [&](size_t block) {
     for (size_t k = block * kBlock; k < end(block); ++k) starts[block + 1] += is_first(k);
   });
@@ -134,10 +157,15 @@ std::vector<Cell> number(const ck::Strided<float>& points, std::vector<Cell> cel
   ck::parallel_for(&quiet, starts.size() - 1, [&](size_t block) {
     size_t next = starts[block];
     for (size_t k = block * kBlock; k < end(block); ++k) {
-      if (is_first(k)) distinct[next++] = layout.unpack(order[k].key);
+      if (is_first(k)) {
+        if (members) starts_of_cells[next] = static_cast<int32_t>(k);
+        distinct[next++] = layout.unpack(order[k].key);
+      }
       numbers[order[k].index] = static_cast<int32_t>(next) - 1;
+      if (members) members[k] = static_cast<int32_t>(order[k].index);
     }
   });
+  if (members) starts_of_cells[distinct.size()] = static_cast<int32_t>(order.size());
   return distinct;
 }
 
@@ -176,21 +204,24 @@ std::vector<int32_t> join_cells(const std::vector<Cell>& cells, size_t* count,
 
 ck_status ck_voxel_cells(ck_span positions, double cell_size, const int8_t* levels,
                          const ck_control* control, int32_t* cells, size_t* cell_count,
-                         int32_t* components, size_t* component_count) {
+                         int32_t* members, int32_t* starts, bool finds_members, int32_t* components,
+                         size_t* component_count) {
   return ck::guarded([&] {
     const ck::Strided<float> points(positions);
     const size_t count = points.count;
     ck::require(cells && cell_count && (positions.data || count == 0), "null pointer");
+    ck::require(!finds_members || (members && starts), "null pointer");
+    if (!finds_members) members = nullptr;
     ck::require(std::isfinite(cell_size) && cell_size > 0, "the cell size must be positive");
     ck::require(count < (size_t{1} << 31), "too many points");
     ck::step(control, 0);
     const ck_control quiet{nullptr, nullptr, ck::thread_count(control)};
-    std::vector<Cell> all = cells_of(points, cell_size, levels, &quiet);
-    const KeyLayout layout(points, all, &quiet);
+    const Grid grid{points, cell_size, levels};
+    const KeyLayout layout(grid, &quiet);
     const auto distinct =
         layout.size() <= 64
-            ? number<uint64_t>(points, std::move(all), layout, cells, control)
-            : number<unsigned __int128>(points, std::move(all), layout, cells, control);
+            ? number<uint64_t>(grid, layout, cells, members, starts, control)
+            : number<unsigned __int128>(grid, layout, cells, members, starts, control);
     *cell_count = distinct.size();
     if (!components) return;
     ck::require(component_count, "null pointer");

@@ -1,7 +1,12 @@
+import Kernels
+
 /// The elements of each group, ascending, in compressed-row storage (one array with offsets).
 struct Members: Sendable {
   private var offsets: [Int32]
   private var elements: [Int32]
+
+  /// The points of the cells of a grid, which has found its members.
+  init(of grid: VoxelGrid) { (offsets, elements) = (grid.starts, grid.members) }
 
   /// `groups` holds each element's group, in 0..<`count`; −1 means none.
   init(of groups: [Int32], count: Int) {

@@ -58,7 +58,8 @@ struct VoxelDownsampling {
         }
       }
     let grid = try VoxelGrid(
-      kept.positions, cellSize: size, levels: levels, context.control.part(from: 0.1, to: 0.7))
+      kept.positions, cellSize: size, levels: levels, findsMembers: true,
+      context.control.part(from: 0.1, to: 0.7))
     kept = PointCloud()
     try context.control.step(0.7)
     return try average(cloud, grid, size, context.control.part(from: 0.7, to: 1))
@@ -68,7 +69,7 @@ struct VoxelDownsampling {
   private func average(
     _ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double, _ control: KernelControl
   ) throws -> Result {
-    let members = Members(of: grid.cells, count: grid.cellCount)
+    let members = Members(of: grid)
     let chunk = 8192  // Cells of a unit of parallel work. Chosen.
     var parts = try control.parallelMap((grid.cellCount + chunk - 1) / chunk) { part in
       average(

@@ -16,6 +16,7 @@ import Testing
         points, cellSize: 0.125, KernelControl(threadCount: threads))
       #expect(grid.cellCount == distinct.count)
       #expect(grid.cells == cells.map { numbers[$0] })
+      #expect(grid.members.isEmpty && grid.starts.isEmpty)
     }
   }
 
@@ -24,7 +25,9 @@ import Testing
   @Test func distantCellsAreDistinguished() throws {
     var random = SeededGenerator(seed: 6)
     var points = (0..<1000).map { _ in
-      SIMD3<Float>(random.normal3()) * (random.uniform() < 0.5 ? 1 : 1e5)
+      // Half of them in few cells.
+      random.uniform() < 0.5
+        ? SIMD3<Float>(random.normal3()) * 0.002 : SIMD3<Float>(random.normal3()) * 1e5
     }
     points[7].x = .nan
     let cells = points.map { SIMD3<Double>($0) / 0.001 }
@@ -32,7 +35,13 @@ import Testing
     let distinct = Set(cells.filter { $0.x.isFinite })
       .sorted { ($0.x, $0.y, $0.z) < ($1.x, $1.y, $1.z) }
     let numbers = Dictionary(uniqueKeysWithValues: zip(distinct, Int32(0)...))
-    let grid = try VoxelGrid(points, cellSize: 0.001, KernelControl(threadCount: 2))
+    let grid = try VoxelGrid(
+      points, cellSize: 0.001, findsMembers: true, KernelControl(threadCount: 2))
     #expect(grid.cells == cells.map { numbers[$0] ?? -1 })
+    #expect(grid.members.count == 999 && grid.starts.count == distinct.count + 1)
+    for cell in distinct.indices {
+      let members = grid.members[Int(grid.starts[cell])..<Int(grid.starts[cell + 1])]
+      #expect(Array(members) == (0..<1000).filter { grid.cells[$0] == cell }.map { Int32($0) })
+    }
   }
 }
