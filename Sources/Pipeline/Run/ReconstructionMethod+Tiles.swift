@@ -58,7 +58,7 @@ extension ReconstructionMethod {
     // What is noted of a tile concerns no other.
     let own = StageContext(control: context.control)
     let models = try tileModels(input, own.part(from: 0, to: 0.1))
-    let written = try models.prepare()
+    let written = try models.prepare(own.control.withoutProgress)
     let count = written.count
     for tile in 0..<count where written[tile] == nil {
       try models.surfaces.solve(tile, own.part(from: 0.1, to: 0.3).part(tile, of: count))
@@ -95,7 +95,8 @@ extension ReconstructionMethod {
       base: .made(from: cloud, nil, system))
     try recorder.run(.optimization, images: images) { context in
       try beside({ try scenes?.save(record) }, context.control) {
-        _ = try tileModels(input, StageContext(control: context.control)).prepare()
+        _ = try tileModels(input, StageContext(control: context.control))
+          .prepare(context.control.withoutProgress)
       }
     }
   }

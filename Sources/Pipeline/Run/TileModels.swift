@@ -40,7 +40,9 @@ struct TileModels {
   /// Writes a tile, unless that was done; returns what the index lists, nil if it has no surface.
   @discardableResult
   func write(_ tile: Int, _ context: StageContext) throws -> TileIndex.Tile? {
-    if let found = written(tile) { return found.tile }
+    if let found = Self.written(tile, surfaces.store, in: output.folder, options) {
+      return found.tile
+    }
     let url = output.file(tile + 1)
     var written = WrittenTile()
     if let model = try model(tile, context) {
@@ -54,15 +56,20 @@ struct TileModels {
 
   /// Removes the index and the tiles of earlier runs, but for those that are as this one would
   /// write them; returns these, nil for each of the others. Throws `OutputError`.
-  func prepare() throws -> [WrittenTile?] {
-    let kept = (0..<surfaces.count).map(written)
+  func prepare(_ control: KernelControl) throws -> [WrittenTile?] {
+    let kept = try control.parallelMap(surfaces.count) {
+      [store = surfaces.store, output, options] in
+      Self.written($0, store, in: output.folder, options)
+    }
     try output.prepare(keeping: Set(kept.compactMap { $0?.tile?.file }))
     return kept
   }
 
-  private func written(_ tile: Int) -> WrittenTile? {
-    let found = surfaces.store.written(tile, options: options)
-    return found?.isIntact(in: output.folder) == true ? found : nil
+  private static func written(
+    _ tile: Int, _ store: TileStore, in folder: URL, _ options: UInt64
+  ) -> WrittenTile? {
+    let found = store.written(tile, options: options)
+    return found?.isIntact(in: folder) == true ? found : nil
   }
 
   /// The textured model of a tile, and the number of photos that show it; nil if it has no surface.
