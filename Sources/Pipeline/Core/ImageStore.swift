@@ -101,8 +101,11 @@ package final class ImageStore: Sendable {
 
   /// The photo in RGB, upright, reduced by area averaging to at most `maximumPixels`.
   ///
-  /// The camera of the result is `camera.resized(width:height:)` with the image's size.
-  package func image(_ id: ID<Photo>, maximumPixels: Int? = nil) throws -> RasterImage {
+  /// The camera of the result is `camera.resized(width:height:)` with the image's size. What is
+  /// needed once should not be kept: it would displace what is needed more often.
+  package func image(
+    _ id: ID<Photo>, maximumPixels: Int? = nil, isKept: Bool = true
+  ) throws -> RasterImage {
     let size = try size(of: id, maximumPixels: maximumPixels)
     let shared = try self.size(of: id, maximumPixels: decodedPixels)
     let reduction = try source.reduction(
@@ -113,7 +116,7 @@ package final class ImageStore: Sendable {
     let decoded = try decoded(id, reducedBy: reduction, for: size)
     guard decoded.width != size.width || decoded.height != size.height else { return decoded }
     let image = try decoded.resized(width: size.width, height: size.height)
-    if decodedPixels == 0 { cache.keep(image, content, of: id) }
+    if decodedPixels == 0, isKept { cache.keep(image, content, of: id) }
     return image
   }
 

@@ -47,7 +47,8 @@ struct SkyDetection: Sendable {
     let masks = try context.control.parallelMap(photos.count) { index -> RasterImage? in
       let photo = try ReducedPhoto(
         photos[index], reconstruction,
-        images.image(photos[index], maximumPixels: options.maximumPixels))
+        images.image(
+          photos[index], maximumPixels: options.maximumPixels, isKept: false))
       let full = reconstruction.photos[photos[index].index]
       let scale = SIMD2(
         Double(photo.image.width) / Double(full.width),
@@ -74,15 +75,16 @@ struct SkyDetection: Sendable {
     let gray = photo.image.gray
     let up = photo.cameraFromWorld.rotation * vertical
     let isSmooth = try gray.smoothPixels(maximumRange: options.maximumRange)
-    func elevation(_ pixel: Int) -> Double {
+    var isCandidate = [Bool](repeating: false, count: width * height)
+    var isAboveHorizon = isCandidate
+    for pixel in isSmooth.indices where isSmooth[pixel] {
       let center = SIMD2(Double(pixel % width) + 0.5, Double(pixel / width) + 0.5)
       let ray = photo.camera.unproject(center)
-      return SIMD3(ray.x, ray.y, 1).normalized.dot(up)
+      let elevation = SIMD3(ray.x, ray.y, 1).normalized.dot(up)
+      isCandidate[pixel] = elevation > options.minimumElevation
+      isAboveHorizon[pixel] = elevation > 0
     }
-    let isCandidate = (0..<width * height).map {
-      isSmooth[$0] && elevation($0) > options.minimumElevation
-    }
-    var counts = [Int](repeating: 0, count: width * height)
+    var counts = [Int32](repeating: 0, count: width * height)
     for seen in observations {
       let (x, y) = (min(width - 1, max(0, Int(seen.x))), min(height - 1, max(0, Int(seen.y))))
       counts[y * width + x] += 1
@@ -91,9 +93,9 @@ struct SkyDetection: Sendable {
     var result = RasterImage(width: width, height: height, channels: 1)
     var isFound = false
     for region in regions(isCandidate, width: width, height: height, up: [up.x, up.y]) {
-      let observed = region.reduce(0) { $0 + counts[$1] }
+      let observed = region.reduce(0) { $0 + Int(counts[$1]) }
       guard Double(observed) <= options.maximumDensity * density * Double(region.count),
-        2 * region.count(where: { elevation($0) > 0 }) > region.count,
+        2 * region.count(where: { isAboveHorizon[$0] }) > region.count,
         hasColorOfSky(region, photo.image, gray)
       else { continue }
       for pixel in region { result.pixels[pixel] = 255 }
@@ -107,25 +109,27 @@ struct SkyDetection: Sendable {
   private func regions(
     _ isCandidate: [Bool], width: Int, height: Int, up: SIMD2<Double>
   ) -> [[Int]] {
-    let isTop = { (x: Int, y: Int) in Double(x) * up.x + Double(y) * up.y > 0.5 * up.length }
+    let isTop = { (x: Double, y: Double) in x * up.x + y * up.y > 0.5 * up.length }
+    let sides = (left: isTop(-1, 0), right: isTop(1, 0), upper: isTop(0, -1), lower: isTop(0, 1))
     var isOpen = isCandidate
     var regions: [[Int]] = []
     for seed in isOpen.indices where isOpen[seed] {
       var (region, next, reachesTop) = ([seed], 0, false)
       isOpen[seed] = false
+      func visit(_ neighbor: Int, isInside: Bool, orReaches side: Bool) {
+        guard isInside else { return reachesTop = reachesTop || side }
+        guard isOpen[neighbor] else { return }
+        isOpen[neighbor] = false
+        region.append(neighbor)
+      }
       while next < region.count {
-        let (x, y) = (region[next] % width, region[next] / width)
+        let pixel = region[next]
+        let (x, y) = (pixel % width, pixel / width)
         next += 1
-        for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
-          let (u, v) = (x + dx, y + dy)
-          guard u >= 0, v >= 0, u < width, v < height else {
-            reachesTop = reachesTop || isTop(dx, dy)
-            continue
-          }
-          guard isOpen[v * width + u] else { continue }
-          isOpen[v * width + u] = false
-          region.append(v * width + u)
-        }
+        visit(pixel + 1, isInside: x + 1 < width, orReaches: sides.right)
+        visit(pixel - 1, isInside: x > 0, orReaches: sides.left)
+        visit(pixel + width, isInside: y + 1 < height, orReaches: sides.lower)
+        visit(pixel - width, isInside: y > 0, orReaches: sides.upper)
       }
       if reachesTop, Double(region.count) >= options.minimumArea * Double(isCandidate.count) {
         regions.append(region)
