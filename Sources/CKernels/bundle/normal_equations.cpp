@@ -57,7 +57,8 @@ NormalEquations::NormalEquations(const ck_bundle& bundle, const BundleLayout& la
     : layout_(layout),
       huber_width_(huber_width),
       quiet_{nullptr, nullptr, thread_count(control)},
-      terms_(new Reprojection[layout.observations.size()]),
+      terms_(new Term[layout.observations.size()]),
+      by_camera_(new ByCamera[layout.observations.size()]),
       links_(layout.link_points.size()),
       prior_residuals_(layout.cameras.size()),
       inverses_(layout.is_point_free.size()),
@@ -124,24 +125,25 @@ void NormalEquations::linearize(const BundleParameters& parameters) {
   parallel_for_blocks(&quiet_, layout_.is_point_free.size(), kPointsPerChunk, [&](size_t point) {
     for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
       const auto& o = layout_.observations[k];
-      Reprojection& term = terms_[k];
-      term = reproject(parameters.cameras[size_t(o.camera)], poses[size_t(o.photo)],
-                       parameters.points[point], o.pixel);
+      const Reprojection found =
+          reproject(parameters.cameras[size_t(o.camera)], poses[size_t(o.photo)],
+                    parameters.points[point], o.pixel);
       // Iteratively reweighted least squares: the weight is the derivative of the loss by the
       // squared error.
-      const double r = (o.whitening * term.residual).norm();
+      const double r = (o.whitening * found.residual).norm();
       const Eigen::Matrix2d weight =
           (r <= huber_width_ ? 1 : std::sqrt(huber_width_ / r)) * o.whitening;
-      term.residual = weight * term.residual;
-      term.by_pose = weight * term.by_pose;
-      term.by_point = weight * term.by_point;
-      term.by_camera = weight * term.by_camera;
+      Term& term = terms_[k];
+      term.residual = weight * found.residual;
+      term.by_pose = weight * found.by_pose;
+      term.by_point = weight * found.by_point;
+      by_camera_[k] = weight * found.by_camera;
       if (o.pose_block >= 0 && layout_.fixed_axes[size_t(o.pose_block)] >= 0) {
         term.by_pose.col(3 + layout_.fixed_axes[size_t(o.pose_block)]).setZero();
       }
       for (int i = 0; o.camera_block >= 0 && i < kCameraSize; ++i) {
         if (!layout_.free_parameters[size_t(o.camera_block)][size_t(i)]) {
-          term.by_camera.col(i).setZero();
+          by_camera_[k].col(i).setZero();
         }
       }
     }
@@ -159,7 +161,7 @@ void NormalEquations::link(size_t point) {
     links_[m].setZero();
     for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
       if (layout_.observations[k].camera_block != all.values[m]) continue;
-      links_[m].noalias() += terms_[k].by_point.transpose() * terms_[k].by_camera;
+      links_[m].noalias() += terms_[k].by_point.transpose() * by_camera_[k];
     }
   }
 }
@@ -224,12 +226,12 @@ double NormalEquations::add_pose(size_t pose, double damping, ReducedSystem& sys
     read_ahead(i, own.starts[pose + 1]);
     const auto k = size_t(own.values[i]);
     const auto& o = layout_.observations[k];
-    const Reprojection& term = terms_[k];
+    const Term& term = terms_[k];
     const PoseColumns by_pose = term.by_pose.transpose();
     add_product(by_pose, term.by_pose, diagonal);
     gradient.noalias() += by_pose * term.residual;
     if (o.camera_block >= 0) {
-      add_product(by_pose, term.by_camera, system.pose_cameras[pose].at(o.camera_block));
+      add_product(by_pose, by_camera_[k], system.pose_cameras[pose].at(o.camera_block));
     }
     if (!layout_.is_point_free[size_t(o.point)]) continue;
     const Eigen::Matrix<double, 2, 3> by_point = term.by_point * inverses_[size_t(o.point)];
@@ -252,7 +254,7 @@ void NormalEquations::read_ahead(size_t i, size_t end) const {
     __builtin_prefetch(&layout_.observations[k].point);
     __builtin_prefetch(&terms_[k].by_pose);
     __builtin_prefetch(&terms_[k].by_point);
-    __builtin_prefetch(&terms_[k].by_camera);
+    __builtin_prefetch(&by_camera_[k]);
   }
   if (i + kReadAhead < end) {
     const auto point = size_t(layout_.observations[size_t(own[i + kReadAhead])].point);
@@ -336,9 +338,9 @@ NormalEquations::CameraSum NormalEquations::camera_sum(size_t camera, size_t chu
   };
   const auto [first, last] = range(layout_.observations_of_camera);
   for (size_t i = first; i < last; ++i) {
-    const Reprojection& term = terms_[size_t(layout_.observations_of_camera.values[i])];
-    sum.diagonal.noalias() += term.by_camera.transpose() * term.by_camera;
-    sum.gradient.noalias() += term.by_camera.transpose() * term.residual;
+    const auto k = size_t(layout_.observations_of_camera.values[i]);
+    sum.diagonal.noalias() += by_camera_[k].transpose() * by_camera_[k];
+    sum.gradient.noalias() += by_camera_[k].transpose() * terms_[k].residual;
   }
   const auto [first_link, last_link] = range(layout_.links_of_camera);
   const Lists& all = layout_.cameras_of_point;
@@ -386,14 +388,14 @@ double NormalEquations::predicted_decrease(const ReducedSystem& system,
     double sum = 0;
     for (size_t k = layout_.point_starts[point]; k < layout_.point_starts[point + 1]; ++k) {
       const auto& o = layout_.observations[k];
-      const Reprojection& term = terms_[k];
+      const Term& term = terms_[k];
       Vector2 moved = term.by_point * step.points[point];
       if (o.pose_block >= 0) {
         moved += term.by_pose *
                  step.cameras.segment<kPoseSize>(system.pose_offset(size_t(o.pose_block)));
       }
       if (o.camera_block >= 0) {
-        moved += term.by_camera *
+        moved += by_camera_[k] *
                  step.cameras.segment<kCameraSize>(system.camera_offset(size_t(o.camera_block)));
       }
       sum -= moved.dot(2 * term.residual + moved);

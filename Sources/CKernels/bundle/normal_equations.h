@@ -46,7 +46,14 @@ class NormalEquations {
 
  private:
   using Prior = Eigen::Matrix<double, kCameraSize, 1>;
+  using ByCamera = Eigen::Matrix<double, 2, kCameraSize>;
   struct CameraSum;
+  /// The residual of an observation and its derivatives by the pose and the point, weighted.
+  struct Term {
+    Vector2 residual;
+    Eigen::Matrix<double, 2, kPoseSize> by_pose;
+    Eigen::Matrix<double, 2, 3> by_point;
+  };
   /// Poses that a thread adds at a time.
   struct PoseUnit {
     size_t begin, end;
@@ -70,8 +77,10 @@ class NormalEquations {
   const ck_control quiet_;
   /// Means and reciprocal standard deviations of the parameters of free cameras; 0 without a prior.
   std::vector<Prior> prior_means_, prior_weights_;
-  /// One for each observation; `linearize` writes them first.
-  std::unique_ptr<Reprojection[]> terms_;
+  /// One for each observation; `linearize` writes them first. The derivatives by the camera, which
+  /// the sums over pairs of observations don't need, are apart, so that less memory is read.
+  std::unique_ptr<Term[]> terms_;
+  std::unique_ptr<ByCamera[]> by_camera_;
   /// The derivatives by the point and by the camera, multiplied and summed, for each link.
   std::vector<Eigen::Matrix<double, 3, kCameraSize>> links_;
   /// The deviations from the priors, in standard deviations.
