@@ -12,12 +12,22 @@ constexpr double kForcingSequence = 0.1;
 /// Conjugate gradients stop at this number of iterations. Chosen: Ceres' default is 500.
 constexpr int kMaximumConjugateSteps = 100;
 
+BlockPattern pattern_of(const ReducedSystem& system) {
+  BlockPattern pattern;
+  pattern.sizes.assign(system.poses.size(), kPoseSize);
+  pattern.sizes.insert(pattern.sizes.end(), system.cameras.size(), kCameraSize);
+  system.for_each_block([&](size_t row, size_t column, const auto&) {
+    pattern.blocks.push_back({row, column});
+  });
+  return pattern;
+}
+
 }  // namespace
 
 Eigen::VectorXd ReducedSolver::solve() {
   if (system_.size() == 0) return system_.right;
   const bool is_small = int32_t(system_.poses.size()) <= options_.dense_photo_limit;
-  if (!is_small && !sparse_) sparse_.emplace(system_);
+  if (!is_small && !sparse_) sparse_.emplace(pattern_of(system_));
   Eigen::VectorXd found = is_small                                  ? solve_dense()
                           : sparse_->work() <= options_.direct_work ? solve_sparse()
                                                                     : solve_iteratively();
@@ -26,8 +36,9 @@ Eigen::VectorXd ReducedSolver::solve() {
 
 Eigen::VectorXd ReducedSolver::solve_dense() const {
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(system_.size(), system_.size());
-  system_.for_each_block([&](Eigen::Index row, Eigen::Index column, const auto& block) {
-    matrix.block(column, row, block.cols(), block.rows()) = block.transpose();
+  system_.for_each_block([&](size_t row, size_t column, const auto& block) {
+    matrix.block(system_.offset(column), system_.offset(row), block.cols(), block.rows()) =
+        block.transpose();
   });
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factorization(matrix);
   if (factorization.info() != Eigen::Success) return {};
@@ -35,15 +46,19 @@ Eigen::VectorXd ReducedSolver::solve_dense() const {
 }
 
 Eigen::VectorXd ReducedSolver::solve_sparse() {
-  return sparse_->factorize(control_) ? sparse_->solve() : Eigen::VectorXd();
+  std::vector<const double*> values;
+  system_.for_each_block(
+      [&](size_t, size_t, const auto& block) { values.push_back(block.data()); });
+  return sparse_->factorize(values, control_) ? sparse_->solve(system_.right) : Eigen::VectorXd();
 }
 
 Eigen::VectorXd ReducedSolver::multiply(const Eigen::VectorXd& x) const {
   Eigen::VectorXd product = Eigen::VectorXd::Zero(system_.size());
-  system_.for_each_block([&](Eigen::Index row, Eigen::Index column, const auto& block) {
-    product.segment(row, block.rows()) += block * x.segment(column, block.cols());
+  system_.for_each_block([&](size_t row, size_t column, const auto& block) {
+    const Eigen::Index i = system_.offset(row), k = system_.offset(column);
+    product.segment(i, block.rows()) += block * x.segment(k, block.cols());
     if (row == column) return;
-    product.segment(column, block.cols()) += block.transpose() * x.segment(row, block.rows());
+    product.segment(k, block.cols()) += block.transpose() * x.segment(i, block.rows());
   });
   return product;
 }

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "bundle/multifrontal_cholesky.h"
 #include "bundle/reduced_system.h"
+#include "sparse/multifrontal_cholesky.h"
 
 namespace ck {
 

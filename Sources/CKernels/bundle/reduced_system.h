@@ -38,24 +38,24 @@ class ReducedSystem {
     return Eigen::Index(kPoseSize * poses.size() + kCameraSize * camera);
   }
 
-  /// Calls `body(row, column, block)` for every block of the upper triangle, with the offsets of
-  /// its first unknowns.
+  /// The first unknown of a node: the poses are the first nodes, then come the cameras.
+  Eigen::Index offset(size_t node) const {
+    return node < poses.size() ? pose_offset(node) : camera_offset(node - poses.size());
+  }
+
+  /// Calls `body(row, column, block)` for every block of the upper triangle, with its nodes.
   template <typename Body>
   void for_each_block(Body&& body) const {
+    const auto visit = [&](size_t node, const auto& row, size_t first_column) {
+      for (size_t k = 0; k < row.columns.size(); ++k) {
+        body(node, first_column + size_t(row.columns[k]), row.blocks[k]);
+      }
+    };
     for (size_t i = 0; i < poses.size(); ++i) {
-      for (size_t k = 0; k < poses[i].columns.size(); ++k) {
-        body(pose_offset(i), pose_offset(size_t(poses[i].columns[k])), poses[i].blocks[k]);
-      }
-      for (size_t k = 0; k < pose_cameras[i].columns.size(); ++k) {
-        body(pose_offset(i), camera_offset(size_t(pose_cameras[i].columns[k])),
-             pose_cameras[i].blocks[k]);
-      }
+      visit(i, poses[i], 0);
+      visit(i, pose_cameras[i], poses.size());
     }
-    for (size_t i = 0; i < cameras.size(); ++i) {
-      for (size_t k = 0; k < cameras[i].columns.size(); ++k) {
-        body(camera_offset(i), camera_offset(size_t(cameras[i].columns[k])), cameras[i].blocks[k]);
-      }
-    }
+    for (size_t i = 0; i < cameras.size(); ++i) visit(poses.size() + i, cameras[i], poses.size());
   }
 
   /// Columns not less than the row, of which the first is the row itself.

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
-#include "core/eigen_sparse.h"
+#include "sparse/multifrontal_cholesky.h"
 
 namespace ck {
 
 /// A sparse symmetric positive definite matrix of 3×3 blocks, and its factorization.
 ///
-/// The lower triangle is stored column by column; the sparsity pattern is fixed.
+/// The lower triangle is stored column by column; the sparsity pattern is fixed. Small matrices are
+/// factorized one column after the other, others by fronts.
 class BlockCholesky {
  public:
   /// `blocks` are the positions (row ≥ column) of the nonzero blocks, in any order, with duplicates
@@ -24,27 +26,24 @@ class BlockCholesky {
   void clear();
 
   /// Adds to a block; of a diagonal block only the lower triangle is used.
-  void add(size_t slot, const Eigen::Matrix3d& block);
+  void add(size_t slot, const Eigen::Matrix3d& block) { blocks_[slot] += block; }
 
   /// Factorizes the matrix; false if it is not positive definite.
-  bool factorize();
+  bool factorize(const ck_control* control);
 
   /// Solves for a right-hand side with the last factorization.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
-  /// Start of the three columns of a block in the values.
-  struct Place {
-    int starts[3];
-    bool is_diagonal;
-  };
-
   /// Rows of the blocks of each column, ascending.
   std::vector<std::vector<int32_t>> rows_;
   std::vector<size_t> first_slot_;
-  std::vector<Place> places_;
-  Eigen::SparseMatrix<double> matrix_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+  std::vector<Eigen::Matrix3d> blocks_;
+  bool factorize_columns();
+
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> small_;
+  /// Nothing if the matrix is small.
+  std::optional<MultifrontalCholesky> large_;
 };
 
 }  // namespace ck

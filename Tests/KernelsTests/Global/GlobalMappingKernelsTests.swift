@@ -119,6 +119,30 @@ import Testing
     #expect(poses.maximumCenterError < 0.05)
   }
 
+  /// So many photos that the system of equations is factorized by fronts.
+  @Test func manyCentersDoNotDependOnThreads() throws {
+    var options = SyntheticScene.Options()
+    options.pointCount = 600
+    options.photoCount = 130
+    let scene = SyntheticScene(options)
+    let directions = directions(scene, wrongShare: 0.05)
+    var random = SeededGenerator(seed: 5)
+    let points = scene.reconstruction.points.map { _ in 30 * random.normal3() }
+    let centers = scene.poses.map { _ in 30 * random.normal3() }
+    let results = try [1, 3].map { threads in
+      try GlobalPositioning().run(
+        directions, centers: centers, points: points,
+        control: KernelControl(threadCount: threads))
+    }
+    #expect(results[0].centers == results[1].centers)
+    #expect(results[0].points == results[1].points)
+    let poses = zip(scene.poses, results[0].centers).map { pose, center in
+      RigidTransform(rotation: pose.rotation, translation: -(pose.rotation * center))
+    }
+    #expect(
+      PoseComparison(estimated: poses, true: scene.poses).maximumCenterError < 0.05)
+  }
+
   @Test func invalidInputIsAnError() {
     let places = [SIMD3<Double>](repeating: .zero, count: 2)
     let stray = PointDirection(photo: 5, point: 0, direction: [0, 0, 1])

@@ -1,4 +1,4 @@
-#include "bundle/multifrontal_cholesky.h"
+#include "sparse/multifrontal_cholesky.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -7,38 +7,31 @@
 #include "core/parallel.h"
 
 namespace ck {
+namespace {
 
-MultifrontalCholesky::MultifrontalCholesky(const ReducedSystem& system) : system_(system) {
+/// Multiplications for which a thread is started. Chosen: they take as long
+/// as starting it; results do not depend on it.
+constexpr double kWorkPerThread = 1e5;
+
+}  // namespace
+
+MultifrontalCholesky::MultifrontalCholesky(BlockPattern pattern) : pattern_(std::move(pattern)) {
+  Eigen::Index offset = 0;
+  for (const Eigen::Index size : pattern_.sizes) {
+    offsets_.push_back(offset);
+    offset += size;
+  }
   order();
   find_fronts(structure());
   link_fronts();
 }
 
-/// Calls `body(kind, row, index, row_node, column_node)` for every block of the system.
-template <typename Body>
-void MultifrontalCholesky::for_each_block(Body&& body) const {
-  const size_t poses = system_.poses.size();
-  const auto visit = [&](Kind kind, const std::vector<int32_t>& columns, size_t row,
-                         size_t row_node, size_t first_column) {
-    for (size_t k = 0; k < columns.size(); ++k) {
-      body(kind, row, k, row_node, first_column + size_t(columns[k]));
-    }
-  };
-  for (size_t i = 0; i < poses; ++i) {
-    visit(Kind::pose_pose, system_.poses[i].columns, i, i, 0);
-    visit(Kind::pose_camera, system_.pose_cameras[i].columns, i, i, poses);
-  }
-  for (size_t i = 0; i < system_.cameras.size(); ++i) {
-    visit(Kind::camera_camera, system_.cameras[i].columns, i, poses + i, poses);
-  }
-}
-
 /// Orders the nodes by approximate minimum degree.
 void MultifrontalCholesky::order() {
   std::vector<Eigen::Triplet<char>> links;
-  for_each_block([&](Kind, size_t, size_t, size_t row_node, size_t column_node) {
-    links.emplace_back(int(row_node), int(column_node), 1);
-  });
+  for (const auto& [row, column] : pattern_.blocks) {
+    links.emplace_back(int(std::min(row, column)), int(std::max(row, column)), 1);
+  }
   const auto count = Eigen::Index(node_count());
   Eigen::SparseMatrix<char> pattern(count, count);
   pattern.setFromTriplets(links.begin(), links.end());
@@ -56,10 +49,10 @@ void MultifrontalCholesky::order() {
 /// For each place, the later ones with which it is linked once those before it are eliminated.
 MultifrontalCholesky::Structure MultifrontalCholesky::structure() const {
   Structure found(node_count());
-  for_each_block([&](Kind, size_t, size_t, size_t row_node, size_t column_node) {
-    const auto [low, high] = std::minmax(places_[row_node], places_[column_node]);
+  for (const auto& [row, column] : pattern_.blocks) {
+    const auto [low, high] = std::minmax(places_[row], places_[column]);
     if (low != high) found[low].push_back(int32_t(high));
-  });
+  }
   for (auto& own : found) {
     std::sort(own.begin(), own.end());
     own.erase(std::unique(own.begin(), own.end()), own.end());
@@ -94,10 +87,12 @@ void MultifrontalCholesky::link_fronts() {
     Front& front = fronts_[i];
     front.pivots = starts_[front.end] - starts_[front.begin];
     for (const int32_t row : front.rows) front.updates += node_size(nodes_[size_t(row)]);
+    double work = 0;
     for (Eigen::Index k = 0; k < front.pivots; ++k) {
       const auto height = double(front.pivots - k + front.updates);
-      work_ += height * height / 2;
+      work += height * height / 2;
     }
+    work_ += work;
     for (const size_t child : front.children) {
       level_of_front[i] = std::max(level_of_front[i], level_of_front[child] + 1);
       for (const int32_t row : fronts_[child].rows) {
@@ -105,7 +100,8 @@ void MultifrontalCholesky::link_fronts() {
       }
     }
     levels_.resize(std::max(levels_.size(), level_of_front[i] + 1));
-    levels_[level_of_front[i]].push_back(i);
+    levels_[level_of_front[i]].fronts.push_back(i);
+    levels_[level_of_front[i]].work += work;
     if (!front.rows.empty()) {
       fronts_[front_of_place_[size_t(front.rows.front())]].children.push_back(i);
     }
@@ -122,35 +118,39 @@ Eigen::Index MultifrontalCholesky::offset(const Front& front, size_t place) cons
   return result;
 }
 
-/// Assigns each block of the system to the front that eliminates it.
+/// Assigns each block to the front that eliminates it.
 void MultifrontalCholesky::add_entries() {
-  for_each_block([&](Kind kind, size_t row, size_t index, size_t row_node, size_t column_node) {
-    const auto [low, high] = std::minmax(places_[row_node], places_[column_node]);
+  for (size_t i = 0; i < pattern_.blocks.size(); ++i) {
+    const auto& [row, column] = pattern_.blocks[i];
+    const auto [low, high] = std::minmax(places_[row], places_[column]);
     Front& front = fronts_[front_of_place_[low]];
-    front.entries.push_back({kind, low == places_[row_node], row, index, offset(front, high),
-                             starts_[low] - starts_[front.begin]});
-  });
+    front.entries.push_back(
+        {i, low == places_[row], offset(front, high), starts_[low] - starts_[front.begin]});
+  }
 }
 
-bool MultifrontalCholesky::factorize(const ck_control* control) {
+bool MultifrontalCholesky::factorize(const std::vector<const double*>& values,
+                                     const ck_control* control) {
   // Not needed if only the work is asked for, and large where all photos show the same points.
   if (fronts_.front().entries.empty()) add_entries();
-  const ck_control quiet{nullptr, nullptr, thread_count(control)};
   std::atomic<bool> succeeds{true};
-  for (const auto& level : levels_) {
-    parallel_for(&quiet, level.size(), [&](size_t i) {
-      if (!eliminate(fronts_[level[i]])) succeeds.store(false);
+  for (const Level& level : levels_) {
+    const double useful = std::max(1.0, level.work / kWorkPerThread);
+    const int threads = int(std::min<double>(thread_count(control), useful));
+    const ck_control quiet{nullptr, nullptr, threads};
+    parallel_for(&quiet, level.fronts.size(), [&](size_t i) {
+      if (!eliminate(fronts_[level.fronts[i]], values)) succeeds.store(false);
     });
   }
   return succeeds.load();
 }
 
 /// Assembles a front, and eliminates its pivots.
-bool MultifrontalCholesky::eliminate(Front& front) {
+bool MultifrontalCholesky::eliminate(Front& front, const std::vector<const double*>& values) {
   const Eigen::Index pivots = front.pivots, updates = front.updates;
   front.columns.setZero(pivots + updates, pivots);
   front.update.setZero(updates, updates);
-  for (const Entry& entry : front.entries) add(entry, front);
+  for (const Entry& entry : front.entries) add(entry, values[entry.block], front);
   for (const size_t child : front.children) {
     add_update(fronts_[child], front);
     fronts_[child].update.resize(0, 0);
@@ -192,29 +192,21 @@ void MultifrontalCholesky::add(const Block& block, Eigen::Index row, Eigen::Inde
   }
 }
 
-void MultifrontalCholesky::add(const Entry& entry, Front& front) const {
-  const auto add_block = [&](const auto& block) {
-    if (entry.is_transposed) {
-      add(block.transpose(), entry.front_row, entry.front_column, front);
-    } else {
-      add(block, entry.front_row, entry.front_column, front);
-    }
-  };
-  switch (entry.kind) {
-    case Kind::pose_pose:
-      return add_block(system_.poses[entry.row].blocks[entry.index]);
-    case Kind::pose_camera:
-      return add_block(system_.pose_cameras[entry.row].blocks[entry.index]);
-    case Kind::camera_camera:
-      return add_block(system_.cameras[entry.row].blocks[entry.index]);
+void MultifrontalCholesky::add(const Entry& entry, const double* values, Front& front) const {
+  const auto& [row, column] = pattern_.blocks[entry.block];
+  const Eigen::Map<const Eigen::MatrixXd> block(values, node_size(row), node_size(column));
+  if (entry.is_transposed) {
+    add(block.transpose(), entry.front_row, entry.front_column, front);
+  } else {
+    add(block, entry.front_row, entry.front_column, front);
   }
 }
 
-Eigen::VectorXd MultifrontalCholesky::solve() const {
-  Eigen::VectorXd x(system_.size()), solution(system_.size());
+Eigen::VectorXd MultifrontalCholesky::solve(const Eigen::VectorXd& right) const {
+  Eigen::VectorXd x(right.size()), solution(right.size());
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Eigen::Index size = node_size(nodes_[i]);
-    x.segment(starts_[i], size) = system_.right.segment(node_offset(nodes_[i]), size);
+    x.segment(starts_[i], size) = right.segment(offsets_[nodes_[i]], size);
   }
   for (const Front& front : fronts_) substitute_forward(front, x);
   for (auto front = fronts_.rbegin(); front != fronts_.rend(); ++front) {
@@ -222,7 +214,7 @@ Eigen::VectorXd MultifrontalCholesky::solve() const {
   }
   for (size_t i = 0; i < nodes_.size(); ++i) {
     const Eigen::Index size = node_size(nodes_[i]);
-    solution.segment(node_offset(nodes_[i]), size) = x.segment(starts_[i], size);
+    solution.segment(offsets_[nodes_[i]], size) = x.segment(starts_[i], size);
   }
   return solution;
 }
