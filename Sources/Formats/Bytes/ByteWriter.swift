@@ -32,9 +32,11 @@ struct ByteWriter {
   }
 
   mutating func append(_ value: SIMD3<Float>) {
-    append(value.x)
-    append(value.y)
-    append(value.z)
+    let patterns = (
+      value.x.bitPattern.littleEndian, value.y.bitPattern.littleEndian,
+      value.z.bitPattern.littleEndian
+    )
+    withUnsafeBytes(of: patterns) { bytes.append(contentsOf: $0) }
   }
 
   mutating func append(_ value: SIMD3<UInt8>) {

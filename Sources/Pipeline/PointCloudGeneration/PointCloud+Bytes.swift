@@ -14,7 +14,7 @@ extension PointCloud: Codable {
 
   package func encode(to encoder: any Encoder) throws {
     var container = encoder.singleValueContainer()
-    try container.encode(Data(encoded()))
+    try container.encode(encoded())
   }
 }
 
@@ -24,27 +24,35 @@ extension PointCloud: UnitValue {
     guard append(encoded: [UInt8](unit)[...]) else { return nil }
   }
 
-  func unitData() throws -> Data { Data(encoded()) }
+  func unitData() throws -> Data { encoded() }
 }
 
 extension PointCloud {
   /// Serializes the cloud: counts of points and of photo indices, then one array after the other.
-  func encoded() -> [UInt8] {
-    var bytes: [UInt8] = []
-    bytes.reserveCapacity(16 + count * 36 + photoIndices.count * 2)
-    func append(_ values: [some BitwiseCopyable]) {
-      values.withUnsafeBytes { bytes.append(contentsOf: $0) }
+  /// The bytes start with a `header`. Large clouds take much memory, so nothing is copied twice.
+  func encoded(after header: Data = Data()) -> Data {
+    let size = header.count + 16 + count * 36 + photoIndices.count * 2
+    let bytes = UnsafeMutableRawBufferPointer.allocate(byteCount: size, alignment: 16)
+    var end = 0
+    func append<Value: BitwiseCopyable>(_ values: some Sequence<Value>) {
+      for value in values {
+        bytes.storeBytes(of: value, toByteOffset: end, as: Value.self)
+        end += MemoryLayout<Value>.size
+      }
     }
+    append(header)
     append([UInt64(count), UInt64(photoIndices.count)])
     for vectors in [positions, normals] {
-      for axis in 0..<3 { append(vectors.map { $0[axis] }) }
+      for axis in 0..<3 { append(vectors.lazy.map { $0[axis] }) }
     }
     append(consistency)
     append(footprints)
     append(photoIndices)
-    append(zip(photoOffsets.dropFirst(), photoOffsets).map { UInt8(clamping: $0 - $1) })
-    for channel in 0..<3 { append(colors.map { $0[channel] }) }
-    return bytes
+    append(zip(photoOffsets.dropFirst(), photoOffsets).lazy.map { UInt8(clamping: $0 - $1) })
+    for channel in 0..<3 { append(colors.lazy.map { $0[channel] }) }
+    guard let base = bytes.baseAddress else { return Data() }
+    return Data(
+      bytesNoCopy: base, count: end, deallocator: .custom { start, _ in start.deallocate() })
   }
 
   /// Appends a cloud serialized by `encoded`; returns false, with nothing appended, if the bytes

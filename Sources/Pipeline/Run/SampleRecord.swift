@@ -42,6 +42,6 @@ extension SampleRecord: UnitValue {
       voxelSize: samples.voxelSize, isObject: samples.isObject, support: samples.support,
       denseNotes: denseNotes, notes: notes
     ).unitData()
-    return Data(bytesOf: [UInt64(record.count)]) + record + samples.cloud.encoded()
+    return samples.cloud.encoded(after: Data(bytesOf: [UInt64(record.count)]) + record)
   }
 }

@@ -285,7 +285,7 @@ import Testing
 
   @Test func cloudSerializationRoundTrips() throws {
     let cloud = try run(in: nil)
-    let bytes = cloud.encoded()
+    let bytes = [UInt8](cloud.encoded())
     var twice = PointCloud()
     let parts: [ArraySlice<UInt8>] = [bytes[...], bytes[...], bytes.dropLast(), [1, 2, 3]]
     let isTaken = parts.map { twice.append(encoded: $0) }
