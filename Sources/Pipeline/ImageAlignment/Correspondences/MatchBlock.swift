@@ -4,8 +4,8 @@ import SceneModel
 /// others.
 struct MatchBlock: Equatable, Sendable {
   /// Pairs per block: their photos are few, since pairs are sorted, and their features fit into the
-  /// memory. Chosen.
-  static let pairCount = 500
+  /// memory. Chosen: matching them takes some seconds.
+  static let pairCount = 250
 
   /// By pair.
   var matches: [[FeatureMatch]] = []
