@@ -1,3 +1,4 @@
+import Kernels
 import SceneModel
 
 /// Links the matches of pairs into tracks over many photos: union–find that never joins two
@@ -22,7 +23,7 @@ package struct TrackBuilding: Sendable {
   package func run(
     _ graph: ViewGraph, features: [FeatureSet], _ context: StageContext
   ) throws -> FeatureTracks {
-    let nodes = Nodes(features)
+    let nodes = try Nodes(features, context.control.withoutProgress)
     let edges = edges(of: graph, nodes)
     try context.control.step(0.2)
     let supports = supports(of: edges, nodeCount: nodes.count)
@@ -110,21 +111,25 @@ private struct Nodes {
 
   var count: Int { photos.count }
 
-  init(_ features: [FeatureSet]) {
-    for (photo, set) in features.enumerated() {
-      var first: [SIMD2<Float>: Int32] = [:]
-      let start = photos.count
-      for (index, position) in set.positions.enumerated() {
-        let node = Int32(start + index)
-        photos.append(Int32(photo))
-        if let known = first[position] {
-          representatives.append(known)
-        } else {
-          first[position] = node
-          representatives.append(node)
-        }
-      }
+  init(_ features: [FeatureSet], _ control: KernelControl) throws {
+    let firsts = try control.parallelMap(features.count) {
+      Self.firstsAtSamePosition(features[$0].positions)
+    }
+    for (photo, firsts) in firsts.enumerated() {
+      let start = Int32(photos.count)
+      photos += repeatElement(Int32(photo), count: firsts.count)
+      representatives += firsts.lazy.map { start + $0 }
       offsets.append(photos.count)
+    }
+  }
+
+  /// For each position, the index of the first equal one.
+  private static func firstsAtSamePosition(_ positions: [SIMD2<Float>]) -> [Int32] {
+    var known = [SIMD2<Float>: Int32](minimumCapacity: positions.count)
+    return positions.enumerated().map { index, position in
+      if let first = known[position] { return first }
+      known[position] = Int32(index)
+      return Int32(index)
     }
   }
 
