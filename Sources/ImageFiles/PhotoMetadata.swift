@@ -5,7 +5,7 @@ import SceneModel
 ///
 /// Read from the EXIF data of JPEG, PNG, WebP, HEIF and TIFF files (CIPA DC-008), and of camera raw
 /// files. Missing, damaged or implausible values are nil.
-package struct PhotoMetadata: Hashable, Sendable {
+package struct PhotoMetadata: Hashable, Codable, Sendable {
   /// EXIF orientation 1…8 that rotates the decoded pixels upright.
   package var orientation = 1
   /// EXIF orientation 1…8 that rotates the pixels of the sensor upright, even if the decoder has
@@ -125,12 +125,13 @@ private struct Fields {
   var acceleration: SIMD3<Double>? {
     guard let note = entry(TIFFTag.makerNote),
       let directory = TIFFStructure(appleMakerNote: note, in: tiff),
-      let vector = directory.entries(ofDirectoryAt: directory.firstDirectory)
+      let entry = directory.entries(ofDirectoryAt: directory.firstDirectory)
         .first(where: { $0.tag == TIFFTag.accelerationVector }),
-      let x = directory.number(vector, 0), let y = directory.number(vector, 1),
-      let z = directory.number(vector, 2)
+      let x = directory.number(entry, 0), let y = directory.number(entry, 1),
+      let z = directory.number(entry, 2)
     else { return nil }
-    return SIMD3(x, y, z)
+    let vector = SIMD3(x, y, z)
+    return vector.length.isFinite ? vector : nil
   }
 
   func text(_ tag: Int) -> String? { entry(tag).flatMap { tiff.text($0) } }

@@ -30,6 +30,7 @@ enum PartArgument: Equatable, ExpressibleByArgument {
 
   private static func part(_ name: String, _ block: Block) -> RunPart? {
     switch name {
+    case "inspections": .inspections(block)
     case "features": .features(block)
     case "pairs": .pairs(block)
     case "matches": .matches(block)

@@ -68,7 +68,7 @@ extension RunPart {
   /// The stages that a process runs for the part.
   fileprivate var stages: [PipelineStage] {
     switch self {
-    case .photos: [.preProcessing]
+    case .inspections, .photos: [.preProcessing]
     case .features, .candidates, .pairs, .matches, .morePairs, .moreMatches:
       [.preProcessing, .imageAlignment]
     case .cameras: [.preProcessing, .imageAlignment, .objectMasking]

@@ -133,27 +133,40 @@ struct ChunkedRun {
   private func alignmentStages(_ blocks: Int) -> [ChunkStage] {
     let (seconds, shares) = (durations.seconds(of: [.imageAlignment]), AlignmentShares.self)
     let masks = durations.seconds(of: [.objectMasking])
-    let photos = stage("photos", seconds: durations.seconds(of: [.preProcessing]))
     func cameras(share: Double) -> ChunkStage {
       stage("cameras", seconds: share * seconds + masks, holdsAll: true)
     }
+    let photos = photoStages(blocks)
     guard dividesMatches(blocks) else {
       let ofFeatures = shares.featuresOfFew * seconds
       return isWorthDividing(ofFeatures, among: blocks)
-        ? [
-          photos, stage("features", blocks: blocks, seconds: ofFeatures),
+        ? photos + [
+          stage("features", blocks: blocks, seconds: ofFeatures),
           cameras(share: 1 - shares.featuresOfFew),
-        ] : [photos, cameras(share: 1)]
+        ] : photos + [cameras(share: 1)]
     }
     let matchBlocks = blocks / Self.chunksPerMatchChunk
-    return [
-      photos, stage("features", blocks: blocks, seconds: shares.features * seconds),
+    return photos + [
+      stage("features", blocks: blocks, seconds: shares.features * seconds),
       stage("candidates", seconds: shares.candidates * seconds, holdsAll: true),
       stage("pairs", blocks: matchBlocks, seconds: shares.pairs * seconds),
       stage("matches", blocks: matchBlocks, seconds: shares.matches * seconds),
       stage("morePairs", seconds: shares.morePairs * seconds, holdsAll: true),
       stage("moreMatches", blocks: matchBlocks, seconds: shares.moreMatches * seconds),
       cameras(share: shares.cameras),
+    ]
+  }
+
+  /// The list of usable photos, and before it the inspection of the files if that takes long.
+  private func photoStages(_ blocks: Int) -> [ChunkStage] {
+    let seconds = durations.seconds(of: [.preProcessing])
+    let inspectionBlocks = blocks / Self.chunksPerMatchChunk
+    guard isWorthDividing(seconds, among: inspectionBlocks) else {
+      return [stage("photos", seconds: seconds)]
+    }
+    return [
+      stage("inspections", blocks: inspectionBlocks, seconds: seconds),
+      stage("photos", seconds: Self.secondsPerStage),
     ]
   }
 

@@ -3,7 +3,7 @@ import ImageFiles
 import SceneModel
 
 /// What is kept of a photo after decoding it once: enough to compare it with the others.
-package struct InspectedPhoto: Sendable {
+package struct InspectedPhoto: Codable, Sendable {
   /// Index among all files of the folder.
   package var sampleID: Int
   package var url: URL
@@ -16,7 +16,7 @@ package struct InspectedPhoto: Sendable {
   package var sharpness: SharpnessLadder
   /// The whole photo, upright and gray, with at most `PhotoInspection.thumbnailSide` pixels per
   /// side.
-  package var thumbnail: RasterImage
+  package var thumbnail = RasterImage(width: 0, height: 0, channels: 1)
   /// The mask of the photo, if it has one.
   var mask: MaskInspection.ValidatedMask?
   /// The photo's mask if it is unusable.
@@ -25,6 +25,12 @@ package struct InspectedPhoto: Sendable {
   var reading = SensorReading()
   /// Whether the file contains depth without a scale, which can't be used.
   var hasRelativeDepth = false
+
+  /// All but the thumbnail, which is stored as pixels.
+  private enum CodingKeys: CodingKey {
+    case sampleID, url, width, height, metadata, contentHash, sharpness, mask, rejectedMask
+    case reading, hasRelativeDepth
+  }
 }
 
 extension InspectedPhoto {

@@ -10,7 +10,7 @@ import SceneModel
 /// both; then the other masks of the set decide, see `PhotoIngestion`.
 struct MaskInspection: Sendable {
   /// A valid mask, and what remains ambiguous about its orientation.
-  struct ValidatedMask: Sendable {
+  struct ValidatedMask: Codable, Sendable {
     var mask: PhotoMask
     /// An alternative orientation that is equally possible.
     var otherOrientation: Int?

@@ -29,6 +29,8 @@ package struct PhotoIngestion: Sendable {
   }
 
   package var options: Options
+  /// Inspections that other processes have made.
+  var units: InspectionUnits?
 
   package init(_ options: Options = Options()) { self.options = options }
 
@@ -106,36 +108,21 @@ package struct PhotoIngestion: Sendable {
   private func inspect(
     _ files: [URL], _ masks: MaskFiles, _ context: StageContext
   ) throws -> ([InspectedPhoto], [RejectedPhoto]) {
-    let inspection = PhotoInspection(options.inspection)
-    let companions = RawCompanions(files)
-    var accepted: [InspectedPhoto] = []
-    var rejected: [RejectedPhoto] = []
-    let blockSize = 64  // Photos that are inspected at a time. Chosen.
-    for start in stride(from: 0, to: files.count, by: blockSize) {
-      let block = start..<min(start + blockSize, files.count)
-      let control = context.control.part(
-        from: Double(start) / Double(files.count),
-        to: Double(block.upperBound) / Double(files.count))
-      let isFull = accepted.count >= options.maximumPhotos
-      let results = try control.parallelMap(block.count) { index in
-        let (file, sampleID) = (files[start + index], start + index)
-        guard !isFull else {
-          return Result<InspectedPhoto, Rejection>.failure(tooMany(file, sampleID))
-        }
-        return try Self.rejecting(file, sampleID) {
-          if let photo = companions.photo(insteadOf: file, inspection) {
-            throw Rejection(
-              RejectedPhoto(
-                sampleID: sampleID, name: file.lastPathComponent, fault: .duplicate,
-                end: "it is the raw file of \(photo.lastPathComponent), which is used"))
-          }
-          return try inspection.run(file, sampleID: sampleID, mask: masks.mask(of: file))
-        }
+    let inspection = FileInspection(files, masks, options.inspection)
+    var (accepted, rejected) = ([InspectedPhoto](), [RejectedPhoto]())
+    for range in InspectionBlock.ranges(ofCount: files.count) {
+      guard accepted.count < options.maximumPhotos else {
+        rejected += range.map { tooMany(files[$0], $0) }
+        continue
       }
-      for result in results {
+      let control = context.control.part(
+        from: Double(range.lowerBound) / Double(files.count),
+        to: Double(range.upperBound) / Double(files.count))
+      let block = try units?.find(range) ?? inspection.run(range, control)
+      for result in block.results {
         switch result {
         case .success(let photo) where accepted.count >= options.maximumPhotos:
-          rejected.append(tooMany(photo.url, photo.sampleID).photo)
+          rejected.append(tooMany(photo.url, photo.sampleID))
         case .success(let photo): accepted.append(photo)
         case .failure(let rejection): rejected.append(rejection.photo)
         }
@@ -144,29 +131,26 @@ package struct PhotoIngestion: Sendable {
     return (accepted, rejected)
   }
 
-  /// Converts every error except cancellation to a rejection.
-  private static func rejecting(
-    _ file: URL, _ sampleID: Int, _ body: () throws -> InspectedPhoto
-  ) throws -> Result<InspectedPhoto, Rejection> {
-    do {
-      return .success(try body())
-    } catch let rejection as Rejection {
-      return .failure(rejection)
-    } catch let error as CancellationError {
-      throw error
-    } catch {
-      return .failure(
-        Rejection(
-          RejectedPhoto(
-            sampleID: sampleID, name: file.lastPathComponent, fault: .unreadable, end: "\(error)")))
+  /// Inspects a block of the files of a folder for other processes.
+  func inspect(
+    _ block: Block, in folder: URL, for units: InspectionUnits, _ context: StageContext
+  ) throws {
+    let masks = try MaskFiles(folder: folder, maskFolder: options.maskFolder)
+    let inspection = FileInspection(
+      SensorFiles(masks.photos).photos, masks, options.inspection)
+    let ranges = InspectionBlock.ranges(ofCount: inspection.files.count)
+    let own = ranges[block.range(of: ranges.count)]
+    for (number, range) in own.enumerated() {
+      try units.block(range) {
+        try inspection.run(range, context.part(number, of: own.count).control)
+      }
     }
   }
 
-  private func tooMany(_ file: URL, _ sampleID: Int) -> Rejection {
-    Rejection(
-      RejectedPhoto(
-        sampleID: sampleID, name: file.lastPathComponent, fault: .tooMany,
-        end: "a run accepts \(options.maximumPhotos) photos; leave some out"))
+  private func tooMany(_ file: URL, _ sampleID: Int) -> RejectedPhoto {
+    RejectedPhoto(
+      sampleID: sampleID, name: file.lastPathComponent, fault: .tooMany,
+      end: "a run accepts \(options.maximumPhotos) photos; leave some out")
   }
 
   private func rejection(

@@ -2,18 +2,25 @@ import Foundation
 import SceneModel
 
 /// The sharpness of a photo at several sizes: see `RasterImage.sharpness()`.
-package struct SharpnessLadder: Equatable, Sendable {
+package struct SharpnessLadder: Equatable, Codable, Sendable {
+  package struct Step: Equatable, Codable, Sendable {
+    package var pixels: Double
+    package var sharpness: Double
+  }
+
   /// The largest number of pixels first.
-  package var steps: [(pixels: Double, sharpness: Double)]
+  package var steps: [Step]
 
   /// Scales between the sizes, and their number. Chosen.
   private static let (reduction, count) = (0.5, 4)
 
-  package init(steps: [(pixels: Double, sharpness: Double)]) { self.steps = steps }
+  package init(steps: [(pixels: Double, sharpness: Double)]) {
+    self.steps = steps.map { Step(pixels: $0.pixels, sharpness: $0.sharpness) }
+  }
 
   /// Measures a gray image. Throws `KernelError.degenerate` if it has no texture.
   package init(_ image: RasterImage) throws {
-    steps = [(Double(image.width * image.height), try image.sharpness())]
+    steps = [Step(pixels: Double(image.width * image.height), sharpness: try image.sharpness())]
     var reduced = image
     for _ in 1..<Self.count {
       reduced = try reduced.resized(
@@ -21,13 +28,12 @@ package struct SharpnessLadder: Equatable, Sendable {
         height: Int(Double(reduced.height) * Self.reduction))
       // The reduced image may be too small to be measured.
       guard let sharpness = try? reduced.sharpness() else { break }
-      steps.append((Double(reduced.width * reduced.height), sharpness))
+      steps.append(
+        Step(pixels: Double(reduced.width * reduced.height), sharpness: sharpness))
     }
   }
 
   package var atFullSize: Double { steps.first?.sharpness ?? 0 }
-
-  package static func == (a: Self, b: Self) -> Bool { a.steps.elementsEqual(b.steps, by: ==) }
 
   /// The largest number of pixels at which the photo has the sharpness, interpolated between the
   /// logarithms of sizes; nil if it has it at none.

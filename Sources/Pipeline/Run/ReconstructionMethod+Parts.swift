@@ -5,9 +5,10 @@ extension ReconstructionMethod {
   /// Makes a part of the work from the parts before it. Tiles contain the part of the surface that
   /// `geometry` selects.
   func make(_ part: RunPart, in geometry: ModelGeometry) throws {
+    if case .inspections(let block) = part { return try inspect(block) }
     let photos = try ingest()
     switch part {
-    case .photos: break
+    case .inspections, .photos: break
     case .features(let block):
       try alignmentPart(photos) { try $0.makeFeatures(of: block, $1) }
     case .candidates: try alignmentPart(photos) { try $0.findCandidates($1) }
@@ -51,6 +52,14 @@ extension ReconstructionMethod {
     // Not `??`, as in `tileInput`.
     if let stored { return stored.views }
     return try denseViews(of: scene)
+  }
+
+  private func inspect(_ block: Block) throws {
+    guard let units = cache.units else { throw Self.noDirectory }
+    try recorder.recordingErrors { try cache.lockDirectory() }
+    try recorder.run(.preProcessing) {
+      try source.inspect(block, configuration, units, $0)
+    }
   }
 
   private func alignmentPart(

@@ -3,6 +3,8 @@
 /// All results are in the checkpoint directory. An ordinary run with the same directory finds them,
 /// and makes what is missing: the result is the same.
 package enum RunPart: Hashable, Sendable {
+  /// What each of a block of the files is by itself.
+  case inspections(Block)
   /// The list of usable photos.
   case photos
   /// The features of a block of the photos.

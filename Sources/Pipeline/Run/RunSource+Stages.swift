@@ -22,9 +22,11 @@ extension RunSource {
       let key = try IngestedRecord.key(of: folder, configuration.ingestion)
       let notes = StageNotes(meter: context.notes.meter)
       let record = try units.value(.photos, madeFrom: key) {
-        IngestedRecord(
-          try PhotoIngestion(configuration.ingestion)
-            .run(folder: folder, StageContext(control: context.control, notes: notes)), notes)
+        var ingestion = PhotoIngestion(configuration.ingestion)
+        ingestion.units = InspectionUnits(units, folderKey: key)
+        return IngestedRecord(
+          try ingestion.run(folder: folder, StageContext(control: context.control, notes: notes)),
+          notes)
       }
       record.replayNotes(to: context.notes)
       return record.ingested
@@ -32,6 +34,17 @@ extension RunSource {
       return try PhotoIngestion(configuration.ingestion).run(folder: folder, context)
     case .savedRun(let saved): return try SavedPhotos().run(saved, context)
     }
+  }
+
+  /// Inspects a block of the files for the processes that work on the same run.
+  func inspect(
+    _ block: Block, _ configuration: PipelineConfiguration, _ units: UnitStore,
+    _ context: StageContext
+  ) throws {
+    let (options, folder) = (configuration.ingestion, photoFolder)
+    let key = try IngestedRecord.key(of: folder, options)
+    try PhotoIngestion(options)
+      .inspect(block, in: folder, for: InspectionUnits(units, folderKey: key), context)
   }
 
   /// Cameras, poses and sparse points: estimated, given or saved.

@@ -10,8 +10,9 @@ import Kernels
 struct UnitStore: Sendable {
   /// What a result is: the start of its file's name.
   enum Kind: String, Sendable {
-    case photos, features, candidates, promising, pairs, matches, morePairs, scene, viewPoints
-    case sceneSamples, observed, occluders, tileBase, tileSamples, solvedTile, writtenTile
+    case inspections, photos, features, candidates, promising, pairs, matches, morePairs
+    case scene, viewPoints, sceneSamples, observed, occluders, tileBase, tileSamples, solvedTile,
+      writtenTile
   }
 
   let folder: URL
