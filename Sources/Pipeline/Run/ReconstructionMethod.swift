@@ -112,8 +112,9 @@ struct ReconstructionMethod {
             context)
         collector?.add(cloud)
         let end = context.part(from: 1, to: 1)
-        try beside({ [checkpoint = cache.checkpoint] in try checkpoint?.write(cloud) }, end.control)
-        {
+        try beside(
+          { [checkpoint = cache.checkpointForTools] in try checkpoint?.write(cloud) }, end.control
+        ) {
           try CloudMetrics().run(cloud, reconstruction, end)
         }
         return cloud

@@ -80,9 +80,13 @@ final class StageCache {
     if let emptied = scene?.photos.emptied { scene?.photos = emptied }
   }
 
-  /// Writes the reconstruction for other tools, unless this is one of several parts of a run.
+  /// Where results are written for other tools; nil for one of several parts of a run, which leaves
+  /// only what other parts need.
+  var checkpointForTools: Checkpoint? { isReported ? checkpoint : nil }
+
+  /// Writes the reconstruction for other tools.
   func write(_ reconstruction: Reconstruction) throws {
-    if isReported { try checkpoint?.write(reconstruction) }
+    try checkpointForTools?.write(reconstruction)
   }
 
   /// The photos so far, with masks if there are any; nil before they are read.
