@@ -70,17 +70,18 @@ struct VoxelDownsampling {
     _ cloud: PointCloud, _ grid: VoxelGrid, _ size: Double, _ control: KernelControl
   ) throws -> Result {
     let members = Members(of: grid)
-    let chunk = 8192  // Cells of a unit of parallel work. Chosen.
-    var parts = try control.parallelMap((grid.cellCount + chunk - 1) / chunk) { part in
-      average(
-        part * chunk..<min(grid.cellCount, (part + 1) * chunk), of: members, cloud, Float(size))
-    }
+    // Cells of a unit of parallel work, and units that are made at a time. Chosen.
+    let (unit, unitsAtATime) = (8192, 64)
     var result = PointCloud()
-    result.reserveCapacity(
-      points: grid.cellCount, photos: parts.reduce(0) { $0 + $1.photoIndices.count })
-    for index in parts.indices {
-      result.append(parts[index])
-      parts[index] = PointCloud()
+    result.reserveCapacity(points: grid.cellCount, photos: cloud.photoIndices.count)
+    try readingAhead(grid.cellCount, by: unit * unitsAtATime, control) { cells, control in
+      try control.parallelMap((cells.count + unit - 1) / unit) { number in
+        let start = cells.lowerBound + number * unit
+        return average(
+          start..<min(start + unit, cells.upperBound), of: members, cloud, Float(size))
+      }
+    } use: { _, parts in
+      for part in parts { result.append(part) }
     }
     return Result(
       cloud: result, sampleOfPoint: grid.cells,

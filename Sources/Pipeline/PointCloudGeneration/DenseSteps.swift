@@ -192,29 +192,19 @@ struct DenseSteps {
   func cloud(_ context: StageContext) throws -> PointCloud {
     let thinning = CloudThinning(maximumPoints: options.maximumPoints)
     var (cloud, points, accepted, outside) = (PointCloud(), 0, 0, 0)
-    let (control, next) = (context.control, Locked(try fusedViews(from: 0, context.control)))
-    for start in stride(from: 0, to: views.views.count, by: Self.viewsAtATime) {
-      let read = next.withLock { $0 }
-      try beside(
-        { [self] in
-          let found = try fusedViews(from: start + Self.viewsAtATime, control)
-          next.withLock { $0 = found }
-        }, control
-      ) {
-        for view in read {
-          points += view.cloud.count
-          accepted += view.acceptedPatches
-          outside += view.pointsOutsideMasks
-          if thinning.isNeeded(for: points) {
-            cloud = PointCloud()
-          } else {
-            cloud.append(view.cloud)
-          }
-        }
-        if start == 0 {
-          cloud.reserveCapacity(
-            times: Double(views.views.count) / Double(read.count), atMost: options.maximumPoints)
-        }
+    try readingAhead(views.views.count, by: Self.viewsAtATime, context.control) {
+      [self] range, control in
+      try control.parallelMap(range.count) { [self] in try fusedView(range.lowerBound + $0) }
+    } use: { range, read in
+      for view in read {
+        points += view.cloud.count
+        accepted += view.acceptedPatches
+        outside += view.pointsOutsideMasks
+        if thinning.isNeeded(for: points) { cloud = PointCloud() } else { cloud.append(view.cloud) }
+      }
+      if range.lowerBound == 0 {
+        cloud.reserveCapacity(
+          times: Double(views.views.count) / Double(range.count), atMost: options.maximumPoints)
       }
     }
     if masks.areUsed { context.notes.record("pointsOutsideMasks", Double(outside)) }
@@ -224,15 +214,6 @@ struct DenseSteps {
     context.notes.log(
       "Kept \(cloud.count) of \(points) points, as many as the memory allows.")
     return cloud
-  }
-
-  /// The points of a number of views, none after the last view.
-  private func fusedViews(from start: Int, _ control: KernelControl) throws -> [FusedView] {
-    let (count, all) = (views.views.count, Double(views.views.count))
-    let end = min(start + Self.viewsAtATime, count)
-    guard start < end else { return [] }
-    return try control.part(from: Double(start) / all, to: Double(end) / all)
-      .parallelMap(end - start) { [self] in try fusedView(start + $0) }
   }
 
   /// The points of a view as `fuse` wrote them.
