@@ -26,7 +26,8 @@ package struct TrackBuilding: Sendable {
     let nodes = try Nodes(features, context.control.withoutProgress)
     let edges = edges(of: graph, nodes)
     try context.control.step(0.2)
-    let supports = supports(of: edges, nodeCount: nodes.count)
+    let supports = try supports(
+      of: edges, nodeCount: nodes.count, context.control.withoutProgress)
     try context.control.step(0.5)
     // A stable sort by descending support: buckets keep the order of the pairs.
     var buckets = [[Int]](repeating: [], count: Int(supports.max() ?? 0) + 1)
@@ -73,7 +74,9 @@ package struct TrackBuilding: Sendable {
   }
 
   /// For each edge, the number of nodes matched with both of its ends.
-  private func supports(of edges: [(Int32, Int32)], nodeCount: Int) -> [Int32] {
+  private func supports(
+    of edges: [(Int32, Int32)], nodeCount: Int, _ control: KernelControl
+  ) throws -> [Int32] {
     var offsets = [Int](repeating: 0, count: nodeCount + 1)
     for edge in edges {
       offsets[Int(edge.0) + 1] += 1
@@ -89,15 +92,19 @@ package struct TrackBuilding: Sendable {
       next[Int(b)] += 1
     }
     for node in 0..<nodeCount { neighbors[offsets[node]..<offsets[node + 1]].sort() }
-    return edges.map { a, b in
-      var (i, j) = (offsets[Int(a)], offsets[Int(b)])
-      let (endI, endJ) = (offsets[Int(a) + 1], offsets[Int(b) + 1])
-      var common: Int32 = 0
-      while i < endI, j < endJ {
-        if neighbors[i] == neighbors[j] { common += 1 }
-        if neighbors[i] <= neighbors[j] { i += 1 } else { j += 1 }
+    let unit = 1 << 14  // Edges of a unit of parallel work. Chosen.
+    return try control.parallelMap(edges.count, inUnitsOf: unit) {
+      [edges, offsets, neighbors] numbers -> [Int32] in
+      edges[numbers].map { a, b in
+        var (i, j) = (offsets[Int(a)], offsets[Int(b)])
+        let (endI, endJ) = (offsets[Int(a) + 1], offsets[Int(b) + 1])
+        var common: Int32 = 0
+        while i < endI, j < endJ {
+          if neighbors[i] == neighbors[j] { common += 1 }
+          if neighbors[i] <= neighbors[j] { i += 1 } else { j += 1 }
+        }
+        return common
       }
-      return common
     }
   }
 }

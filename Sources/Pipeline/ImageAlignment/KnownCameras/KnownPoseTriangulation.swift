@@ -46,8 +46,7 @@ package struct KnownPoseTriangulation: Sendable {
       graph, features: features, context.part(from: 0.9, to: 0.95))
     let map = try triangulate(tracks, reconstruction, context.part(from: 0.95, to: 1))
     var result = reconstruction
-    result.points = (0..<map.tracks.count).filter { map.isTriangulated[$0] }
-      .map { map.scenePoint($0, features) }
+    result.points = try map.scenePoints(features, context.control)
     guard !result.points.isEmpty else {
       throw PipelineError.camerasDontFit(
         reason: "no point was found at which matching features of two photos meet.")

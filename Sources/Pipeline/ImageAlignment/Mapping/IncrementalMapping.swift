@@ -22,22 +22,21 @@ package struct IncrementalMapping: Sendable {
     context.notes.record("components", Double(maps.count))
     var best = maps.first ?? growth.empty
     if best.registered.isEmpty { best = growth.empty }
-    return reconstruction(best, others: Array(maps.dropFirst()), graph, features, photos)
+    return try reconstruction(
+      best, others: Array(maps.dropFirst()), graph, features, photos, context.control)
   }
 
   private func reconstruction(
     _ map: SparseMap, others: [SparseMap], _ graph: ViewGraph, _ features: [FeatureSet],
-    _ photos: [Photo]
-  ) -> Reconstruction {
+    _ photos: [Photo], _ control: KernelControl
+  ) throws -> Reconstruction {
     var cameras = map.photos.cameras
     for photo in map.registered {
       cameras[Int(map.photos.cameraOfPhoto[photo])].calibration = .refined
     }
-    let points = (0..<map.tracks.count).filter { map.isTriangulated[$0] }.map { track in
-      map.scenePoint(track, features)
-    }
     return Reconstruction(
-      cameras: cameras, photos: photos, poses: map.photos.poses, points: points,
+      cameras: cameras, photos: photos, poses: map.photos.poses,
+      points: try map.scenePoints(features, control),
       unregistered: unregistered(map, others: others, graph, features, photos))
   }
 }

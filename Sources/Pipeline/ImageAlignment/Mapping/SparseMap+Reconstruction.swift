@@ -29,7 +29,9 @@ extension SparseMap {
   }
 
   /// The current map as a reconstruction; what the map doesn't hold is copied from `other`.
-  func reconstruction(like other: Reconstruction, features: [FeatureSet]) -> Reconstruction {
+  func reconstruction(
+    like other: Reconstruction, features: [FeatureSet], _ control: KernelControl
+  ) throws -> Reconstruction {
     var result = other
     result.poses = photos.poses
     for (index, camera) in photos.cameras.enumerated() {
@@ -37,14 +39,20 @@ extension SparseMap {
       result.cameras[index] = camera
       result.cameras[index].calibration = calibration
     }
-    result.points = (0..<tracks.count).filter { isTriangulated[$0] }.map {
-      scenePoint($0, features)
-    }
+    result.points = try scenePoints(features, control)
     return result
   }
 
+  /// The scene points of all triangulated tracks, in their order.
+  func scenePoints(_ features: [FeatureSet], _ control: KernelControl) throws -> [ScenePoint] {
+    let unit = 2048  // Tracks of a unit of parallel work. Chosen: a few milliseconds.
+    return try control.withoutProgress.parallelMap(tracks.count, inUnitsOf: unit) { [self] in
+      $0.filter { isTriangulated[$0] }.map { scenePoint($0, features) }
+    }
+  }
+
   /// The scene point of a track with its color, error and active observations.
-  func scenePoint(_ track: Int, _ features: [FeatureSet]) -> ScenePoint {
+  private func scenePoint(_ track: Int, _ features: [FeatureSet]) -> ScenePoint {
     var point = ScenePoint(position: positions[track])
     var (color, colored, error) = (SIMD3<Int>.zero, 0, 0.0)
     for index in activeObservations(of: track) {

@@ -36,7 +36,8 @@ package struct ObservationRefinement: Sendable {
     try adjustment.simplifyCameras(&map, context.control.part(from: 0.85, to: 0.9))
     try adjustAndFilter(
       &map, reconstruction.photos, &adjustment, isFinal: true, context.part(from: 0.9, to: 1))
-    var refined = map.reconstruction(like: reconstruction, features: features)
+    var refined = try map.reconstruction(
+      like: reconstruction, features: features, context.control)
     let losesTooManyPoints =
       Double(refined.points.count) < options.minimumPointShare * Double(reconstruction.points.count)
     guard !losesTooManyPoints else { return reconstruction }

@@ -31,7 +31,8 @@ import Testing
     var map = SparseMap(result)
     try MapAdjustment(initialCameras: result.cameras)
       .adjustGlobally(&map, isFinal: true, KernelControl())
-    return map.reconstruction(like: result, features: features(result))
+    return try map.reconstruction(
+      like: result, features: features(result), KernelControl())
   }
 
   private static func features(_ reconstruction: Reconstruction) -> [FeatureSet] {
