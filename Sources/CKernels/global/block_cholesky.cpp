@@ -5,8 +5,8 @@
 namespace ck {
 namespace {
 
-/// Columns of blocks up to which a matrix is small. Chosen: either factorization takes
-/// milliseconds then, and they differ in rounding, so that small sets keep their results.
+/// Columns of blocks up to which a matrix is small. Chosen: either factorization takes milliseconds
+/// then. They round differently; up to so many photos results are those of earlier versions.
 constexpr size_t kMaximumSmallSize = 100;
 
 }  // namespace

@@ -9,8 +9,8 @@
 namespace ck {
 namespace {
 
-/// Multiplications for which a thread is started. Chosen: they take as long
-/// as starting it; results do not depend on it.
+/// Multiplications for which a thread is started. Chosen: they take as long as starting it; results
+/// do not depend on it.
 constexpr double kWorkPerThread = 1e5;
 
 }  // namespace

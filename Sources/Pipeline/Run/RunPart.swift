@@ -3,7 +3,7 @@
 /// All results are in the checkpoint directory. An ordinary run with the same directory finds them,
 /// and makes what is missing: the result is the same.
 package enum RunPart: Hashable, Sendable {
-  /// What each of a block of the files is by itself.
+  /// What a block of the files shows, each file by itself.
   case inspections(Block)
   /// The list of usable photos.
   case photos
