@@ -14,13 +14,13 @@ import Testing
       ordering: .unordered, positions: scene.photos.map(\.position))
   }
 
-  /// More than a block of pairs.
+  /// More than two blocks of pairs.
   @Test func matchesInBlocksAreTheSame() throws {
     let scene = CorrespondenceSearchTests.scene(photos: 34)
     let pairs = scene.photos.indices.flatMap { first in
       ((first + 1)..<scene.photos.count).map { PhotoPair(ID(first), ID($0)) }
     }
-    #expect(MatchBlock.ranges(of: pairs).map(\.count) == [500, 61])
+    #expect(MatchBlock.ranges(of: pairs).map(\.count) == [250, 250, 61])
     let temporary = try TemporaryFolder()
     let units = try units(scene, in: temporary.url)
     let camera = CorrespondenceSearchTests.exif(scene)
