@@ -3,7 +3,7 @@
 package struct DepthMap: Hashable, Codable, Sendable {
   package private(set) var width: Int
   package private(set) var height: Int
-  /// Depths row by row from the top; values that are not positive and finite are unknown.
+  /// Depths row by row from the top; 0 where they are unknown.
   package private(set) var depths: [Float]
   /// Whether the values may be disparities in 1/meter instead of depths; files don't specify this.
   package var mayBeDisparities = false
@@ -11,12 +11,13 @@ package struct DepthMap: Hashable, Codable, Sendable {
   /// Relative difference between neighbors that indicates a depth edge. Chosen.
   private static let edge: Float = 0.05
 
-  /// Nil unless there is one depth per pixel.
+  /// Depths that are not positive and finite are unknown. Nil unless there is one depth per pixel.
   package init?(width: Int, height: Int, depths: [Float]) {
     guard width > 0, height > 0, depths.count == width * height else { return nil }
     self.width = width
     self.height = height
-    self.depths = depths
+    // Other values have no JSON, in which processes pass maps on.
+    self.depths = depths.map { $0 > 0 && $0.isFinite ? $0 : 0 }
   }
 
   /// The depth at a position from (0, 0), the photo's top-left corner, to (1, 1); nil outside,
@@ -27,7 +28,7 @@ package struct DepthMap: Hashable, Codable, Sendable {
     let column = Int(position.x * Double(width))
     let row = Int(position.y * Double(height))
     let center = depths[row * width + column]
-    guard center > 0, center.isFinite else { return nil }
+    guard center > 0 else { return nil }
     for y in max(0, row - 1)...min(height - 1, row + 1) {
       for x in max(0, column - 1)...min(width - 1, column + 1) {
         // Unknown neighbors also indicate an edge.

@@ -1,3 +1,4 @@
+import Foundation
 import SceneModel
 import Testing
 
@@ -35,6 +36,14 @@ import Testing
     // A neighbor of unknown depth is a sign of an edge.
     let pair = try #require(DepthMap(width: 3, height: 1, depths: [depth, 1, 1]))
     #expect(pair.depth(at: [0.5, 0.5]) == nil && pair.depth(at: [0.9, 0.5]) == 1)
+  }
+
+  /// JSON, in which processes pass maps on, has no other numbers than finite ones.
+  @Test func unknownDepthsCanBeEncoded() throws {
+    let map = try #require(DepthMap(width: 5, height: 1, depths: [2, -1, .nan, .infinity, 0]))
+    #expect(map.depths == [2, 0, 0, 0, 0])
+    let read = try JSONDecoder().decode(DepthMap.self, from: try JSONEncoder().encode(map))
+    #expect(read == map)
   }
 
   @Test func edgesAreFivePercent() throws {
