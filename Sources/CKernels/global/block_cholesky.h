@@ -35,12 +35,12 @@ class BlockCholesky {
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
  private:
+  bool factorize_columns();
+
   /// Rows of the blocks of each column, ascending.
   std::vector<std::vector<int32_t>> rows_;
   std::vector<size_t> first_slot_;
   std::vector<Eigen::Matrix3d> blocks_;
-  bool factorize_columns();
-
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> small_;
   /// Nothing if the matrix is small.
   std::optional<MultifrontalCholesky> large_;
