@@ -101,10 +101,14 @@ extension ReconstructionMethod {
     }
   }
 
-  /// Makes the surface of the scene, and stores what hides tiles.
+  /// Makes the surface of the scene, and stores what hides tiles and the photos' gains.
   func makeSurface(of scene: ObjectScene) throws {
-    try cache.tileStore(of: scene.photos, configuration)
-      .save(occluders: try occluders(try surface(scene)))
+    let store = try cache.tileStore(of: scene.photos, configuration)
+    let surface = try surface(scene)
+    try recorder.run(.optimization, images: scene.photos.images) { context in
+      try store.save(
+        try occluders(surface, of: scene, StageContext(control: context.control)))
+    }
   }
 
   /// The surface of the samples that another process stored; nil if none did.
@@ -188,16 +192,25 @@ extension ReconstructionMethod {
       let observed = tiling.meshing.observed(cloud, scene.surroundings)
       try input.store.save(base, observed: observed)
       guard let surface else { return (surfaces, nil) }
-      let occluders = try occluders(surface)
-      try input.store.save(occluders: occluders)
-      return (surfaces, TileSurroundings(observed: observed, occluders: occluders))
+      let occluders = try occluders(surface, of: scene, context.part(from: 1, to: 1))
+      try input.store.save(occluders)
+      return (
+        surfaces,
+        TileSurroundings(observed: observed, occluders: occluders.mesh, gains: occluders.gains)
+      )
     }
   }
 
-  /// What hides tiles from photos.
-  private func occluders(_ surface: Mesh) throws -> Mesh {
-    try surface.simplified(
-      maximumTriangles: configuration.textureMapping.occluderTriangles, recorder.control)
+  /// What hides tiles from photos, and the photos' gains on it.
+  private func occluders(
+    _ surface: Mesh, of scene: ObjectScene, _ context: StageContext
+  ) throws -> OccluderRecord {
+    let options = configuration.textureMapping
+    let mesh = try surface.simplified(
+      maximumTriangles: options.occluderTriangles, context.part(from: 0, to: 0.3).control)
+    let gains = try TextureMapping(options: options).gains(
+      on: mesh, scene.reconstruction, images: scene.photos.images, context.part(from: 0.3, to: 1))
+    return OccluderRecord(mesh, gains: gains)
   }
 }
 

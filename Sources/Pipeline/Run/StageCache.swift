@@ -194,6 +194,11 @@ extension StageCache {
     var inputs = Fingerprint()
     inputs.add(try RunInputs(photos, configuration).surface)
     inputs.add(try Fingerprint.content(of: configuration.tiling))
+    let texturing = configuration.textureMapping
+    inputs.add(texturing.occluderTriangles)
+    inputs.add(texturing.gainPixels)
+    inputs.add(try Fingerprint.content(of: texturing.observation))
+    inputs.add(try Fingerprint.content(of: texturing.exposure))
     let checkpoint = sealsStages ? checkpoint : nil
     return TileStore(
       folder: try checkpoint?.tileFolder() ?? temporaryTileFolder(), isShared: checkpoint != nil,

@@ -93,7 +93,7 @@ struct TileModels {
       .run(surroundings.occluders)
     let textured = try texturing.run(
       mesh, dense: mesh, occluders: around.outside, reconstruction: reconstruction,
-      images: scene.photos.images, context.part(from: 0.3, to: 1))
+      images: scene.photos.images, gains: surroundings.gains, context.part(from: 0.3, to: 1))
     return (textured.transformed(by: geometry.transform), reconstruction.registered.count)
   }
 }

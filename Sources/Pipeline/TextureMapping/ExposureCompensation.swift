@@ -31,12 +31,14 @@ struct ExposureCompensation: Sendable {
   func run(_ views: FaceViews, viewCount: Int, _ context: StageContext) throws -> [ExposureGain] {
     var logGains = [SIMD3<Double>](repeating: .zero, count: viewCount)
     let step = max(1, views.faceCount / max(1, options.sufficientFaces))
+    let faces = stride(from: 0, to: views.faceCount, by: step)
+    let pairs = ViewPairs(of: faces, in: views, viewCount: viewCount)
     for round in 0..<options.rounds {
       try context.step(round, of: options.rounds)
       let solutions = try context.part(from: 0, to: 0).control.parallelMap(3) {
         [logGains] channel in
-        var system = PairwiseDifferences(count: viewCount)
-        for face in stride(from: 0, to: views.faceCount, by: step) {
+        var system = PairwiseDifferences(of: pairs)
+        for face in faces {
           add(face, channel, of: views, logGains, to: &system)
         }
         return try system.solve(prior: options.prior, KernelControl())
@@ -81,13 +83,13 @@ struct ExposureCompensation: Sendable {
 
 /// Pairwise differences of views' logarithmic gains in one channel.
 private struct PairwiseDifferences {
-  let count: Int
+  private let pairs: ViewPairs
   private var weights: [Double]
   private var sums: [Double]
 
-  init(count: Int) {
-    self.count = count
-    weights = Array(repeating: 0, count: count * count)
+  init(of pairs: ViewPairs) {
+    self.pairs = pairs
+    weights = Array(repeating: 0, count: pairs.count)
     sums = weights
   }
 
@@ -98,23 +100,27 @@ private struct PairwiseDifferences {
     for (index, b) in items.enumerated() {
       for a in items[..<index] {
         let weight = a.weight * b.weight / total
-        weights[b.view * count + a.view] += weight
-        sums[b.view * count + a.view] += weight * (a.log - b.log)
+        let pair = pairs.index(of: b.view, a.view)
+        weights[pair] += weight
+        sums[pair] += weight * (a.log - b.log)
       }
     }
   }
 
   /// The logarithmic gains; `prior` pulls them to 0, relative to a view's mean weight.
   func solve(prior: Double, _ control: KernelControl) throws -> [Double] {
+    let count = pairs.viewCount
     let total = weights.reduce(0, +)
     guard total > 0 else { return Array(repeating: 0, count: count) }
     var system = SparseLeastSquares(unknownCount: count)
+    var pair = 0
     for b in 0..<count {
       system.add(b, value: .zero, weight: prior * 2 * total / Double(count))
-      for a in 0..<b where weights[b * count + a] > 0 {
-        let weight = weights[b * count + a]
-        let value = sums[b * count + a] / weight
-        system.add(b, minus: a, value: SIMD3(repeating: value), weight: weight)
+      for a in pairs.partners(of: b) {
+        defer { pair += 1 }
+        guard weights[pair] > 0 else { continue }
+        let value = sums[pair] / weights[pair]
+        system.add(b, minus: a, value: SIMD3(repeating: value), weight: weights[pair])
       }
     }
     return try system.solve(tolerance: 1e-9, control).map(\.x)

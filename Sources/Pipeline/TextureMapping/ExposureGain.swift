@@ -5,7 +5,7 @@ import SceneModel
 ///
 /// Exposure scales light. Except for the darkest tones, sRGB stores a power of the light minus a
 /// constant, so a gain acts on the stored value plus that constant.
-struct ExposureGain: Hashable, Sendable {
+struct ExposureGain: Hashable, Codable, Sendable {
   /// The constant. Limit: sRGB has 0.055 of 255 (IEC 61966-2-1).
   static let encodingOffset: Float = 0.055 * 255
 

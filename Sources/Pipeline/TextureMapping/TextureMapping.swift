@@ -24,6 +24,9 @@ package struct TextureMapping: Sendable {
     var minimumRegionShare: Float = 0.001
     /// Maximum triangles of the cropped-away surface that is kept as an occluder. Chosen.
     var occluderTriangles = 100_000
+    /// Pixels of the views, at most, in which photos' gains on a whole scene are estimated. Chosen:
+    /// they average over many.
+    var gainPixels = 500_000
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()
     var candidates = ViewCandidates.Options()
@@ -51,26 +54,29 @@ package struct TextureMapping: Sendable {
   package init(options: Options = Options()) { self.options = options }
 
   /// Textures `mesh`; its maps are baked from `dense`, the surface before simplification.
-  /// `occluders` block the photos' view of the mesh but get no texture. `onEvidence` receives how
-  /// the photos show the surface, before it is painted.
+  /// `occluders` block the photos' view of the mesh but get no texture. `gains` are those of all
+  /// photos, if they are known. `onEvidence` receives how the photos show the surface, before it is
+  /// painted.
   ///
   /// Throws `PipelineError.noSurface` for an empty mesh.
-  package func run(
+  func run(
     _ mesh: Mesh, dense: Mesh, occluders: Mesh = Mesh(), reconstruction: Reconstruction,
-    images: ImageStore, _ context: StageContext, onEvidence: EvidenceHandler? = nil
+    images: ImageStore, gains: [ExposureGain]? = nil, _ context: StageContext,
+    onEvidence: EvidenceHandler? = nil
   ) throws -> TexturedMesh {
     let images = images.decodingOnce(forSizesUpTo: options.painting.maximumPixels)
     return try run(
       mesh, dense: dense, occluders: occluders,
-      source: ViewSource(reconstruction, images: images), context, onEvidence: onEvidence)
+      source: ViewSource(reconstruction, images: images), gains: gains, context,
+      onEvidence: onEvidence)
   }
 
   /// Receives how the photos show a surface.
-  package typealias EvidenceHandler = (ModelEvidence) throws -> Void
+  typealias EvidenceHandler = (ModelEvidence) throws -> Void
 
   func run(
     _ input: Mesh, dense: Mesh, occluders: Mesh = Mesh(), source: ViewSource,
-    _ context: StageContext, onEvidence: EvidenceHandler? = nil
+    gains: [ExposureGain]? = nil, _ context: StageContext, onEvidence: EvidenceHandler? = nil
   ) throws -> TexturedMesh {
     let mesh = try checked(input)
     let notes = context.notes
@@ -85,8 +91,8 @@ package struct TextureMapping: Sendable {
         views: views, source: source, context.part(from: 0, to: 0.19))
     }
     let colors = try colors(
-      of: mesh, topology, draining: &seen, source, isCropped: !occluders.triangles.isEmpty,
-      needsEvidence: onEvidence != nil, context)
+      of: mesh, topology, draining: &seen, source, gains: gains,
+      isCropped: !occluders.triangles.isEmpty, needsEvidence: onEvidence != nil, context)
     try onEvidence?(evidence(colors, of: mesh, scene, views))
     let layout = try notes.step("layout") {
       try self.layout(of: mesh, dense, topology, colors, context.part(from: 0.26, to: 0.39))
@@ -116,12 +122,14 @@ package struct TextureMapping: Sendable {
   /// Chooses the views of each face. `seen` is left empty.
   private func colors(
     of mesh: Mesh, _ topology: MeshTopology, draining seen: inout FaceViews,
-    _ source: ViewSource, isCropped: Bool, needsEvidence: Bool, _ context: StageContext
+    _ source: ViewSource, gains: [ExposureGain]?, isCropped: Bool, needsEvidence: Bool,
+    _ context: StageContext
   ) throws -> FaceColors {
     let notes = context.notes
     let views = source.reconstruction.registered
     let gains = try notes.step("exposure") {
-      try ExposureCompensation(options: options.exposure)
+      if let gains { return views.map { gains[$0.index] } }
+      return try ExposureCompensation(options: options.exposure)
         .run(seen, viewCount: views.count, context.part(from: 0.19, to: 0.21))
     }
     let evidence = try notes.step("evidence") {

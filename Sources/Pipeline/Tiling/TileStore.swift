@@ -30,7 +30,9 @@ struct TileStore: Sendable {
     guard let occluders: OccluderRecord = shared.find(.occluders, madeFrom: inputs) else {
       return nil
     }
-    return observed.map { TileSurroundings(observed: $0, occluders: occluders.mesh) }
+    return observed.map {
+      TileSurroundings(observed: $0, occluders: occluders.mesh, gains: occluders.gains)
+    }
   }
 
   /// Stores what tiles and the surface of the scene are made from. Throws `OutputError`.
@@ -39,9 +41,9 @@ struct TileStore: Sendable {
     try shared.save(observed, .observed, madeFrom: inputs)
   }
 
-  /// Stores what hides tiles from photos. Throws `OutputError`.
-  func save(occluders: Mesh) throws {
-    try shared.save(OccluderRecord(occluders), .occluders, madeFrom: inputs)
+  /// Stores what hides tiles from photos, and the photos' gains on it. Throws `OutputError`.
+  func save(_ occluders: OccluderRecord) throws {
+    try shared.save(occluders, .occluders, madeFrom: inputs)
   }
 
   /// The samples of the scene near a tile, stored or from `make`.

@@ -79,6 +79,32 @@ import Testing
     #expect(ratio > 0.85 && ratio < 1.1)
   }
 
+  /// The photos of the upper half are darker. With the gains of the whole, the halves agree.
+  @Test(arguments: [false, true]) func partsOfASurface(knowGains isKnown: Bool) throws {
+    let gains = (0..<14).map { $0 < 7 ? Float(0.8) : 1.1 }
+    let scene = SphereScene(viewCount: gains.count, gains: gains, color: Self.color)
+    let images = ImageStore(images: scene.images)
+    let mapping = TextureMapping(options: .init(textureSide: 512, maps: [.diffuseColor]))
+    let known =
+      isKnown
+      ? try mapping.gains(on: mesh, scene.reconstruction, images: images, StageContext()) : nil
+    let ratios = try [Float(-1), 1].map { sign in
+      var (part, rest) = (mesh, mesh)
+      let isInside = mesh.triangles.map { t in sign * mesh.positions[Int(t.a)].y > 0 }
+      part.triangles = zip(mesh.triangles, isInside).filter(\.1).map(\.0)
+      rest.triangles = zip(mesh.triangles, isInside).filter { !$0.1 }.map(\.0)
+      part = part.withoutUnusedVertices()
+      let model = try mapping.run(
+        part, dense: part, occluders: rest, reconstruction: scene.reconstruction, images: images,
+        gains: known, StageContext())
+      let atSeam = try samples(model).filter { abs($0.position.y) < 0.2 }
+      let expected = atSeam.map { Self.color($0.position).y }
+      return atSeam.map(\.color.y).reduce(0, +) / expected.reduce(0, +)
+    }
+    let difference = abs(log(ratios[1] / ratios[0]))
+    #expect(isKnown ? difference < 0.01 : difference > 0.03, "\(ratios)")
+  }
+
   @Test func croppedSurfaceStillOccludes() throws {
     let scene = SphereScene(viewCount: 12, color: Self.color)
     // A cap that occludes the upper part of the sphere in all photos.

@@ -166,6 +166,23 @@ import Testing
     }
   }
 
+  @Test func pairsOfViewsAreThoseThatSeeTheSameTriangles() throws {
+    // Triangle f is seen by views f, f + 1 and f + 70.
+    let viewCount = 200
+    let byView = (0..<viewCount).map { view in
+      [view - 70, view - 1, view].filter { $0 >= 0 && $0 < 130 }.map {
+        FaceObservation(face: Int32($0), area: 10, cosine: 0.8, gradient: 1, color: .one)
+      }
+    }
+    let views = try FaceViews(faceCount: 130, observationsByView: byView)
+    let pairs = ViewPairs(
+      of: stride(from: 0, to: 130, by: 1), in: views, viewCount: viewCount)
+    #expect(pairs.viewCount == viewCount && pairs.count == 3 * 130)
+    #expect(pairs.partners(of: 100) == [30, 31, 99])
+    let all = (0..<viewCount).flatMap { b in pairs.partners(of: b).map { pairs.index(of: b, $0) } }
+    #expect(all == Array(0..<pairs.count))
+  }
+
   @Test func cornerWeightsSumToOne() throws {
     let mesh = SyntheticMesh.grid(cells: 6, origin: .zero, u: [1, 0, 0], v: [0, 1, 0])
     let count = mesh.triangles.count

@@ -141,7 +141,8 @@ import Testing
     let samples = try system(of: tiling, context).samples
     try store.save(base, observed: cloud)
     #expect(store.surroundings == nil)
-    try store.save(occluders: meshes[0])
+    let gains = [ExposureGain.none, ExposureGain(factors: [0.9, 1, 1.1])]
+    try store.save(OccluderRecord(meshes[0], gains: gains))
     let stored = try #require(store.base)
     #expect(stored.grid == base.grid && stored.viewBoxes == base.viewBoxes)
     #expect(stored.coarsestFootprint == base.coarsestFootprint)
@@ -149,6 +150,7 @@ import Testing
     #expect(surroundings.observed.positions == cloud.positions)
     #expect(surroundings.occluders.positions == meshes[0].positions)
     #expect(surroundings.occluders.triangles == meshes[0].triangles)
+    #expect(surroundings.gains == gains)
 
     /// The uses of samples of the scene, and of views, until all tiles are there.
     func uses() throws -> (samples: Int, views: Int) {
