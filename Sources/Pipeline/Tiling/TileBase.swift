@@ -23,8 +23,23 @@ struct TileBase {
   /// Spacing of the samples, or half a cell where cells are larger, in world units.
   var spacing: Double { max(voxelSize, grid.cube.side / exp2(Double(depth)) / 2) }
 
-  /// The tiles of a block, so that all blocks have about the same number of points.
-  func tiles(of block: Block) -> [Int] { block.indices(ofWeights: grid.pointCounts) }
+  /// The tiles of a block, so that all blocks are expected to have about the same amount of work.
+  func tiles(of block: Block) -> [Int] { block.indices(ofWeights: works) }
+
+  /// The expected work of each tile, as a number of points: the work with its points, and with each
+  /// view that has points there.
+  var works: [Int] {
+    let perView =
+      Self.workOfView * Double(grid.pointCounts.reduce(0, +)) / Double(max(1, viewBoxes.count))
+    return zip(grid.boxes, grid.pointCounts).map { box, points in
+      points + Int(perView * Double(viewBoxes.count { $0.map(box.overlaps) == true }))
+    }
+  }
+
+  /// The work with a view in a tile, as a share of the points that views have on average. Measured:
+  /// 0.23 s for a view with 26,600 points and 44 s for a million points, on the town of 1000 photos
+  /// (`67da71d`).
+  private static let workOfView = 0.2
 }
 
 extension TileBase: UnitValue {

@@ -131,6 +131,18 @@ import Testing
     }
   }
 
+  /// All views have points in all tiles.
+  @Test func viewsAreWork() throws {
+    let (base, _) = try tiles(maximumPoints: 5000)
+    let perView = Double(cloud.count) / 4 / 5
+    #expect(base.works.count == base.grid.boxes.count)
+    for (work, points) in zip(base.works, base.grid.pointCounts) {
+      #expect(work == points + Int(perView * 4))
+    }
+    let blocks = (0..<3).flatMap { base.tiles(of: Block(index: $0, of: 3)) }
+    #expect(blocks.sorted() == Array(base.grid.boxes.indices))
+  }
+
   /// Another process has the base from a file, the samples near each tile, and solutions of tiles
   /// that still others made. What is damaged is made again.
   @Test func storedResultsGiveTheSameTiles() throws {
