@@ -184,7 +184,7 @@ extension ReconstructionMethod {
       return (surfaces, surroundings)
     case .made(let cloud, let surface, let known):
       let system = try known ?? system(of: cloud, scene)
-      let base = try tiling.base(system, views, context.part(from: 0.8, to: 1))
+      let base = try tiling.base(system, views, context.part(from: 0.8, to: 0.85))
       let surfaces = TileSurfaces(tiling: tiling, base: base, views: views, store: input.store) {
         system.samples
       }
@@ -192,12 +192,9 @@ extension ReconstructionMethod {
       let observed = tiling.meshing.observed(cloud, scene.surroundings)
       try input.store.save(base, observed: observed)
       guard let surface else { return (surfaces, nil) }
-      let occluders = try occluders(surface, of: scene, context.part(from: 1, to: 1))
+      let occluders = try occluders(surface, of: scene, context.part(from: 0.85, to: 1))
       try input.store.save(occluders)
-      return (
-        surfaces,
-        TileSurroundings(observed: observed, occluders: occluders.mesh, gains: occluders.gains)
-      )
+      return (surfaces, TileSurroundings(observed: observed, occluders))
     }
   }
 

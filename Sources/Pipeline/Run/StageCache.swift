@@ -196,7 +196,6 @@ extension StageCache {
     inputs.add(try Fingerprint.content(of: configuration.tiling))
     let texturing = configuration.textureMapping
     inputs.add(texturing.occluderTriangles)
-    inputs.add(texturing.gainPixels)
     inputs.add(try Fingerprint.content(of: texturing.observation))
     inputs.add(try Fingerprint.content(of: texturing.exposure))
     let checkpoint = sealsStages ? checkpoint : nil

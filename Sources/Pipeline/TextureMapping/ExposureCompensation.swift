@@ -113,11 +113,10 @@ private struct PairwiseDifferences {
     let total = weights.reduce(0, +)
     guard total > 0 else { return Array(repeating: 0, count: count) }
     var system = SparseLeastSquares(unknownCount: count)
-    var pair = 0
     for b in 0..<count {
       system.add(b, value: .zero, weight: prior * 2 * total / Double(count))
       for a in pairs.partners(of: b) {
-        defer { pair += 1 }
+        let pair = pairs.index(of: b, a)
         guard weights[pair] > 0 else { continue }
         let value = sums[pair] / weights[pair]
         system.add(b, minus: a, value: SIMD3(repeating: value), weight: weights[pair])

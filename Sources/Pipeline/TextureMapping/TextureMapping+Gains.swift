@@ -9,11 +9,9 @@ extension TextureMapping {
   ) throws -> [ExposureGain] {
     var gains = [ExposureGain](repeating: .none, count: reconstruction.photos.count)
     guard !surface.triangles.isEmpty else { return gains }
-    var observation = options.observation
-    observation.maximumPixels = options.gainPixels
     let views = reconstruction.registered
     let scene = try RayScene(surface, context.part(from: 0, to: 0.1).control)
-    let seen = try ViewObservation(options: observation).run(
+    let seen = try ViewObservation(options: options.observation).run(
       scene, views: views, source: ViewSource(reconstruction, images: images),
       context.part(from: 0.1, to: 0.8))
     let estimated = try ExposureCompensation(options: options.exposure)

@@ -24,9 +24,6 @@ package struct TextureMapping: Sendable {
     var minimumRegionShare: Float = 0.001
     /// Maximum triangles of the cropped-away surface that is kept as an occluder. Chosen.
     var occluderTriangles = 100_000
-    /// Pixels of the views, at most, in which photos' gains on a whole scene are estimated. Chosen:
-    /// they average over many.
-    var gainPixels = 500_000
     var observation = ViewObservation.Options()
     var exposure = ExposureCompensation.Options()
     var candidates = ViewCandidates.Options()

@@ -7,7 +7,7 @@ struct TileStore: Sendable {
   private let units: UnitStore
   /// For what only other processes read.
   private let shared: UnitStore
-  /// The fingerprint of everything that the surfaces of tiles depend on.
+  /// The fingerprint of everything that tiles' surfaces, and what lies around them, depend on.
   private let inputs: UInt64
 
   /// `isShared` says whether other processes or runs may read the folder.
@@ -30,9 +30,7 @@ struct TileStore: Sendable {
     guard let occluders: OccluderRecord = shared.find(.occluders, madeFrom: inputs) else {
       return nil
     }
-    return observed.map {
-      TileSurroundings(observed: $0, occluders: occluders.mesh, gains: occluders.gains)
-    }
+    return observed.map { TileSurroundings(observed: $0, occluders) }
   }
 
   /// Stores what tiles and the surface of the scene are made from. Throws `OutputError`.

@@ -4,9 +4,14 @@ import SceneModel
 /// relates the photos' exposures.
 struct TileSurroundings {
   /// Of all that the photos observe, what proves that the space in front of it is free.
-  var observed: PointCloud
+  let observed: PointCloud
   /// The surface of the whole scene, of few triangles.
-  var occluders: Mesh
-  /// The gains of the photos on that surface.
-  var gains: [ExposureGain]
+  let occluders: Mesh
+  /// The gains of the photos on that surface, by photo.
+  let gains: [ExposureGain]
+
+  init(observed: PointCloud, _ record: OccluderRecord) {
+    self.observed = observed
+    (occluders, gains) = (record.mesh, record.gains)
+  }
 }
