@@ -17,7 +17,9 @@ struct EstimatedMasks: Codable, Sendable {
 
   /// Writes the masks to a folder, with the names of `MaskFiles.names(forMasksOf:)`; without a
   /// result there are none. Throws `OutputError`.
-  init(_ result: ObjectMasking.Result?, of photos: [Photo], in folder: URL) throws {
+  init(
+    _ result: ObjectMasking.Result?, of photos: [Photo], in folder: URL, _ control: KernelControl
+  ) throws {
     masks = Array(repeating: nil, count: photos.count)
     agreement = result?.agreement ?? Array(repeating: nil, count: photos.count)
     support = result?.support
@@ -26,14 +28,15 @@ struct EstimatedMasks: Codable, Sendable {
     guard let result else { return }
     try FileManager.default.createDirectory(at: folder, withIntermediateDirectories: true)
     let files = Self.files(of: photos, in: folder)
-    for (index, image) in result.masks.enumerated() {
-      guard let image else { continue }
-      let bytes = try ImageCodec.encodePNG(image)
-      try AtomicFile.write(Data(bytes), to: files[index])
-      let marked = image.pixels.count { $0 != 0 }
-      masks[index] = PhotoMask(
-        file: files[index], orientation: 1, contentHash: XXHash64.hash(bytes),
-        coverage: Double(marked) / Double(image.pixels.count))
+    masks = try control.withoutProgress.parallelMap(photos.count) { [images = result.masks] index in
+      try images[index].map { image in
+        let bytes = try ImageCodec.encodePNG(image)
+        try AtomicFile.write(Data(bytes), to: files[index])
+        let marked = image.pixels.count { $0 != 0 }
+        return PhotoMask(
+          file: files[index], orientation: 1, contentHash: XXHash64.hash(bytes),
+          coverage: Double(marked) / Double(image.pixels.count))
+      }
     }
   }
 

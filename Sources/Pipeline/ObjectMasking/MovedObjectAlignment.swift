@@ -85,7 +85,7 @@ struct MovedObjectAlignment {
     var first = ObjectMasking.Result(photoCount: matched.photos.count)
     for placement in maskedPlacements { first.complete(with: placement.masks) }
     let masked = photos.masked(
-      by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder).masks)
+      by: try EstimatedMasks(first, of: photos.ingested.photos, in: folder, context.control).masks)
     let join = PlacementJoin(
       options: options.join, alignment: alignment, masked: masked, masks: first.masks,
       placements: placements, maskedPlacements: maskedPlacements)
@@ -106,7 +106,7 @@ struct MovedObjectAlignment {
     masks.complete(with: first)
     return AlignedPhotos(
       reconstruction: reconstruction,
-      masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder))
+      masks: try EstimatedMasks(masks, of: photos.ingested.photos, in: folder, context.control))
   }
 
   /// The placements whose photos show a separate object.

@@ -88,7 +88,7 @@ struct ReconstructionMethod {
   ) throws -> ObjectScene {
     let masks =
       try cache.masksOfAlignment
-      ?? cache.sealedMasks(of: photos, configuration, context.notes) {
+      ?? cache.sealedMasks(of: photos, configuration, context) {
         try configuration.isObjectMaskingEnabled
           ? ObjectMasking(options: configuration.objectMasking)
             .run(reconstruction, images: photos.images, context)

@@ -163,13 +163,14 @@ extension StageCache {
 
   /// The masks that an earlier run sealed, or else the result of `make`, which is then sealed.
   func sealedMasks(
-    of photos: PhotoSet, _ configuration: PipelineConfiguration, _ notes: StageNotes,
+    of photos: PhotoSet, _ configuration: PipelineConfiguration, _ context: StageContext,
     _ make: () throws -> ObjectMasking.Result?
   ) throws -> EstimatedMasks {
     let store = try store(photos, configuration)
-    if let found = store?.masks(notes) { return found }
-    let result = try EstimatedMasks(try make(), of: photos.ingested.photos, in: try maskFolder())
-    try store?.save(result, notes)
+    if let found = store?.masks(context.notes) { return found }
+    let result = try EstimatedMasks(
+      try make(), of: photos.ingested.photos, in: try maskFolder(), context.control)
+    try store?.save(result, context.notes)
     return result
   }
 

@@ -160,7 +160,8 @@ import Testing
       photoOffsets: [0, 2, 3], photoIndices: [1, 4, 2])
     result.points = LabeledCloud(cloud: around, isObject: [false, false])
     return try EstimatedMasks(
-      result, of: ingested.photos, in: folder.url.appendingPathComponent("masks"))
+      result, of: ingested.photos, in: folder.url.appendingPathComponent("masks"),
+      KernelControl())
   }
 
   private func expect(_ found: EstimatedMasks, equals masks: EstimatedMasks) {

@@ -32,19 +32,20 @@ import Testing
   }
 
   @Test func masksOfAnEarlierAttemptAreRemoved() throws {
-    #expect(try !EstimatedMasks(result([0, 1, 2]), of: photos, in: folder).isEmpty)
+    #expect(
+      try !EstimatedMasks(result([0, 1, 2]), of: photos, in: folder, KernelControl()).isEmpty)
     #expect(files.count == 3)
-    let masks = try EstimatedMasks(result([0, 2]), of: photos, in: folder)
+    let masks = try EstimatedMasks(result([0, 2]), of: photos, in: folder, KernelControl())
     #expect(files == masks.masks.compactMap { $0?.file?.lastPathComponent })
     #expect(masks.masks[1] == nil && masks.areIntact)
-    #expect(try EstimatedMasks(nil, of: photos, in: folder).isEmpty)
+    #expect(try EstimatedMasks(nil, of: photos, in: folder, KernelControl()).isEmpty)
     #expect(files.isEmpty)
   }
 
   @Test func filesOfOthersStay() throws {
     try temporary.write("a note", as: "masks/note.txt")
-    _ = try EstimatedMasks(result([0]), of: photos, in: folder)
-    _ = try EstimatedMasks(nil, of: photos, in: folder)
+    _ = try EstimatedMasks(result([0]), of: photos, in: folder, KernelControl())
+    _ = try EstimatedMasks(nil, of: photos, in: folder, KernelControl())
     #expect(files == ["note.txt"])
   }
 }
