@@ -63,4 +63,23 @@ import Testing
       broken, reconstruction([[0.5, 0.5, 0.2], [.nan, 0, 0]], .arbitrary), StageContext())
     #expect(values.sparseCoverage == 0.5)
   }
+
+  @Test func sharesAreThoseOfASample() throws {
+    // Half of the sparse points, one after the other, are far from the cloud.
+    let sparse = (0..<1000).map { SIMD3<Double>($0 % 2 == 0 ? 0.5 : -9, 0.5, 0.2) }
+    func values(sampleSize: Int) throws -> CloudMetrics.Values {
+      var options = CloudMetrics.Options()
+      options.sampleSize = sampleSize
+      return try CloudMetrics(options).run(cloud, reconstruction(sparse, .gps), StageContext())
+    }
+    let all = try values(sampleSize: 2000)
+    #expect(all.sparseCoverage == 0.5)
+    // Every fifth of them: 100 of 200 are near; and 201 of the points of the block.
+    let some = try values(sampleSize: 249)
+    #expect(some.sparseCoverage == 0.5 && some.points == 1001 && some.sparsePoints == 1000)
+    let (density, expected) = try (
+      #require(some.pointsPerCubicMeter), #require(all.pointsPerCubicMeter)
+    )
+    #expect(abs(density / expected - 1) < 0.3)
+  }
 }
