@@ -32,8 +32,21 @@ package struct PointCloudGeneration {
   ) throws -> PointCloud {
     let start = context.part(from: 0, to: 0).control
     let views = try DenseViews(reconstruction, images: images, options: options, start)
+    return try run(views, reconstruction, images: images, folder: folder, context)
+  }
+
+  /// The same with known views, which are selected again if they lack sparse points that missing
+  /// files are made from.
+  func run(
+    _ views: DenseViews, _ reconstruction: Reconstruction, images: ImageStore, folder: URL?,
+    _ context: StageContext
+  ) throws -> PointCloud {
+    let start = context.part(from: 0, to: 0).control
     let workspace = try PatchWorkspace(folder: folder, temporaryParent: temporaryParent)
     let plan = try DensePlan(.cloud, views, workspace, start)
+    guard plan.isFeasible(for: views) else {
+      return try run(reconstruction, images: images, folder: workspace.folder, context)
+    }
     try workspace.checkSpace(plan.byteCount(views))
     recordReuse(views.views.count - plan[.patches].count, views, context.notes)
     let steps = DenseSteps(

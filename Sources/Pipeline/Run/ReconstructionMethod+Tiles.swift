@@ -77,7 +77,7 @@ extension ReconstructionMethod {
     of scene: ObjectScene, _ views: DenseViews, in geometry: ModelGeometry, for output: TileOutput
   ) throws {
     let store = try cache.tileStore(of: scene.photos, configuration)
-    let cloud = try densify(scene)
+    let cloud = try densify(scene, views)
     let images = scene.photos.images
     let system = try recorder.run(.meshGeneration, images: images) { context in
       try MeshGeneration(configuration.meshGeneration).system(

@@ -100,16 +100,13 @@ struct ReconstructionMethod {
       ? ObjectScene(photos, reconstruction) : ObjectScene(photos, reconstruction, masks)
   }
 
-  /// Makes the oriented, colored point cloud.
-  func densify(_ scene: ObjectScene) throws -> PointCloud {
+  /// Makes the oriented, colored point cloud; `views` are those of the dense stage, if they are
+  /// known.
+  func densify(_ scene: ObjectScene, _ views: DenseViews? = nil) throws -> PointCloud {
     let (photos, reconstruction) = (scene.photos, scene.reconstruction)
     return try cache.cloud(viewPixels: viewPixels) {
       try recorder.run(.pointCloudGeneration, images: photos.images) { context in
-        let cloud = try PointCloudGeneration(options: configuration.pointCloudGeneration)
-          .run(
-            reconstruction, images: photos.images,
-            folder: configuration.tiles == nil ? cache.checkpoint?.views : cache.viewFolder(),
-            context)
+        let cloud = try cloud(scene, views, context)
         collector?.add(cloud)
         let end = context.part(from: 1, to: 1)
         try beside(
@@ -120,6 +117,19 @@ struct ReconstructionMethod {
         return cloud
       }
     }
+  }
+
+  private func cloud(
+    _ scene: ObjectScene, _ views: DenseViews?, _ context: StageContext
+  ) throws -> PointCloud {
+    let (generation, images) = (
+      PointCloudGeneration(options: configuration.pointCloudGeneration), scene.photos.images
+    )
+    let folder = try configuration.tiles == nil ? cache.checkpoint?.views : cache.viewFolder()
+    guard let views else {
+      return try generation.run(scene.reconstruction, images: images, folder: folder, context)
+    }
+    return try generation.run(views, scene.reconstruction, images: images, folder: folder, context)
   }
 
   /// Makes the unsimplified surface of the object, or of the whole scene if masking is off.
