@@ -191,7 +191,8 @@ struct DenseSteps {
   /// Concatenates the views' points in view order, thinned if there are too many.
   func cloud(_ context: StageContext) throws -> PointCloud {
     let thinning = CloudThinning(maximumPoints: options.maximumPoints)
-    var (cloud, points, accepted, outside) = (PointCloud(), 0, 0, 0)
+    let assembly = CloudAssembly()
+    var (points, accepted, outside) = (0, 0, 0)
     try readingAhead(views.views.count, by: Self.viewsAtATime, context.control) {
       [self] range, control in
       try control.parallelMap(range.count) { [self] in try fusedView(range.lowerBound + $0) }
@@ -200,17 +201,18 @@ struct DenseSteps {
         points += view.cloud.count
         accepted += view.acceptedPatches
         outside += view.pointsOutsideMasks
-        if thinning.isNeeded(for: points) { cloud = PointCloud() } else { cloud.append(view.cloud) }
       }
+      guard !thinning.isNeeded(for: points) else { return _ = assembly.take() }
+      try assembly.append(read.map(\.cloud), context.control)
       if range.lowerBound == 0 {
-        cloud.reserveCapacity(
+        assembly.reserveCapacity(
           times: Double(views.views.count) / Double(range.count), atMost: options.maximumPoints)
       }
     }
     if masks.areUsed { context.notes.record("pointsOutsideMasks", Double(outside)) }
     warnIfSparse(Double(accepted) / max(1, views.objectPixelCount), context.notes)
-    guard thinning.isNeeded(for: points) else { return cloud }
-    cloud = try thinning.run(parts: views.views.count, context) { try fusedView($0).cloud }
+    guard thinning.isNeeded(for: points) else { return assembly.take() }
+    let cloud = try thinning.run(parts: views.views.count, context) { try fusedView($0).cloud }
     context.notes.log(
       "Kept \(cloud.count) of \(points) points, as many as the memory allows.")
     return cloud
@@ -348,14 +350,5 @@ extension PatchView {
     let seen = cameraFromWorld * point
     guard seen.z > 0 else { return nil }
     return PatchSeed(pixel: SIMD2<Float>(camera.project(seen)), inverseDepth: Float(1 / seen.z))
-  }
-}
-
-extension PointCloud {
-  /// Reserves space for `factor` times as many points, but not for more than the maximum.
-  fileprivate mutating func reserveCapacity(times factor: Double, atMost maximum: Int) {
-    let points = min(Double(maximum), factor * Double(count))
-    let photos = points * Double(photoIndices.count) / Double(max(1, count))
-    reserveCapacity(points: Int(points), photos: Int(photos))
   }
 }
