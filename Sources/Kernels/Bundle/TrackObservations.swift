@@ -8,6 +8,17 @@ package struct TrackObservations: Sendable {
 
   package init() {}
 
+  /// The tracks of each part after those of the parts before it.
+  package init(joining parts: [TrackObservations]) {
+    offsets.reserveCapacity(1 + parts.reduce(0) { $0 + $1.count })
+    observations.reserveCapacity(parts.reduce(0) { $0 + $1.observations.count })
+    for part in parts {
+      let start = Int32(observations.count)
+      offsets += part.offsets.dropFirst().lazy.map { $0 + start }
+      observations += part.observations
+    }
+  }
+
   /// Number of tracks.
   package var count: Int { offsets.count - 1 }
 

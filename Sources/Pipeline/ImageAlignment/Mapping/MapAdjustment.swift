@@ -133,12 +133,8 @@ struct MapAdjustment: Sendable {
     cameras: [BundleAdjustment.CameraFreedom], _ map: inout SparseMap, iterations: Int,
     tolerance: Double, _ control: KernelControl
   ) throws -> BundleAdjustment.Summary {
-    var observations: [PointObservation] = []
-    for (point, track) in points.enumerated() {
-      for index in map.tracks.observations(of: track) where map.isActive[index] {
-        observations.append(map.pointObservation(index, point: point))
-      }
-    }
+    var observations = try map.observations(of: points, control) { !$0.isActive[$1] }
+      .batch.observations
     for (anchor, track) in anchors.enumerated() {
       for index in map.tracks.observations(of: track)
       where map.isActive[index] && poses[Int(map.tracks.photos[index])] != .constant {

@@ -19,16 +19,13 @@ struct PointTriangulation: Sendable {
   func triangulate(
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
   ) throws -> Int {
-    var batch = TrackObservations()
-    var chosen: [Int] = []
-    var indices: [Int] = []
-    for track in candidates where !map.isTriangulated[track] {
-      let seen = map.tracks.observations(of: track)
-        .filter { map.isRegistered(Int(map.tracks.photos[$0])) }
-      guard seen.count >= 2 else { continue }
-      batch.append(seen.map { map.pointObservation($0, point: track) })
-      chosen.append(track)
-      indices += seen
+    let chosen = candidates.filter { track in
+      !map.isTriangulated[track]
+        && map.tracks.observations(of: track)
+          .count { map.isRegistered(Int(map.tracks.photos[$0])) } >= 2
+    }
+    let (batch, indices) = try map.observations(of: chosen, control) {
+      !$0.isRegistered(Int($0.tracks.photos[$1]))
     }
     var kernel = Triangulation.Options()
     (kernel.maximumError, kernel.minimumAngle) = (options.maximumError, minimumAngle)
@@ -49,8 +46,8 @@ struct PointTriangulation: Sendable {
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
   ) throws -> Int {
     let tracks = candidates.filter { map.isTriangulated[$0] }
-    let (batch, indices) = map.observations(of: tracks) {
-      map.isActive[$0] || !map.isRegistered(Int(map.tracks.photos[$0]))
+    let (batch, indices) = try map.observations(of: tracks, control) {
+      $0.isActive[$1] || !$0.isRegistered(Int($0.tracks.photos[$1]))
     }
     guard !indices.isEmpty else { return 0 }
     let (errors, _) = try Triangulation.measure(
@@ -72,7 +69,7 @@ struct PointTriangulation: Sendable {
     _ candidates: [Int], in map: inout SparseMap, _ control: KernelControl
   ) throws -> Int {
     let tracks = candidates.filter { map.isTriangulated[$0] }
-    let (batch, indices) = map.observations(of: tracks) { !map.isActive[$0] }
+    let (batch, indices) = try map.observations(of: tracks, control) { !$0.isActive[$1] }
     let (errors, angles) = try Triangulation.measure(
       batch, positions: tracks.map { map.positions[$0] }, photos: map.photos,
       maximumError: options.maximumError, control: control)

@@ -45,8 +45,7 @@ extension SparseMap {
 
   /// The scene points of all triangulated tracks, in their order.
   func scenePoints(_ features: [FeatureSet], _ control: KernelControl) throws -> [ScenePoint] {
-    let unit = 2048  // Tracks of a unit of parallel work. Chosen: a few milliseconds.
-    return try control.withoutProgress.parallelMap(tracks.count, inUnitsOf: unit) { [self] in
+    try control.withoutProgress.parallelMap(tracks.count, inUnitsOf: Self.tracksPerUnit) {
       $0.filter { isTriangulated[$0] }.map { scenePoint($0, features) }
     }
   }
@@ -76,7 +75,7 @@ extension SparseMap {
   /// The median reprojection error of the active observations in pixels; 0 without any.
   func medianError(_ control: KernelControl) throws -> Double {
     let triangulated = isTriangulated.indices.filter { isTriangulated[$0] }
-    let (batch, _) = observations(of: triangulated) { !isActive[$0] }
+    let (batch, _) = try observations(of: triangulated, control) { !$0.isActive[$1] }
     let (errors, _) = try Triangulation.measure(
       batch, positions: triangulated.map { positions[$0] }, photos: photos, maximumError: 1,
       control: control)
@@ -86,26 +85,30 @@ extension SparseMap {
   /// Drops points with fewer than two active observations.
   mutating func dropUnsupportedPoints() {
     for track in 0..<tracks.count where isTriangulated[track] {
-      if activeObservations(of: track).count < 2 { dropPoint(track) }
+      if tracks.observations(of: track).count(where: { isActive[$0] }) < 2 { dropPoint(track) }
     }
   }
 
   /// Adds observations to tracks, or replaces inactive observations of the same photos.
-  mutating func add(_ additions: [NewObservation]) {
-    var added = [[NewObservation]](repeating: [], count: tracks.count)
-    for addition in additions { added[addition.track].append(addition) }
-    var members: [[Member]] = []
-    for track in 0..<tracks.count {
-      let new = Set(added[track].map { Int32($0.photo) })
-      let known = tracks.observations(of: track).filter { !new.contains(tracks.photos[$0]) }
-        .map(member)
-      let found = added[track].map {
-        Member(
-          photo: Int32($0.photo), feature: Self.noFeature, pixel: $0.pixel,
-          whitening: $0.whitening, isActive: true)
-      }
-      members.append((known + found).sorted { $0.photo < $1.photo })
+  mutating func add(_ additions: [NewObservation], _ control: KernelControl) throws {
+    let added = additions.reduce(into: [[NewObservation]](repeating: [], count: tracks.count)) {
+      $0[$1.track].append($1)
     }
-    replaceTracks(members)
+    replaceTracks(
+      try control.withoutProgress.parallelMap(tracks.count, inUnitsOf: Self.tracksPerUnit) {
+        [self] in $0.map { members(of: $0, with: added[$0]) }
+      })
+  }
+
+  /// The observations of a track with new ones, which replace those of the same photos.
+  private func members(of track: Int, with added: [NewObservation]) -> [Member] {
+    let known = tracks.observations(of: track)
+      .filter { index in !added.contains { Int32($0.photo) == tracks.photos[index] } }
+    let found = added.map {
+      Member(
+        photo: Int32($0.photo), feature: Self.noFeature, pixel: $0.pixel,
+        whitening: $0.whitening, isActive: true)
+    }
+    return (known.map(member) + found).sorted { $0.photo < $1.photo }
   }
 }

@@ -3,6 +3,9 @@ import SceneModel
 
 /// A reconstruction in progress: poses of some photos, and points of some tracks.
 struct SparseMap: Sendable {
+  /// Tracks of a unit of parallel work. Chosen: some milliseconds; results do not depend on it.
+  static let tracksPerUnit = 2048
+
   var photos: PosedPhotos
   private(set) var tracks: FeatureTracks
   /// The point of each track; valid if `isTriangulated`.
@@ -92,18 +95,22 @@ struct SparseMap: Sendable {
   /// The observations of some tracks, and their indices, without those for which `isLeftOut` is
   /// true. Points have the numbers of the tracks in `chosen`.
   func observations(
-    of chosen: [Int], leavingOut isLeftOut: (Int) -> Bool
-  ) -> (batch: TrackObservations, indices: [Int]) {
-    var batch = TrackObservations()
-    var indices: [Int] = []
-    for (point, track) in chosen.enumerated() {
-      for index in tracks.observations(of: track) where !isLeftOut(index) {
-        batch.append(pointObservation(index, point: point))
-        indices.append(index)
+    of chosen: [Int], _ control: KernelControl,
+    leavingOut isLeftOut: @escaping @Sendable (SparseMap, Int) -> Bool
+  ) throws -> (batch: TrackObservations, indices: [Int]) {
+    let unit = Self.tracksPerUnit
+    let parts = try control.withoutProgress.parallelMap((chosen.count + unit - 1) / unit) { part in
+      var (batch, indices) = (TrackObservations(), [Int]())
+      for point in part * unit..<min(chosen.count, (part + 1) * unit) {
+        for index in tracks.observations(of: chosen[point]) where !isLeftOut(self, index) {
+          batch.append(pointObservation(index, point: point))
+          indices.append(index)
+        }
+        batch.endTrack()
       }
-      batch.endTrack()
+      return (batch, indices)
     }
-    return (batch, indices)
+    return (TrackObservations(joining: parts.map(\.0)), Array(parts.map(\.1).joined()))
   }
 
   /// The number of observations of a photo that support a point.

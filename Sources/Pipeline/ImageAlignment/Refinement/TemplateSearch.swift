@@ -4,9 +4,6 @@ import SceneModel
 
 /// The templates of a map's tracks, and the template matching in each photo.
 struct TemplateSearch: Sendable {
-  /// Tracks of a unit of parallel work. Chosen: some milliseconds.
-  private static let unit = 2048
-
   private let options: ObservationRefinement.Options
   private let photos: [Photo]
   private let extraction: TemplateExtraction
@@ -52,7 +49,7 @@ struct TemplateSearch: Sendable {
         options.workingPixel(width: photos[photo].width, height: photos[photo].height))
     }
     references = try context.control.withoutProgress
-      .parallelMap(map.tracks.count, inUnitsOf: Self.unit) { [map] tracks in
+      .parallelMap(map.tracks.count, inUnitsOf: SparseMap.tracksPerUnit) { [map] tracks in
         tracks.map { track in
           map.isTriangulated[track] ? TrackReference(track: track, of: map, scale: scale) : nil
         }
@@ -114,7 +111,7 @@ struct TemplateSearch: Sendable {
             whitening: Whitening(covariance: find.covariance, deviation: deviation)))
       }
     }
-    map.add(additions)
+    try map.add(additions, context.control)
     return additions.count
   }
 
@@ -123,15 +120,16 @@ struct TemplateSearch: Sendable {
     _ control: KernelControl,
     _ find: @escaping @Sendable (_ track: Int, TrackReference) -> [Candidate]
   ) throws -> [[Candidate]] {
+    let unit = SparseMap.tracksPerUnit
     let found = try control.withoutProgress
-      .parallelMap(references.count, inUnitsOf: Self.unit) { [self] tracks in
-        tracks.flatMap { track -> [Candidate] in
+      .parallelMap((references.count + unit - 1) / unit) { [self] part in
+        (part * unit..<min(references.count, (part + 1) * unit)).flatMap { track -> [Candidate] in
           guard let reference = references[track], templates.isValid[track] else { return [] }
           return find(track, reference)
         }
       }
     var candidates = [[Candidate]](repeating: [], count: photos.count)
-    for candidate in found { candidates[candidate.photo].append(candidate) }
+    for candidate in found.joined() { candidates[candidate.photo].append(candidate) }
     return candidates
   }
 
