@@ -59,13 +59,23 @@ extension KernelControl {
   package func parallelMap<Result: Sendable>(
     _ count: Int, inUnitsOf size: Int, _ body: @escaping @Sendable (Range<Int>) throws -> [Result]
   ) throws -> [Result] {
-    let units = try parallelMap((count + size - 1) / size) { unit in
-      try body(unit * size..<min(count, (unit + 1) * size))
-    }
+    let units = try parallelMap(0..<count, perUnitOf: size, body)
     var results: [Result] = []
     results.reserveCapacity(count)
     for unit in units { results.append(contentsOf: unit) }
     return results
+  }
+
+  /// Maps units of `size` consecutive indices of a range like `parallelMap`, to one result each;
+  /// the last unit may be smaller.
+  package func parallelMap<Result: Sendable>(
+    _ range: Range<Int>, perUnitOf size: Int,
+    _ body: @escaping @Sendable (Range<Int>) throws -> Result
+  ) throws -> [Result] {
+    try parallelMap((range.count + size - 1) / size) { unit in
+      let start = range.lowerBound + unit * size
+      return try body(start..<min(start + size, range.upperBound))
+    }
   }
 
   /// Maps the elements of an array like `parallelMap`, and empties it: `body` owns its element, and

@@ -75,10 +75,8 @@ struct VoxelDownsampling {
     var result = PointCloud()
     result.reserveCapacity(points: grid.cellCount, photos: cloud.photoIndices.count)
     try readingAhead(grid.cellCount, by: unit * unitsAtATime, control) { cells, control in
-      try control.parallelMap((cells.count + unit - 1) / unit) { number in
-        let start = cells.lowerBound + number * unit
-        return average(
-          start..<min(start + unit, cells.upperBound), of: members, cloud, Float(size))
+      try control.parallelMap(cells, perUnitOf: unit) {
+        average($0, of: members, cloud, Float(size))
       }
     } use: { _, parts in
       for part in parts { result.append(part) }

@@ -66,10 +66,8 @@ package struct CloudMetrics: Sendable {
     let reach = factor * typical[typical.count * 9 / 10]
     let grid = PointGrid(sparsePositions, reach: reach)
     let unit = 1 << 17  // Dense points of a unit of parallel work. Chosen.
-    let near = try control.parallelMap((cloud.count + unit - 1) / unit) { number in
-      grid.points(near: number * unit..<min((number + 1) * unit, cloud.count), of: cloud) {
-        min(reach, factor * cloud.footprints[$0])
-      }
+    let near = try control.parallelMap(0..<cloud.count, perUnitOf: unit) { range in
+      grid.points(near: range, of: cloud) { min(reach, factor * cloud.footprints[$0]) }
     }
     var isCovered = [Bool](repeating: false, count: sparsePositions.count)
     for index in near.joined() { isCovered[index] = true }

@@ -98,18 +98,18 @@ struct SparseMap: Sendable {
     of chosen: [Int], _ control: KernelControl,
     leavingOut isLeftOut: @escaping @Sendable (SparseMap, Int) -> Bool
   ) throws -> (batch: TrackObservations, indices: [Int]) {
-    let unit = Self.tracksPerUnit
-    let parts = try control.withoutProgress.parallelMap((chosen.count + unit - 1) / unit) { part in
-      var (batch, indices) = (TrackObservations(), [Int]())
-      for point in part * unit..<min(chosen.count, (part + 1) * unit) {
-        for index in tracks.observations(of: chosen[point]) where !isLeftOut(self, index) {
-          batch.append(pointObservation(index, point: point))
-          indices.append(index)
+    let parts = try control.withoutProgress
+      .parallelMap(chosen.indices, perUnitOf: Self.tracksPerUnit) { points in
+        var (batch, indices) = (TrackObservations(), [Int]())
+        for point in points {
+          for index in tracks.observations(of: chosen[point]) where !isLeftOut(self, index) {
+            batch.append(pointObservation(index, point: point))
+            indices.append(index)
+          }
+          batch.endTrack()
         }
-        batch.endTrack()
+        return (batch, indices)
       }
-      return (batch, indices)
-    }
     return (TrackObservations(joining: parts.map(\.0)), Array(parts.map(\.1).joined()))
   }
 

@@ -120,10 +120,9 @@ struct TemplateSearch: Sendable {
     _ control: KernelControl,
     _ find: @escaping @Sendable (_ track: Int, TrackReference) -> [Candidate]
   ) throws -> [[Candidate]] {
-    let unit = SparseMap.tracksPerUnit
     let found = try control.withoutProgress
-      .parallelMap((references.count + unit - 1) / unit) { [self] part in
-        (part * unit..<min(references.count, (part + 1) * unit)).flatMap { track -> [Candidate] in
+      .parallelMap(references.indices, perUnitOf: SparseMap.tracksPerUnit) { [self] tracks in
+        tracks.flatMap { track -> [Candidate] in
           guard let reference = references[track], templates.isValid[track] else { return [] }
           return find(track, reference)
         }
