@@ -17,6 +17,15 @@ import Testing
     }
   }
 
+  @Test(arguments: [1, 3], [(5..<5, 4), (3..<11, 4), (3..<12, 4), (7..<9, 4), (2..<5, 1)])
+  func unitsCoverTheRange(threads: Int, units: (range: Range<Int>, size: Int)) throws {
+    let ranges = try KernelControl(threadCount: threads)
+      .parallelMap(units.range, perUnitOf: units.size) { $0 }
+    #expect(ranges.flatMap { Array($0) } == Array(units.range))
+    #expect(ranges.dropLast().allSatisfy { $0.count == units.size })
+    #expect(ranges.allSatisfy { !$0.isEmpty && $0.count <= units.size })
+  }
+
   @Test(arguments: [1, 2, 3, 8]) func drainedElementsAreMappedOnce(threads: Int) throws {
     let control = KernelControl(threadCount: threads)
     var elements = (0..<100).map { [$0] }
